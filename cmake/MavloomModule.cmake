@@ -1,0 +1,30 @@
+# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...])
+#
+# One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
+# A module without sources is an interface library.
+
+add_library(mavloom_warnings INTERFACE)
+target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                       -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
+
+function(mavloom_module name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
+  set(target mavloom_${name})
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
+  set(scope PUBLIC)
+  if(NOT sources)
+    set(scope INTERFACE)
+    add_library(${target} INTERFACE)
+  else()
+    add_library(${target} ${sources})
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
+  endif()
+  add_library(mavloom::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+                             "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  list(TRANSFORM arg_DEPENDS PREPEND mavloom::)
+  target_link_libraries(${target} ${scope} ${arg_DEPENDS} ${arg_LINK})
+endfunction()

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Byte spans and little-endian loads and stores (MAVLink is little-endian on the wire). The caller has checked the bounds.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace mavloom {
+
+using ByteView = std::span<const std::uint8_t>;
+using ByteSpan = std::span<std::uint8_t>;
+
+namespace detail {
+template <class T>
+constexpr T swap_if_big(T v) noexcept {
+    if constexpr (std::endian::native == std::endian::little || sizeof(T) == 1) {
+        return v;
+    } else {
+        T r{};
+        for (std::size_t i = 0; i < sizeof(T); ++i) r = static_cast<T>((r << 8) | ((v >> (8 * i)) & 0xff));
+        return r;
+    }
+}
+template <class T>
+using bits_of = std::conditional_t<sizeof(T) == 1, std::uint8_t,
+                                   std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                                                      std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+}  // namespace detail
+
+// Reads a little-endian T (integer or IEEE 754 float) from `p`, which needs no alignment.
+template <class T>
+[[nodiscard]] inline T load_le(const void* p) noexcept {
+    static_assert(std::is_arithmetic_v<T>);
+    detail::bits_of<T> bits;
+    std::memcpy(&bits, p, sizeof bits);
+    return std::bit_cast<T>(detail::swap_if_big(bits));
+}
+
+template <class T>
+inline void store_le(void* p, T value) noexcept {
+    static_assert(std::is_arithmetic_v<T>);
+    const auto bits = detail::swap_if_big(std::bit_cast<detail::bits_of<T>>(value));
+    std::memcpy(p, &bits, sizeof bits);
+}
+
+// tlog files count big-endian.
+[[nodiscard]] inline std::uint64_t load_be64(const std::uint8_t* p) noexcept {
+    std::uint64_t v = 0;
+    for (int i = 0; i < 8; ++i) v = (v << 8) | p[i];
+    return v;
+}
+
+inline void store_be64(std::uint8_t* p, std::uint64_t v) noexcept {
+    for (int i = 7; i >= 0; --i, v >>= 8) p[i] = static_cast<std::uint8_t>(v);
+}
+
+}  // namespace mavloom

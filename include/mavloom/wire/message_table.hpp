@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What the wire layer knows of a message: its id, checksum seed, lengths and where its target lies. Names and fields are module dialect's.
+// A MessageTable is immutable after construction: any number of threads and parsers may share one. It allocates only when built.
+// Source: MAVLink guide, "Serialization" (CRC_EXTRA, extension fields) and "Routing" (target fields).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mavloom/base/ids.hpp"
+
+namespace mavloom::wire {
+
+struct MessageInfo {
+    static constexpr std::uint8_t no_target = 0xff;
+
+    MessageId id;
+    std::uint8_t crc_extra = 0;
+    std::uint8_t min_length = 0;  // payload bytes without extension fields: the length of the message in MAVLink 1
+    std::uint8_t max_length = 0;  // payload bytes with all extension fields
+    std::uint8_t target_system_offset = no_target;     // in the payload; MANUAL_CONTROL's `target` counts (DESIGN.md section 4)
+    std::uint8_t target_component_offset = no_target;
+    friend constexpr bool operator==(const MessageInfo&, const MessageInfo&) = default;
+};
+
+class MessageTable {
+public:
+    // Of two entries with one id the first stands.
+    explicit MessageTable(std::span<const MessageInfo> messages);
+
+    // Constant time, no allocation. Null for an id that is not in the table. The pointer lives as long as the table.
+    [[nodiscard]] const MessageInfo* find(MessageId id) const noexcept {
+        if (id.value < direct_size) [[likely]] {
+            const auto index = direct_[id.value];
+            return index == 0 ? nullptr : &infos_[index - 1u];
+        }
+        return find_hashed(id);
+    }
+
+    [[nodiscard]] std::span<const MessageInfo> messages() const noexcept { return infos_; }
+
+private:
+    static constexpr std::uint32_t direct_size = 1024;  // PX4's and ArduPilot's telemetry have ids below
+
+    [[nodiscard]] const MessageInfo* find_hashed(MessageId id) const noexcept;
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t id) const noexcept { return (id * 0x9e3779b1u) >> hash_shift_; }
+
+    std::vector<MessageInfo> infos_;
+    std::array<std::uint16_t, direct_size> direct_{};  // index into infos_ plus one
+    std::vector<std::uint16_t> hashed_;                // open addressing, index plus one
+    std::uint32_t hash_shift_ = 31;
+};
+
+}  // namespace mavloom::wire
