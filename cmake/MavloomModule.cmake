@@ -21,6 +21,7 @@ function(mavloom_module name)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
   endif()
   add_library(mavloom::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY MAVLOOM_MODULES ${name})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} ${scope} cxx_std_20)
   target_include_directories(${target} ${scope} "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"

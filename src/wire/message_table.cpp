@@ -8,7 +8,7 @@ namespace mavloom::wire {
 
 MessageTable::MessageTable(std::span<const MessageInfo> messages) {
     assert(messages.size() < 0xffff);
-    const auto slots = std::bit_ceil(messages.size() * 2 + 2);
+    const auto slots = static_cast<std::uint32_t>(std::bit_ceil(messages.size() * 2 + 2));
     hashed_.assign(slots, 0);
     hash_shift_ = 32u - static_cast<std::uint32_t>(std::countr_zero(slots));
     infos_.reserve(messages.size());
