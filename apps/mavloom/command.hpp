@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// One subcommand a file: each gives a function that declares its options on a CLI11 subcommand and returns what to run once they are parsed.
+// The table in main.cpp is the list of commands, and help comes from it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/dialect/dialect.hpp"
+
+namespace mavloom::app {
+
+// DESIGN.md section 5.
+enum class Exit : int { done = 0, failed = 1, wrong_use = 2, bad_input = 3, mismatch = 4, interrupted = 130, terminated = 143 };
+
+// Options that every command has.
+struct Common {
+    int verbose = 0;
+    bool quiet = false;
+    std::vector<std::string> dialect_files;  // --dialect FILE, may be repeated
+};
+
+using Run = std::function<Exit()>;
+// Declares options and returns the function to run. `common` lives as long as the program.
+using Declare = Run (*)(CLI::App& command, const Common& common);
+
+struct Command {
+    std::string_view name;
+    std::string_view description;
+    Declare declare;
+};
+
+Run declare_listen(CLI::App&, const Common&);
+Run declare_relay(CLI::App&, const Common&);
+Run declare_record(CLI::App&, const Common&);
+Run declare_replay(CLI::App&, const Common&);
+Run declare_dialect(CLI::App&, const Common&);
+Run declare_check(CLI::App&, const Common&);
+Run declare_bench(CLI::App&, const Common&);
+
+// Prints "mavloom: TEXT" to stderr and gives the status that belongs to the kind of error.
+Exit fail(const SetupError& error);
+Exit fail(Exit status, std::string_view text);
+// "mavloom: TEXT" on stderr, unless --quiet.
+void say(const Common& common, std::string_view text);
+
+// The built-in definitions with every --dialect file added.
+SetupResult<dialect::Dialect> load_dialect(const Common& common);
+
+}  // namespace mavloom::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// CRC-16/MCRF4XX (polynomial 0x1021, reflected, seed 0xffff, no final xor), which MAVLink calls X.25's. Covers a frame from the byte behind the
+// start byte to the end of the payload, then the message's CRC_EXTRA byte. A portable form by sliced tables and a fast one by carry-less
+// multiplication, chosen once at run time. Pure functions, safe from any thread.
+// Source: MAVLink guide, "Checksum"; check value 0x6f91 of the CRC catalogue.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "mavloom/base/bytes.hpp"
+
+namespace mavloom::wire {
+
+inline constexpr std::uint16_t crc_seed = 0xffff;
+
+namespace detail {
+
+// slices[k][b]: the checksum of byte b followed by k zero bytes.
+consteval std::array<std::array<std::uint16_t, 256>, 8> make_crc_slices() {
+    std::array<std::array<std::uint16_t, 256>, 8> slices{};
+    for (unsigned b = 0; b < 256; ++b) {
+        auto crc = static_cast<std::uint16_t>(b);
+        for (int bit = 0; bit < 8; ++bit) crc = static_cast<std::uint16_t>((crc >> 1) ^ ((crc & 1) != 0 ? 0x8408 : 0));
+        slices[0][b] = crc;
+    }
+    for (std::size_t k = 1; k < slices.size(); ++k)
+        for (unsigned b = 0; b < 256; ++b)
+            slices[k][b] = static_cast<std::uint16_t>((slices[k - 1][b] >> 8) ^ slices[0][slices[k - 1][b] & 0xff]);
+    return slices;
+}
+
+inline constexpr auto crc_slices = make_crc_slices();
+
+using CrcFunction = std::uint16_t (*)(std::uint16_t crc, const std::uint8_t* bytes, std::size_t size) noexcept;
+extern const CrcFunction crc_fastest;
+
+}  // namespace detail
+
+// The checksum after one more byte.
+[[nodiscard]] constexpr std::uint16_t crc_update(std::uint16_t crc, std::uint8_t byte) noexcept {
+    return static_cast<std::uint16_t>((crc >> 8) ^ detail::crc_slices[0][(crc ^ byte) & 0xff]);
+}
+
+// The checksum after `bytes`, by the fastest form that this processor has.
+[[nodiscard]] inline std::uint16_t crc_update(std::uint16_t crc, ByteView bytes) noexcept {
+    return detail::crc_fastest(crc, bytes.data(), bytes.size());
+}
+
+// The CRC_EXTRA byte that turns the checksum `before` (header and payload) into `received`, or -1 where none of the 256 does: two byte
+// values differ in the table's high byte, so there is at most one.
+[[nodiscard]] int crc_extra_between(std::uint16_t before, std::uint16_t received) noexcept;
+
+struct CrcImplementation {
+    std::string_view name;
+    detail::CrcFunction update;
+};
+// The forms that run on this processor, the portable one first: for tests and benchmarks.
+[[nodiscard]] std::span<const CrcImplementation> crc_implementations() noexcept;
+
+}  // namespace mavloom::wire

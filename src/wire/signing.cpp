@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/wire/signing.hpp"
+
+#include <fmt/format.h>
+#include <sodium.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace mavloom::wire {
+
+namespace {
+
+constexpr std::size_t time_length = 6;
+constexpr std::size_t hash_length = 6;
+constexpr std::uint64_t time_mask = (std::uint64_t{1} << 48) - 1;
+
+std::uint64_t load_time(const std::uint8_t* p) noexcept {
+    return load_le<std::uint32_t>(p) | std::uint64_t{load_le<std::uint16_t>(p + 4)} << 32;
+}
+
+void store_time(std::uint8_t* p, std::uint64_t ticks) noexcept {
+    store_le(p, static_cast<std::uint32_t>(ticks));
+    store_le(p + 4, static_cast<std::uint16_t>(ticks >> 32));
+}
+
+// The first 48 bits of SHA-256 over the key and everything of the frame up to and including the time.
+std::array<std::uint8_t, hash_length> hash_of(const SigningKey& key, ByteView up_to_time) noexcept {
+    crypto_hash_sha256_state state;
+    std::array<std::uint8_t, crypto_hash_sha256_BYTES> full;
+    crypto_hash_sha256_init(&state);
+    crypto_hash_sha256_update(&state, key.bytes().data(), key.bytes().size());
+    crypto_hash_sha256_update(&state, up_to_time.data(), up_to_time.size());
+    crypto_hash_sha256_final(&state, full.data());
+    std::array<std::uint8_t, hash_length> first;
+    std::copy_n(full.begin(), first.size(), first.begin());
+    return first;
+}
+
+std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(const std::string& text) {
+    std::array<std::uint8_t, SigningKey::length> key{};
+    std::size_t written = 0;
+    const char* end = nullptr;
+    if (text.size() != 2 * key.size()) return std::nullopt;
+    if (sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &written, &end) != 0) return std::nullopt;
+    if (written != key.size() || end != text.data() + text.size()) return std::nullopt;
+    return key;
+}
+
+}  // namespace
+
+SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
+
+SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return system_error(fmt::format("cannot open key file {}", file.string()), errno);
+    if ((status.st_mode & 077) != 0)
+        return setup_error(SetupCode::permission, fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}",
+                                                              file.string(), status.st_mode & 0777u, file.string()));
+    std::ifstream in(file);
+    std::string word, more;
+    if (!in) return system_error(fmt::format("cannot open key file {}", file.string()), errno);
+    in >> word >> more;
+    const auto key = parse_hex(word);
+    if (!key || !more.empty())
+        return setup_error(SetupCode::bad_input, fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
+    return SigningKey(*key);
+}
+
+std::size_t Signer::sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept {
+    assert(frame.size() >= size + signature_length && (frame[2] & incompat_signed) != 0);
+    last_ = std::max(SigningTime{last_.ticks + 1}, now);
+    std::uint8_t* const signature = frame.data() + size;
+    signature[0] = link_id_;
+    store_time(signature + 1, last_.ticks & time_mask);
+    const auto hash = hash_of(key_, frame.first(size + 1 + time_length));
+    std::copy(hash.begin(), hash.end(), signature + 1 + time_length);
+    return size + signature_length;
+}
+
+Verifier::Verifier(const SigningKey& key, SigningTime newest) : key_(key), newest_(newest) { streams_.reserve(max_streams); }
+
+Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noexcept {
+    if (!frame.is_signed()) return Verdict::unsigned_frame;
+    const auto signature = frame.signature();
+    const auto hash = hash_of(key_, frame.bytes().first(frame.size() - hash_length));
+    if (sodium_memcmp(hash.data(), signature.data() + 1 + time_length, hash.size()) != 0) return Verdict::bad_signature;
+
+    const SigningTime time{load_time(signature.data() + 1)};
+    const std::uint32_t key = std::uint32_t{signature[0]} << 16 | std::uint32_t{frame.system().value} << 8 | frame.component().value;
+    const auto it = std::ranges::lower_bound(streams_, key, {}, &Stream::key);
+    if (it != streams_.end() && it->key == key) {
+        if (time <= it->last) return Verdict::replay;
+        it->last = time;
+    } else {
+        if (time.ticks + first_tolerance_ticks < std::max(now, newest_).ticks) return Verdict::too_old;
+        if (streams_.size() == max_streams) return Verdict::too_many_streams;
+        streams_.insert(it, {key, time});
+    }
+    newest_ = std::max(newest_, time);
+    return Verdict::good;
+}
+
+}  // namespace mavloom::wire
