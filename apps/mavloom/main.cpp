@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+
+#include "command.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/base/version.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+constexpr std::array commands{
+    Command{"listen", "decode and print every message that arrives", declare_listen},
+    Command{"relay", "decode, optionally edit, re-encode and send on", declare_relay},
+    Command{"record", "write what arrives to a .tlog file", declare_record},
+    Command{"replay", "send a recording at its own pace", declare_replay},
+    Command{"dialect", "look up and check message definitions", declare_dialect},
+    Command{"check", "validate a configuration file", declare_check},
+    Command{"bench", "measure this machine", declare_bench},
+};
+
+constexpr std::string_view footer =
+    "Endpoints: udpin://HOST:PORT udpout://HOST:PORT tcpin://HOST:PORT tcpout://HOST:PORT tlog://PATH (docs/guide/endpoints.md)\n"
+    "Example:   mavloom listen udpin://0.0.0.0:14550 --stats\n"
+    "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a signal.";
+
+void add_common(CLI::App& command, Common& common) {
+    command.add_flag("-v,--verbose", common.verbose, "say more on stderr; may be repeated");
+    command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
+    command.add_option("--dialect", common.dialect_files, "message definitions (MAVLink XML) to add to the built-in ones")->type_name("FILE");
+}
+
+// Two lines on stderr: what is wrong and where the help is.
+Exit wrong_use(std::string_view what, std::string_view command) {
+    fmt::print(stderr, "mavloom: {}\nTry 'mavloom{}{} --help'.\n", what, command.empty() ? "" : " ", command);
+    return Exit::wrong_use;
+}
+
+Exit unknown_command(std::string_view typed) {
+    std::array<std::string_view, commands.size()> names;
+    for (std::size_t i = 0; i < commands.size(); ++i) names[i] = commands[i].name;
+    return wrong_use(fmt::format("unknown command '{}'{}", typed, did_you_mean(typed, names)), "");
+}
+
+bool is_command(std::string_view word) {
+    for (const auto& command : commands)
+        if (command.name == word) return true;
+    return false;
+}
+
+Exit run(int argc, char** argv) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    if (first == "--version") {
+        fmt::print("mavloom {}\n", version());
+        return Exit::done;
+    }
+    if (!first.empty() && first[0] != '-' && !is_command(first)) return unknown_command(first);
+
+    Common common;
+    CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry.", "mavloom"};
+    app.footer(std::string(footer));
+    app.require_subcommand(1);
+    app.add_flag("--version", "print the version");
+    std::vector<std::pair<CLI::App*, Run>> runs;
+    for (const auto& command : commands) {
+        CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
+        add_common(*sub, common);
+        runs.emplace_back(sub, command.declare(*sub, common));
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        app.exit(help);
+        return Exit::done;
+    } catch (const CLI::ParseError& error) {
+        return wrong_use(error.what(), is_command(first) ? first : "");
+    }
+    for (const auto& [sub, run_command] : runs)
+        if (sub->parsed()) return run_command();
+    return Exit::wrong_use;
+}
+
+}  // namespace
+
+Exit fail(const SetupError& error) {
+    const auto status = error.code == SetupCode::usage       ? Exit::wrong_use
+                        : error.code == SetupCode::bad_input ? Exit::bad_input
+                                                             : Exit::failed;
+    return fail(status, error.text);
+}
+
+Exit fail(Exit status, std::string_view text) {
+    fmt::print(stderr, "mavloom: {}\n", text);
+    return status;
+}
+
+void say(const Common& common, std::string_view text) {
+    if (!common.quiet) fmt::print(stderr, "mavloom: {}\n", text);
+}
+
+SetupResult<dialect::Dialect> load_dialect(const Common& common) {
+    dialect::Dialect all = dialect::default_dialect();
+    for (const auto& file : common.dialect_files) {
+        auto more = dialect::Dialect::load(file);
+        if (!more) return tl::unexpected(std::move(more.error()));
+        all = all.with(*more);
+    }
+    return all;
+}
+
+}  // namespace mavloom::app
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), handled where it happens
+    return static_cast<int>(mavloom::app::run(argc, argv));
+}
