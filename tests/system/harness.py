@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""What the system tests share: running the program under a deadline, waiting for a condition, free ports. Fixtures are in conftest.py."""
+import os
+import pathlib
+import re
+import signal
+import socket
+import subprocess
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DATA = ROOT / "tests" / "data"
+GOLDEN = ROOT / "tests" / "golden"
+
+# Sanitizers and instrumented code are slower; a deadline is there to end a hang, never to judge speed.
+DEFAULT_TIMEOUT_S = 60
+
+SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
+
+
+def program_path() -> pathlib.Path:
+    """MAVLOOM_PROGRAM, or the release build's program; relative paths count from the top of the checkout."""
+    return ROOT / os.environ.get("MAVLOOM_PROGRAM", "build/release/bin/mavloom")
+
+
+def wait_for(condition, timeout: float = DEFAULT_TIMEOUT_S, what: str = "the condition"):
+    """The first true value of condition(); fails with `what` after `timeout` seconds."""
+    deadline = time.monotonic() + timeout
+    while not (value := condition()):
+        assert time.monotonic() < deadline, f"waited {timeout:g} s in vain for {what}"
+        time.sleep(0.01)  # between two looks; the verdict is the condition's
+    return value
+
+
+def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> socket.socket:
+    """A bound UDP socket on a port of the kernel's choice, with a receive buffer that a burst of frames fits in."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    sock = socket.socket(family, socket.SOCK_DGRAM)
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+    sock.bind((host, 0))
+    sock.settimeout(timeout)
+    return sock
+
+
+_given_ports = set()
+
+
+def free_port(kind: int = socket.SOCK_DGRAM) -> int:
+    """A port nobody has bound a moment ago, never the same twice in a run. Prefer port 0 where the program tells the port it got."""
+    while True:
+        with socket.socket(socket.AF_INET, kind) as sock:
+            sock.bind(("127.0.0.1", 0))
+            port = sock.getsockname()[1]
+        if port not in _given_ports:
+            _given_ports.add(port)
+            return port
+
+
+class Finished:
+    """A run of the program that has ended: `status` (negative: the signal that killed it), `stdout`, `stderr`, `lines` of stdout."""
+
+    def __init__(self, args, status, stdout, stderr):
+        self.args, self.status, self.stdout, self.stderr = args, status, stdout, stderr
+        report = stderr if isinstance(stderr, str) else stderr.decode(errors="replace")
+        assert not SANITIZER_REPORT.search(report), f"sanitizer report from {args}:\n{report}"
+
+    @property
+    def lines(self):
+        return self.stdout.splitlines()
+
+    def __repr__(self):
+        return f"status {self.status} from {self.args}\nstdout: {self.stdout[-4000:]!r}\nstderr: {self.stderr[-4000:]!r}"
+
+
+class Running:
+    """A running program whose output is gathered in the background, so that it never stalls on a full pipe."""
+
+    def __init__(self, args, **options):
+        self.args = [str(arg) for arg in args]
+        self.keeps_stdout = "stdout" not in options
+        options.setdefault("stdout", subprocess.PIPE)
+        options.setdefault("stdin", subprocess.DEVNULL)
+        self.process = subprocess.Popen(self.args, stderr=subprocess.PIPE, **options)
+        self._out, self._err = bytearray(), bytearray()
+        self._readers = [self._gather(self.process.stderr, self._err)]
+        if self.keeps_stdout:
+            self._readers.append(self._gather(self.process.stdout, self._out))
+
+    @staticmethod
+    def _gather(pipe, into):
+        def loop():
+            while chunk := pipe.read1(1 << 16):
+                into.extend(chunk)
+        thread = threading.Thread(target=loop, daemon=True)
+        thread.start()
+        return thread
+
+    @property
+    def stdout(self) -> str:
+        return bytes(self._out).decode(errors="replace")
+
+    @property
+    def stderr(self) -> str:
+        return bytes(self._err).decode(errors="replace")
+
+    @property
+    def pid(self) -> int:
+        return self.process.pid
+
+    @property
+    def alive(self) -> bool:
+        return self.process.poll() is None
+
+    def wait_output(self, pattern: str, timeout: float = DEFAULT_TIMEOUT_S, stream: str = "both"):
+        """The match of `pattern` in stdout or stderr ("out", "err", "both"); fails at once when the program ends without it."""
+        def look():
+            ended = not self.alive
+            if ended:
+                self._join()
+            text = (self.stdout if stream != "err" else "") + (self.stderr if stream != "out" else "")
+            match = re.search(pattern, text, re.MULTILINE)
+            assert match or not ended, f"ended with {self.process.returncode} without saying {pattern!r}:\n{text[-4000:]}"
+            return match
+        return wait_for(look, timeout, f"{pattern!r} from {self.args}")
+
+    def send(self, number: int):
+        self.process.send_signal(number)
+
+    def wait(self, timeout: float = DEFAULT_TIMEOUT_S) -> Finished:
+        """Waits for the program's own end."""
+        self.process.wait(timeout)
+        self._join()
+        return Finished(self.args, self.process.returncode, self.stdout, self.stderr)
+
+    def stop(self, number: int = signal.SIGINT, timeout: float = DEFAULT_TIMEOUT_S) -> Finished:
+        """Asks the program to end as a user does, and waits for it."""
+        self.send(number)
+        return self.wait(timeout)
+
+    def kill(self):
+        """Ends it whatever it does; for the end of a test."""
+        if self.alive:
+            self.process.kill()
+        self.process.wait()
+        self._join()
+        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+            if pipe:
+                pipe.close()
+
+    def _join(self):
+        for reader in self._readers:
+            reader.join(timeout=5)
