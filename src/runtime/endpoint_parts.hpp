@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Pieces that the endpoint grammar and the configuration file share. Private to module runtime; pure functions, safe from any thread.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/runtime/endpoint.hpp"
+
+namespace mavloom::runtime::detail {
+
+using SchemeSet = std::uint16_t;  // bit n: the scheme with that enumerator
+
+[[nodiscard]] constexpr SchemeSet set_of(Scheme scheme) noexcept {
+    return static_cast<SchemeSet>(1u << static_cast<unsigned>(scheme));
+}
+
+inline constexpr SchemeSet udp_schemes = set_of(Scheme::udpin) | set_of(Scheme::udpout) | set_of(Scheme::udpbcast) |
+                                         set_of(Scheme::udpmcast);
+inline constexpr SchemeSet tcp_schemes = set_of(Scheme::tcpin) | set_of(Scheme::tcpout);
+inline constexpr SchemeSet address_schemes = udp_schemes | tcp_schemes;
+
+[[nodiscard]] std::span<const std::string_view> scheme_names() noexcept;
+
+// What a user typed, fit for a message: control characters replaced, cut when long.
+[[nodiscard]] std::string shown(std::string_view text);
+// 'text', for the start of a message.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+struct OptionText {
+    std::string key;
+    std::string value;
+};
+
+// "a=1&b=x%20y", decoded; a key given twice, a missing value and a bad escape are errors.
+[[nodiscard]] SetupResult<std::vector<OptionText>> split_query(std::string_view query);
+[[nodiscard]] SetupResult<std::string> percent_decoded(std::string_view text);
+
+// "HOST:PORT" or "[IPv6]:PORT".
+[[nodiscard]] SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme);
+// A host as a URL or a `host` key has it: the result has no brackets.
+[[nodiscard]] SetupResult<std::string> parse_host(std::string_view text, std::string_view scheme, std::string_view port);
+[[nodiscard]] SetupResult<std::uint16_t> parse_port(std::string_view text);
+// Whether the scheme can be used with this address: nothing is sent to 0.0.0.0, a multicast group needs udpmcast, ...
+[[nodiscard]] SetupResult<void> check_address(Scheme scheme, const HostPort& address);
+// Whether the path, device or ring name fits the scheme.
+[[nodiscard]] SetupResult<void> check_path(Scheme scheme, std::string_view path);
+
+// "[::1]:14550", "localhost:14550".
+[[nodiscard]] std::string to_text(const HostPort& address);
+
+[[nodiscard]] tl::unexpected<SetupError> usage(std::string text);
+[[nodiscard]] SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most);
+[[nodiscard]] SetupResult<double> parse_positive(std::string_view text);
+[[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);
+[[nodiscard]] bool is_ring_name(std::string_view text) noexcept;
+
+[[nodiscard]] SetupResult<FilterTerms> parse_filter(std::string_view text);
+[[nodiscard]] SetupResult<std::vector<RateTerm>> parse_rates(std::string_view text);
+
+}  // namespace mavloom::runtime::detail
