@@ -27,7 +27,7 @@ enum class FieldType : std::uint8_t { char8, u8, i8, u16, i16, u32, i32, u64, i6
     return sizes[static_cast<std::size_t>(type)];
 }
 
-// Replaced or abandoned, as <deprecated> says. Empty `since` means: not deprecated.
+// Replaced or abandoned, as <deprecated> or <superseded> says. Empty `since` means: not deprecated.
 struct Deprecation {
     std::string_view since;        // "2020-01"
     std::string_view replaced_by;  // a name, or empty
@@ -129,6 +129,8 @@ public:
 private:
     struct Index;    // hash tables by id and by name, and the wire table
     struct Storage;  // owns records read from XML; null for the built-in tables
+
+    Dialect(std::string_view name, std::shared_ptr<const Storage> storage);
 
     std::string_view name_;
     std::span<const Message> messages_;

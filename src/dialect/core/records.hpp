@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The memory behind a dialect that was read from XML or merged: strings and records at addresses that never change while it lives.
+// Filled by one thread, then shared immutable.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "mavloom/dialect/dialect.hpp"
+
+namespace mavloom::dialect {
+
+struct Records {
+    std::unordered_set<std::string> strings;
+    std::deque<std::vector<Field>> fields;
+    std::deque<std::vector<EnumEntry>> entries;
+    std::deque<std::vector<CommandParam>> params;
+    std::vector<Message> messages;                        // by rising id
+    std::vector<Enum> enums;                              // by name
+    std::vector<std::shared_ptr<const void>> kept_alive;  // of a merged dialect: what its views point into
+
+    std::string_view intern(std::string_view text) { return *strings.emplace(text).first; }
+
+    template <class T>
+    static std::span<const T> keep(std::deque<std::vector<T>>& where, std::vector<T> records) {
+        return where.emplace_back(std::move(records));
+    }
+};
+
+struct Dialect::Storage : Records {};
+
+// The record of this name in a range sorted by name, or null.
+[[nodiscard]] const Enum* find_enum_in(std::span<const Enum> sorted, std::string_view name) noexcept;
+
+}  // namespace mavloom::dialect

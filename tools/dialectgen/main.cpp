@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// mavloom_dialectgen: a MAVLink XML file in, C++ out. Run by mavloom_add_dialect() (cmake/MavloomDialect.cmake).
+#include <cerrno>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "generate.hpp"
+
+namespace {
+
+using namespace mavloom;
+
+constexpr std::string_view usage =
+    "usage: mavloom_dialectgen FILE.xml --out DIR --namespace NS [--part tables|headers] [--stamp FILE] [--builtin]\n";
+
+struct Arguments {
+    std::string xml, part, stamp;
+    dialectgen::Options options;
+};
+
+std::optional<Arguments> parse(int argc, char** argv) {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        const bool has_value = i + 1 < argc;
+        if (word == "--builtin") {
+            arguments.options.is_builtin = true;
+        } else if (word == "--out" && has_value) {
+            arguments.options.out = argv[++i];
+        } else if (word == "--namespace" && has_value) {
+            arguments.options.cpp_namespace = argv[++i];
+        } else if (word == "--part" && has_value) {
+            arguments.part = argv[++i];
+        } else if (word == "--stamp" && has_value) {
+            arguments.stamp = argv[++i];
+        } else if (!word.starts_with("-") && arguments.xml.empty()) {
+            arguments.xml = word;
+        } else {
+            return std::nullopt;
+        }
+    }
+    if (arguments.xml.empty() || arguments.options.out.empty() || arguments.options.cpp_namespace.empty())
+        return std::nullopt;
+    arguments.options.source = std::filesystem::path(arguments.xml).filename().string();
+    return arguments;
+}
+
+SetupResult<void> touch(const std::string& stamp) {
+    if (stamp.empty()) return {};
+    std::FILE* file = std::fopen(stamp.c_str(), "wb");
+    if (file == nullptr || std::fclose(file) != 0) return system_error("cannot write " + stamp, errno);
+    return {};
+}
+
+SetupResult<void> generate(const Arguments& arguments) {
+    const auto loaded = dialect::Dialect::load(arguments.xml);
+    if (!loaded) return tl::unexpected(loaded.error());
+    if (arguments.part != "headers")
+        if (auto written = dialectgen::write_tables(*loaded, arguments.options); !written) return written;
+    if (arguments.part != "tables")
+        if (auto written = dialectgen::write_headers(*loaded, arguments.options); !written) return written;
+    return touch(arguments.stamp);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto arguments = parse(argc, argv);
+    if (!arguments) {
+        (void)std::fputs(usage.data(), stderr);
+        return 2;
+    }
+    if (const auto done = generate(*arguments); !done) {
+        (void)std::fprintf(stderr, "mavloom_dialectgen: %s\n", done.error().text.c_str());
+        return done.error().code == SetupCode::bad_input || done.error().code == SetupCode::not_found ? 3 : 1;
+    }
+    return 0;
+}
