@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// An IPv4 or IPv6 socket address in the kernel's own form: what recvmmsg wrote can be compared, hashed and given to sendmmsg without
+// conversion. Names are not looked up here (resolver.hpp). Immutable value; only the text functions allocate.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mavloom::net {
+
+class Address {
+public:
+    Address() noexcept { std::memset(&storage_, 0, sizeof storage_); }
+
+    // "127.0.0.1", "::1", "fe80::1%eth0" (no brackets); nothing for a name.
+    [[nodiscard]] static std::optional<Address> parse(std::string_view host, std::uint16_t port);
+    // Nothing for a family other than IPv4 and IPv6, or a length too short for it.
+    [[nodiscard]] static std::optional<Address> from_sockaddr(const sockaddr* address, socklen_t length) noexcept;
+
+    [[nodiscard]] bool is_v4() const noexcept { return storage_.base.sa_family == AF_INET; }
+    [[nodiscard]] bool is_v6() const noexcept { return storage_.base.sa_family == AF_INET6; }
+    [[nodiscard]] int family() const noexcept { return storage_.base.sa_family; }
+    [[nodiscard]] std::uint16_t port() const noexcept;
+    [[nodiscard]] Address with_port(std::uint16_t port) const noexcept;
+
+    [[nodiscard]] bool is_any() const noexcept;        // 0.0.0.0 or ::
+    [[nodiscard]] bool is_multicast() const noexcept;  // 224.0.0.0/4 or ff00::/8
+    [[nodiscard]] bool is_broadcast() const noexcept;  // 255.255.255.255
+
+    // "127.0.0.1:14550", "[::1]:14550". An IPv4 peer of a dual-stack socket (::ffff:1.2.3.4) shows as IPv4.
+    [[nodiscard]] std::string text() const;
+    [[nodiscard]] std::string host_text() const;
+
+    [[nodiscard]] const sockaddr* data() const noexcept { return &storage_.base; }
+    [[nodiscard]] socklen_t size() const noexcept { return is_v6() ? sizeof(sockaddr_in6) : sizeof(sockaddr_in); }
+
+    // For system calls that fill an address in. `normalize` afterwards: two equal addresses then have equal bytes.
+    [[nodiscard]] sockaddr* writable() noexcept { return &storage_.base; }
+    static constexpr socklen_t capacity = sizeof(sockaddr_in6);
+    void normalize() noexcept {
+        if (is_v6()) storage_.v6.sin6_flowinfo = 0;
+    }
+
+    [[nodiscard]] std::size_t hash() const noexcept {
+        std::uint64_t h = mix(word(0));
+        if (is_v6()) h = mix(mix(h ^ word(8)) ^ word(16));
+        return static_cast<std::size_t>(h);
+    }
+    friend bool operator==(const Address& a, const Address& b) noexcept {
+        if (a.word(0) != b.word(0)) return false;  // family, port and the IPv4 address
+        return a.is_v6() ? std::memcmp(&a.storage_, &b.storage_, sizeof(sockaddr_in6)) == 0 : true;
+    }
+
+private:
+    [[nodiscard]] std::uint64_t word(std::size_t offset) const noexcept {
+        std::uint64_t w;
+        std::memcpy(&w, reinterpret_cast<const char*>(&storage_) + offset, sizeof w);
+        return w;
+    }
+    static std::uint64_t mix(std::uint64_t x) noexcept {
+        x ^= x >> 32;
+        x *= 0x9e3779b97f4a7c15u;
+        return x ^ x >> 29;
+    }
+
+    union {
+        sockaddr base;
+        sockaddr_in v4;
+        sockaddr_in6 v6;
+    } storage_;
+};
+
+}  // namespace mavloom::net

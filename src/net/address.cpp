@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/address.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <net/if.h>
+
+#include <charconv>
+
+namespace mavloom::net {
+
+// "%eth0" or "%2" behind a link-local address. 0: no such interface.
+static std::uint32_t scope_of(const std::string& zone) {
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(zone.data(), zone.data() + zone.size(), number);
+    if (error == std::errc{} && end == zone.data() + zone.size()) return number;
+    return if_nametoindex(zone.c_str());
+}
+
+std::optional<Address> Address::parse(std::string_view host, std::uint16_t port) {
+    Address address;
+    const auto percent = host.find('%');
+    const std::string number(host.substr(0, percent));
+    if (percent == std::string_view::npos && inet_pton(AF_INET, number.c_str(), &address.storage_.v4.sin_addr) == 1) {
+        address.storage_.v4.sin_family = AF_INET;
+        address.storage_.v4.sin_port = htons(port);
+        return address;
+    }
+    if (inet_pton(AF_INET6, number.c_str(), &address.storage_.v6.sin6_addr) != 1) return std::nullopt;
+    address.storage_.v6.sin6_family = AF_INET6;
+    address.storage_.v6.sin6_port = htons(port);
+    if (percent != std::string_view::npos) {
+        address.storage_.v6.sin6_scope_id = scope_of(std::string(host.substr(percent + 1)));
+        if (address.storage_.v6.sin6_scope_id == 0) return std::nullopt;
+    }
+    return address;
+}
+
+std::optional<Address> Address::from_sockaddr(const sockaddr* from, socklen_t length) noexcept {
+    Address address;
+    if (from == nullptr || length < sizeof(sa_family_t)) return std::nullopt;
+    const std::size_t need = from->sa_family == AF_INET ? sizeof(sockaddr_in) : sizeof(sockaddr_in6);
+    if ((from->sa_family != AF_INET && from->sa_family != AF_INET6) || length < need) return std::nullopt;
+    std::memcpy(&address.storage_, from, need);
+    if (address.is_v4()) std::memset(address.storage_.v4.sin_zero, 0, sizeof address.storage_.v4.sin_zero);
+    address.normalize();
+    return address;
+}
+
+std::uint16_t Address::port() const noexcept {
+    static_assert(offsetof(sockaddr_in, sin_port) == offsetof(sockaddr_in6, sin6_port));
+    return ntohs(storage_.v4.sin_port);
+}
+
+Address Address::with_port(std::uint16_t port) const noexcept {
+    Address copy = *this;
+    copy.storage_.v4.sin_port = htons(port);
+    return copy;
+}
+
+bool Address::is_any() const noexcept {
+    if (is_v4()) return storage_.v4.sin_addr.s_addr == INADDR_ANY;
+    return is_v6() && IN6_IS_ADDR_UNSPECIFIED(&storage_.v6.sin6_addr);
+}
+
+bool Address::is_multicast() const noexcept {
+    if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 28) == 0xe;
+    return is_v6() && IN6_IS_ADDR_MULTICAST(&storage_.v6.sin6_addr);
+}
+
+bool Address::is_broadcast() const noexcept { return is_v4() && storage_.v4.sin_addr.s_addr == INADDR_BROADCAST; }
+
+std::string Address::host_text() const {
+    char text[INET6_ADDRSTRLEN] = "";
+    if (is_v4()) {
+        inet_ntop(AF_INET, &storage_.v4.sin_addr, text, sizeof text);
+    } else if (is_v6() && IN6_IS_ADDR_V4MAPPED(&storage_.v6.sin6_addr)) {
+        inet_ntop(AF_INET, &storage_.v6.sin6_addr.s6_addr[12], text, sizeof text);
+    } else if (is_v6()) {
+        inet_ntop(AF_INET6, &storage_.v6.sin6_addr, text, sizeof text);
+        if (storage_.v6.sin6_scope_id != 0) return fmt::format("{}%{}", text, storage_.v6.sin6_scope_id);
+    }
+    return text;
+}
+
+std::string Address::text() const {
+    const std::string host = host_text();
+    return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port()) : fmt::format("[{}]:{}", host, port());
+}
+
+}  // namespace mavloom::net

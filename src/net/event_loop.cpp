@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/event_loop.hpp"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+
+namespace mavloom::net {
+
+static constexpr int events_per_wait = 64;
+static constexpr std::uint64_t wake_token = 0;
+
+static std::uint32_t interest(bool readable, bool writable) noexcept {
+    return (readable ? std::uint32_t{EPOLLIN} : 0) | (writable ? std::uint32_t{EPOLLOUT} : 0);
+}
+
+// Generations begin at 1, so that no token equals wake_token.
+static std::uint64_t token_of(WatchId id) noexcept { return std::uint64_t{id.generation} << 32 | id.slot; }
+
+SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
+    Fd epoll(epoll_create1(EPOLL_CLOEXEC));
+    if (!epoll) return system_error("cannot make an epoll descriptor", errno);
+    auto wake = std::make_shared<const Fd>(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+    if (!*wake) return system_error("cannot make an event descriptor", errno);
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = wake_token;
+    if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &event) != 0) return system_error("cannot watch a descriptor", errno);
+    return std::unique_ptr<EventLoop>(new EventLoop(std::move(epoll), std::move(wake)));
+}
+
+EventLoop::EventLoop(Fd epoll, std::shared_ptr<const Fd> wake)
+    : epoll_(std::move(epoll)), wake_(std::move(wake)), events_(std::make_unique<epoll_event[]>(events_per_wait)) {}
+
+EventLoop::~EventLoop() = default;
+
+SetupResult<WatchId> EventLoop::watch(int fd, bool readable, bool writable, IoHandler& handler) {
+    if (free_.empty()) {
+        free_.push_back(static_cast<std::uint32_t>(watches_.size()));
+        watches_.emplace_back();
+    }
+    const std::uint32_t slot = free_.back();
+    const WatchId id{slot, watches_[slot].generation};
+    epoll_event event{};
+    event.events = interest(readable, writable);
+    event.data.u64 = token_of(id);
+    if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event) != 0) return system_error("cannot watch a descriptor", errno);
+    free_.pop_back();
+    watches_[slot].handler = &handler;
+    watches_[slot].fd = fd;
+    return id;
+}
+
+EventLoop::Watch* EventLoop::find(WatchId id) noexcept {
+    if (id.slot >= watches_.size()) return nullptr;
+    Watch& watch = watches_[id.slot];
+    return watch.generation == id.generation && watch.handler != nullptr ? &watch : nullptr;
+}
+
+void EventLoop::change(WatchId id, bool readable, bool writable) noexcept {
+    const Watch* watch = find(id);
+    if (watch == nullptr) return;
+    epoll_event event{};
+    event.events = interest(readable, writable);
+    event.data.u64 = token_of(id);
+    epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, watch->fd, &event);
+}
+
+void EventLoop::unwatch(WatchId& id) noexcept {
+    if (Watch* watch = find(id)) {
+        epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, watch->fd, nullptr);
+        watch->handler = nullptr;
+        watch->fd = -1;
+        watch->generation = std::max(watch->generation + 1, 1u);
+        free_.push_back(id.slot);
+    }
+    id = {};
+}
+
+TimerId EventLoop::start_timer(MonoTime when, TimerHandler& handler) {
+    const TimerId id{when, ++last_timer_};
+    timers_.emplace(id, &handler);
+    return id;
+}
+
+void EventLoop::cancel_timer(TimerId& id) noexcept {
+    timers_.erase(id);
+    id = {};
+}
+
+// epoll_pwait2 waits by the nanosecond; before Linux 5.11 milliseconds have to do, rounded up so that the loop does not spin.
+int EventLoop::wait_for(MonoTime deadline) noexcept {
+    if (!timers_.empty()) deadline = std::min(deadline, timers_.begin()->first.when);
+    const bool for_ever = deadline == MonoTime::max();
+    const Nanoseconds left = for_ever ? Nanoseconds{} : std::max(deadline - mono_now(), Nanoseconds{});
+    const timespec limit{static_cast<std::time_t>(left.count() / 1'000'000'000), static_cast<long>(left.count() % 1'000'000'000)};
+    const int count = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, for_ever ? nullptr : &limit, nullptr);
+    if (count >= 0 || errno != ENOSYS) return std::max(count, 0);
+    constexpr std::int64_t longest_ms = 3'600'000;
+    const auto ms = static_cast<int>(std::min((left.count() + 999'999) / 1'000'000, longest_ms));
+    return std::max(epoll_wait(epoll_.get(), events_.get(), events_per_wait, for_ever ? -1 : ms), 0);
+}
+
+// Timers that a callback starts, also for now or earlier, wait for the next turn.
+void EventLoop::run_timers(MonoTime now) {
+    const std::uint64_t newest = last_timer_;
+    for (auto it = timers_.begin(); it != timers_.end() && it->first.when <= now;) {
+        if (it->first.number > newest) {
+            ++it;
+            continue;
+        }
+        TimerHandler* const handler = it->second;
+        timers_.erase(it);
+        handler->on_timer(now);
+        it = timers_.begin();
+    }
+}
+
+bool EventLoop::dispatch(int count) {
+    bool woken = false;
+    for (int i = 0; i < count; ++i) {
+        const epoll_event& event = events_[i];
+        if (event.data.u64 == wake_token) {
+            std::uint64_t times;
+            woken = ::read(wake_->get(), &times, sizeof times) == sizeof times || woken;
+            continue;
+        }
+        const Watch* watch = find({static_cast<std::uint32_t>(event.data.u64), static_cast<std::uint32_t>(event.data.u64 >> 32)});
+        if (watch == nullptr) continue;  // unwatched by an earlier callback of this turn
+        watch->handler->on_io({(event.events & (EPOLLIN | EPOLLHUP | EPOLLRDHUP)) != 0, (event.events & EPOLLOUT) != 0,
+                               (event.events & (EPOLLERR | EPOLLHUP)) != 0});
+    }
+    return woken;
+}
+
+bool EventLoop::run_once(MonoTime deadline) {
+    const int count = wait_for(deadline);
+    run_timers(mono_now());
+    return dispatch(count);
+}
+
+void EventLoop::wake(const Fd& handle) noexcept {
+    const std::uint64_t one = 1;
+    // Fails only when 2^64 - 2 wake-ups are pending, and then the loop wakes anyway.
+    [[maybe_unused]] const auto written = ::write(handle.get(), &one, sizeof one);
+}
+
+void EventLoop::wake() noexcept { wake(*wake_); }
+
+}  // namespace mavloom::net

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/udp.hpp"
+
+#include <fmt/format.h>
+#include <linux/errqueue.h>
+#include <linux/sock_diag.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <cassert>
+#include <cerrno>
+#include <ctime>
+
+#include "net/socket_options.hpp"
+
+#ifndef SO_MEMINFO  // Linux 4.12; glibc's headers of some architectures lack it
+#define SO_MEMINFO 55
+#endif
+
+namespace mavloom::net {
+
+// Slots lie a little further apart than they are long: a stride of exactly 64 KiB would put the start of each on the same cache set.
+static constexpr std::size_t slot_stride = ReceiveBatch::slot_bytes + 4096 + 192;
+static constexpr std::size_t batch_bytes = slot_stride * ReceiveBatch::slots;
+
+struct ReceiveBatch::Slots {
+    struct Control {
+        alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(timespec))> bytes;
+    };
+    std::array<mmsghdr, slots> messages{};
+    std::array<iovec, slots> iovecs{};
+    std::array<Address, slots> from{};
+    std::array<Control, slots> control{};
+};
+
+SetupResult<ReceiveBatch> ReceiveBatch::create() {
+    void* memory = mmap(nullptr, batch_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) return system_error("cannot get memory for received datagrams", errno);
+    // Transparent huge pages would make each slot resident in full.
+    madvise(memory, batch_bytes, MADV_NOHUGEPAGE);
+    return ReceiveBatch(std::make_unique<Slots>(), static_cast<std::uint8_t*>(memory));
+}
+
+ReceiveBatch::ReceiveBatch(std::unique_ptr<Slots> headers, std::uint8_t* memory) noexcept : headers_(std::move(headers)), memory_(memory) {
+    for (std::size_t i = 0; i < slots; ++i) {
+        headers_->iovecs[i] = {memory_ + i * slot_stride, slot_bytes};
+        msghdr& header = headers_->messages[i].msg_hdr;
+        header.msg_iov = &headers_->iovecs[i];
+        header.msg_iovlen = 1;
+        header.msg_name = headers_->from[i].writable();
+        header.msg_control = headers_->control[i].bytes.data();
+    }
+    rearm(slots);
+}
+
+ReceiveBatch::ReceiveBatch(ReceiveBatch&& other) noexcept
+    : headers_(std::move(other.headers_)), memory_(std::exchange(other.memory_, nullptr)), count_(std::exchange(other.count_, 0)) {}
+
+ReceiveBatch& ReceiveBatch::operator=(ReceiveBatch&& other) noexcept {
+    std::swap(headers_, other.headers_);
+    std::swap(memory_, other.memory_);
+    std::swap(count_, other.count_);
+    return *this;
+}
+
+ReceiveBatch::~ReceiveBatch() {
+    if (memory_ != nullptr) munmap(memory_, batch_bytes);
+}
+
+// The kernel writes the used lengths over the offered ones.
+void ReceiveBatch::rearm(std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        msghdr& header = headers_->messages[i].msg_hdr;
+        header.msg_namelen = Address::capacity;
+        header.msg_controllen = sizeof(Slots::Control::bytes);
+        header.msg_flags = 0;
+    }
+}
+
+static WallTime kernel_time(const msghdr& header) noexcept {
+    const cmsghdr* control = CMSG_FIRSTHDR(&header);
+    if (control == nullptr || control->cmsg_level != SOL_SOCKET || control->cmsg_type != SCM_TIMESTAMPNS) return {};
+    timespec time;
+    std::memcpy(&time, CMSG_DATA(control), sizeof time);
+    return WallTime{std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec)};
+}
+
+Datagram ReceiveBatch::operator[](std::size_t index) const noexcept {
+    assert(index < count_);
+    const mmsghdr& message = headers_->messages[index];
+    return {{static_cast<const std::uint8_t*>(headers_->iovecs[index].iov_base), message.msg_len}, &headers_->from[index],
+            kernel_time(message.msg_hdr)};
+}
+
+SendBatch::SendBatch() : messages_(max_datagrams), iovecs_(max_pieces) {}
+
+void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
+    assert(!full() && pieces_ + pieces <= max_pieces);
+    msghdr& header = messages_[count_++].msg_hdr;
+    header = {};
+    header.msg_iov = &iovecs_[pieces_];
+    header.msg_iovlen = pieces;
+    if (to != nullptr) {
+        header.msg_name = const_cast<sockaddr*>(to->data());  // only read by sendmmsg
+        header.msg_namelen = to->size();
+    }
+    pieces_ += pieces;
+}
+
+SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& options) {
+    UdpSocket socket;
+    socket.fd_ = Fd(::socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (!socket.fd_) return system_error("cannot make a UDP socket", errno);
+    const int fd = socket.fd();
+    if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, options.v6_only ? 1 : 0);
+    set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);
+    if (options.report_refused) {
+        set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
+    }
+    socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
+    if (::bind(fd, local.data(), local.size()) != 0) return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
+    auto bound = local_address(fd);
+    if (!bound) return tl::unexpected(std::move(bound).error());
+    socket.local_ = *bound;
+    return socket;
+}
+
+IoResult<std::size_t> UdpSocket::receive(ReceiveBatch& batch) noexcept {
+    batch.rearm(batch.count_);
+    batch.count_ = 0;
+    const int count = recvmmsg(fd_.get(), batch.headers_->messages.data(), ReceiveBatch::slots, 0, nullptr);
+    if (count < 0) return tl::unexpected(io_error_of(errno));
+    batch.count_ = static_cast<std::size_t>(count);
+    for (std::size_t i = 0; i < batch.count_; ++i) batch.headers_->from[i].normalize();
+    return batch.count_;
+}
+
+IoResult<std::size_t> UdpSocket::send(SendBatch& batch, std::size_t first) noexcept {
+    const auto left = static_cast<unsigned>(batch.size() - first);
+    const int count = sendmmsg(fd_.get(), batch.messages_.data() + first, left, MSG_NOSIGNAL);
+    if (count < 0) return tl::unexpected(io_error_of(errno));
+    return static_cast<std::size_t>(count);
+}
+
+std::size_t UdpSocket::drain_errors() noexcept {
+    std::size_t count = 0;
+    for (;;) {
+        std::array<std::uint8_t, 512> control;
+        msghdr header{};
+        header.msg_control = control.data();
+        header.msg_controllen = control.size();
+        if (recvmsg(fd_.get(), &header, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) return count;
+        ++count;
+    }
+}
+
+std::uint32_t UdpSocket::kernel_drops() const noexcept {
+    std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
+    socklen_t length = sizeof info;
+    if (getsockopt(fd_.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &length) != 0) return 0;
+    return info[SK_MEMINFO_DROPS];
+}
+
+}  // namespace mavloom::net
