@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Counts operator new: printing messages into a buffer that has its size must not allocate.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "unit/message/sample_messages.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+// Not inlined: GCC would take new and free for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace mavloom::message {
+namespace {
+
+using namespace mavloom::testing;  // NOLINT: the sample definitions
+
+TEST(Formatter, AllocatesNothingForAMessage) {
+    const std::vector<std::uint8_t> payload(255, 0xfe);
+    const auto& dialect = sample_dialect();
+    TextBuffer out;
+    for (const auto& message : messages) {
+        const SampleFrame frame(message, ByteView(payload).first(message.wire.max_length));
+        const auto received = frame.received("a name that is longer than the small string of any library");
+        const auto before = allocations;
+        for (int i = 0; i < 3; ++i) {
+            out.clear();
+            append_json(out, received);
+            append_text(out, received, dialect);
+            append_csv_header(out, message);
+            append_csv_row(out, received);
+        }
+        EXPECT_EQ(allocations, before) << message.name;
+    }
+}
+
+TEST(Formatter, AllocatesOnlyUntilTheBufferHasGrown) {
+    const SampleFrame frame(sample, std::vector<std::uint8_t>(61, 0xfe));
+    TextBuffer out;
+    const auto print_many = [&] {
+        out.clear();
+        for (int i = 0; i < 100; ++i) append_json(out, frame.received());
+    };
+    print_many();
+    const auto before = allocations;
+    print_many();
+    EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace mavloom::message
