@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Mavloom used by a project of somebody else's (outside/), installed and as a subdirectory."""
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OUTSIDE = pathlib.Path(__file__).parent / "outside"
+BUILD = (ROOT / os.environ.get("MAVLOOM_PROGRAM", "build/release/bin/mavloom")).parent.parent
+
+pytestmark = pytest.mark.timeout(600)
+
+
+def call(*command) -> str:
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert done.returncode == 0, f"{command}:\n{done.stdout[-6000:]}"
+    return done.stdout
+
+
+@pytest.fixture(scope="session")
+def installed(tmp_path_factory):
+    prefix = tmp_path_factory.mktemp("prefix")
+    call("cmake", "--install", BUILD, "--prefix", prefix, "--component", "mavloom_development")
+    return prefix
+
+
+def build_outside(folder, *options):
+    call("cmake", "-S", OUTSIDE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *options)
+    call("cmake", "--build", folder, "-j", str(os.cpu_count()))
+    return call(folder / "outside")
+
+
+EXPECTED = "state=3 items=513 weight=2.5\nre-encoded: same bytes\n"
+
+
+def test_outside_project_finds_the_installed_package(installed, tmp_path):
+    assert build_outside(tmp_path, f"-DCMAKE_PREFIX_PATH={installed}") == EXPECTED
+
+
+def test_outside_project_takes_the_checkout_as_a_subdirectory(tmp_path):
+    assert build_outside(tmp_path, f"-DMAVLOOM_SOURCE={ROOT}") == EXPECTED
+    cache = (tmp_path / "CMakeCache.txt").read_text()
+    assert "MAVLOOM_TESTS:BOOL=OFF" in cache
+
+
+def test_change_of_the_definitions_rebuilds_what_uses_them(installed, tmp_path):
+    source, build = tmp_path / "source", tmp_path / "build"
+    call("cp", "-r", OUTSIDE, source)
+    call("cmake", "-S", source, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
+    call("cmake", "--build", build)
+    xml = source / "shop.xml"
+    xml.write_text(xml.read_text().replace('type="float" name="weight"', 'type="double" name="weight"'))
+
+    call("cmake", "--build", build)
+
+    # Another type is another CRC_EXTRA and length: the frame is no longer one of this dialect.
+    done = subprocess.run([build / "outside"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (1, "re-encoded: other bytes\n")
+
+
+def test_components_that_do_not_exist_are_refused(installed, tmp_path):
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\nfind_package(mavloom REQUIRED COMPONENTS wire telepathy)\n")
+    done = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}"],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert done.returncode != 0 and "telepathy" in done.stderr
+
+
+def test_every_installed_header_stands_alone(installed, tmp_path):
+    headers = sorted(path.relative_to(installed / "include") for path in (installed / "include/mavloom").rglob("*.hpp"))
+    ours = [path for path in headers if path.parts[1] != "msg"]
+    assert len(ours) > 10
+    # Generated headers all come from one template: some of them are enough.
+    generated = [path for path in headers if path.parts[1] == "msg"][::40]
+    assert generated
+    for path in ours + generated:
+        (tmp_path / f"{'_'.join(path.with_suffix('').parts)}.cpp").write_text(f'#include "{path}"\n')
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(headers LANGUAGES CXX)\nfind_package(mavloom REQUIRED)\n"
+        "file(GLOB sources *.cpp)\nadd_library(headers OBJECT ${sources})\n"
+        "target_link_libraries(headers PRIVATE mavloom::runtime mavloom::message)\n")
+    call("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
+    call("cmake", "--build", tmp_path / "build", "-j", str(os.cpu_count()))
