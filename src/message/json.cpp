@@ -28,6 +28,8 @@ bool all_plain(const char* eight) noexcept {
             has_zero(word ^ ones * 0x7f)) == 0;
 }
 
+bool is_plain(char c) noexcept { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; }
+
 char* write_escaped(char* at, char32_t c) noexcept {
     constexpr std::string_view hex = "0123456789abcdef", shorts = "btn?fr";  // \b is 8, \r is 13
     *at++ = '\\';
@@ -59,6 +61,11 @@ void put_string(Cursor& out, std::string_view bytes) {
             bytes.remove_prefix(8);
             continue;
         }
+        if (is_plain(bytes.front())) {
+            *at++ = bytes.front();
+            bytes.remove_prefix(1);
+            continue;
+        }
         const auto c = decode_utf8(bytes);
         at = write_character(at, c.value);
         bytes.remove_prefix(c.length);
@@ -80,7 +87,7 @@ template <class Integer>
 void put_integer(Cursor& out, Integer value) {
     const bool negative = value < 0;
     const auto magnitude = negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
-    const bool quoted = magnitude > largest_exact;
+    const bool quoted = sizeof value == 8 && magnitude > largest_exact;
     if (quoted) out.put_unchecked('"');
     if (negative) out.put_unchecked('-');
     out.set(write_unsigned(out.at(), magnitude));

@@ -10,52 +10,20 @@
 namespace mavloom::message {
 namespace {
 
-constexpr auto digit_pairs = [] {
-    std::array<char, 200> pairs{};
-    for (std::size_t i = 0; i < 100; ++i) {
-        pairs[2 * i] = static_cast<char>('0' + i / 10);
-        pairs[2 * i + 1] = static_cast<char>('0' + i % 10);
-    }
-    return pairs;
-}();
+// Digits with zeros in front of them, so that "0.00" is there to be copied.
+struct Digits {
+    static constexpr std::size_t zeros_before = 8,
+                                 room = 24;  // at most 17 digits; copied as a whole, faster than a variable count
+    std::array<char, zeros_before + 2 * room> chars;  // NOLINT: what is not written is overwritten or cut off
+    const char* first;
+    int count;
+};
 
-void write_pair(char* at, std::uint32_t below_100) noexcept { std::memcpy(at, &digit_pairs[below_100 * 2], 2); }
-
-unsigned digit_count(std::uint32_t v) noexcept {
-    if (v < 10) return 1;
-    if (v < 100) return 2;
-    if (v < 1000) return 3;
-    if (v < 10000) return 4;
-    if (v < 100000) return 5;
-    if (v < 1000000) return 6;
-    if (v < 10000000) return 7;
-    if (v < 100000000) return 8;
-    return v < 1000000000 ? 9 : 10;
-}
-
-char* write_u32(char* at, std::uint32_t v) noexcept {
-    const auto count = digit_count(v);
-    char* end = at + count;
-    char* p = end;
-    while (v >= 100) {
-        p -= 2;
-        write_pair(p, v % 100);
-        v /= 100;
-    }
-    if (v >= 10) {
-        write_pair(p - 2, v);
-    } else {
-        *(p - 1) = static_cast<char>('0' + v);
-    }
-    return end;
-}
-
-void write_eight(char* at, std::uint32_t v) noexcept {
-    const auto high = v / 10000, low = v % 10000;
-    write_pair(at, high / 100);
-    write_pair(at + 2, high % 100);
-    write_pair(at + 4, low / 100);
-    write_pair(at + 6, low % 100);
+void set_digits(Digits& digits, std::uint64_t significand) noexcept {
+    auto* at = digits.chars.data() + Digits::zeros_before;
+    store_le(at - 8, detail::ascii_zeros);
+    digits.first = at;
+    digits.count = static_cast<int>(write_unsigned(at, significand) - at);
 }
 
 // The exponent of scientific notation, at least two digits as C and Python print it.
@@ -64,40 +32,41 @@ char* write_exponent(char* at, int exponent) noexcept {
     *at++ = exponent < 0 ? '-' : '+';
     const auto magnitude = static_cast<std::uint32_t>(std::abs(exponent));
     if (magnitude < 10) *at++ = '0';
-    return write_u32(at, magnitude);
+    return write_unsigned(at, magnitude);
 }
 
-constexpr int digits_room = 24;  // at most 17 digits; copied as a whole, which is faster than copying a variable count
-
-// `digits` * 10^exponent. The point stands after `point` digits; limits of plain notation as Python's repr.
-char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept {
-    std::array<char, 2 * digits_room> digits;  // NOLINT: what is not written is overwritten or cut off
-    const auto count = static_cast<int>(write_unsigned(digits.data(), significand) - digits.data());
-    const int point = count + exponent;
-    if (point > 0 && point < count) {
-        std::memcpy(at, digits.data(), digits_room);
-        at[point] = '.';
-        std::memcpy(at + point + 1, digits.data() + point, digits_room);
-        return at + count + 1;
-    }
-    if (point <= 0 && point > -4) {
-        std::memcpy(at, "0.000", 5);
-        std::memcpy(at + 2 - point, digits.data(), digits_room);
-        return at + 2 - point + count;
-    }
-    if (point >= count && point <= 16) {
-        std::memcpy(at, digits.data(), digits_room);
-        std::memset(at + count, '0', static_cast<std::size_t>(point - count));
-        std::memcpy(at + point, ".0", 2);
-        return at + point + 2;
-    }
-    *at++ = digits[0];
-    if (count > 1) {
+char* write_scientific(char* at, const Digits& digits, int exponent) noexcept {
+    *at++ = *digits.first;
+    if (digits.count > 1) {
         *at++ = '.';
-        std::memcpy(at, digits.data() + 1, digits_room);
-        at += count - 1;
+        std::memcpy(at, digits.first + 1, Digits::room);
+        at += digits.count - 1;
     }
-    return write_exponent(at, point - 1);
+    return write_exponent(at, exponent);
+}
+
+char* write_with_zeros_behind(char* at, const Digits& digits, int point) noexcept {
+    std::memcpy(at, digits.first, Digits::room);
+    std::memset(at + digits.count, '0', static_cast<std::size_t>(point - digits.count));
+    std::memcpy(at + point, ".0", 2);
+    return at + point + 2;
+}
+
+// significand * 10^exponent. The point stands behind `point` digits; limits of plain notation as Python's repr.
+char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept {
+    Digits digits;  // NOLINT: filled next
+    set_digits(digits, significand);
+    const int point = digits.count + exponent;
+    if (point > -4 && point < digits.count) [[likely]] {
+        const int zeros = point < 1 ? 1 - point : 0;
+        const char* from = digits.first - zeros;
+        std::memcpy(at, from, Digits::room);
+        at[point + zeros] = '.';
+        std::memcpy(at + point + zeros + 1, from + point + zeros, Digits::room);
+        return at + digits.count + zeros + 1;
+    }
+    if (point >= digits.count && point <= 16) return write_with_zeros_behind(at, digits, point);
+    return write_scientific(at, digits, point - 1);
 }
 
 template <class Float>
@@ -108,7 +77,7 @@ char* write_shortest(char* at, Float value) noexcept {
         // Whole numbers are common (0, 1, counts) and need no search for the shortest digits.
         const auto whole = static_cast<std::uint32_t>(magnitude);
         if (static_cast<Float>(whole) == magnitude) {
-            at = write_u32(at, whole);
+            at = detail::write_below_limit(at, whole);
             std::memcpy(at, ".0", 2);
             return at + 2;
         }
@@ -120,22 +89,15 @@ char* write_shortest(char* at, Float value) noexcept {
 
 }  // namespace
 
-char* write_unsigned(char* at, std::uint64_t value) noexcept {
-    constexpr std::uint64_t eight_digits = 100000000;
-    if (value < eight_digits) [[likely]]
-        return write_u32(at, static_cast<std::uint32_t>(value));
-    const auto high = value / eight_digits;
-    at = high < eight_digits ? write_u32(at, static_cast<std::uint32_t>(high)) : write_unsigned(at, high);
-    write_eight(at, static_cast<std::uint32_t>(value % eight_digits));
+namespace detail {
+
+char* write_above_limit(char* at, std::uint64_t value) noexcept {
+    at = write_unsigned(at, value / eight_digit_limit);
+    store_le(at, eight_digits(static_cast<std::uint32_t>(value % eight_digit_limit)) + ascii_zeros);
     return at + 8;
 }
 
-char* write_integer(char* at, std::int64_t value) noexcept {
-    const auto bits = static_cast<std::uint64_t>(value);
-    if (value >= 0) return write_unsigned(at, bits);
-    *at++ = '-';
-    return write_unsigned(at, 0 - bits);
-}
+}  // namespace detail
 
 char* write_float(char* at, float value) noexcept { return write_shortest(at, value); }
 char* write_float(char* at, double value) noexcept { return write_shortest(at, value); }
