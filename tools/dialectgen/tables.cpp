@@ -114,7 +114,7 @@ private:
         std::size_t field_count = 0;
         for (const auto& m : dialect_.messages()) {
             records += fmt::format(
-                "    {{{}, {{MessageId{{{}}}, {}, {}, {}, {}, {}}}, {{fields + {}, {}}}, {}, {}}},\n", text(m.name),
+                "    {{{}, {{mavloom::MessageId{{{}}}, {}, {}, {}, {}, {}}}, {{fields + {}, {}}}, {}, {}}},\n", text(m.name),
                 m.wire.id.value, m.wire.crc_extra, m.wire.min_length, m.wire.max_length, m.wire.target_system_offset,
                 m.wire.target_component_offset, field_count, m.fields.size(), text(m.origin), text(m.deprecated));
             field_count += m.fields.size();
