@@ -73,7 +73,7 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
     if (d > 0 && d <= 100) {
         stats.lost += static_cast<std::uint64_t>(d);
         advance();
-        return {Verdict::gap, static_cast<std::uint8_t>(d)};
+        return {Verdict::gap, d};
     }
     if (d < 0 && d >= -30) {
         if (same_bytes || d == -1) {
@@ -81,8 +81,9 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
             return {Verdict::duplicate, 0};
         }
         ++stats.late;
-        if (stats.lost > 0) --stats.lost;
-        return {Verdict::late, 0};
+        const std::int16_t taken_back = stats.lost > 0 ? -1 : 0;
+        stats.lost += taken_back;
+        return {Verdict::late, taken_back};
     }
     ++stats.resync;
     advance();

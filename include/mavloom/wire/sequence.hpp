@@ -35,7 +35,7 @@ public:
     enum class Verdict : std::uint8_t { first, good, gap, late, duplicate, resync, no_sequence, untracked };
     struct Update {
         Verdict verdict = Verdict::good;
-        std::uint8_t lost = 0;  // of a gap
+        std::int16_t lost = 0;  // how the loss changed: up by a gap, down by one for a late frame that was counted
     };
 
     SequenceTracker();

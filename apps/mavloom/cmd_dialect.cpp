@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// `mavloom dialect list|show NAME|check FILE`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <system_error>
+
+#include "command.hpp"
+#include "dialect_print.hpp"
+#include "mavloom/base/suggest.hpp"
+
+namespace mavloom::app {
+namespace {
+
+struct Options {
+    bool json = false;
+    std::string name;  // of `show`
+    std::string file;  // of `check`
+};
+
+// A reader that has seen enough and closed the pipe is no failure.
+Exit write_out(const fmt::memory_buffer& text) {
+    const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (whole || errno == EPIPE) return Exit::done;
+    return fail(Exit::failed, fmt::format("cannot write: {}", std::generic_category().message(errno)));
+}
+
+std::optional<MessageId> as_id(std::string_view text) {
+    std::uint32_t id = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (failure != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return MessageId{id};
+}
+
+std::vector<std::string_view> all_names(const dialect::Dialect& dialect) {
+    std::vector<std::string_view> names;
+    for (const auto& message : dialect.messages()) names.push_back(message.name);
+    for (const auto& e : dialect.enums()) {
+        names.push_back(e.name);
+        for (const auto& entry : e.entries) names.push_back(entry.name);
+    }
+    return names;
+}
+
+bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Options& options) {
+    for (const auto& e : dialect.enums()) {
+        if (const auto* entry = e.find(options.name)) {
+            (options.json ? json_entry : print_entry)(out, e, *entry);
+            return true;
+        }
+    }
+    return false;
+}
+
+// A message by name or id, an enum, or an entry of one.
+bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Options& options) {
+    const auto id = as_id(options.name);
+    if (const auto* message = id ? dialect.find(*id) : dialect.find(options.name)) {
+        (options.json ? json_message : print_message)(out, *message);
+        return true;
+    }
+    if (const auto* e = dialect.find_enum(options.name)) {
+        (options.json ? json_enum : print_enum)(out, *e);
+        return true;
+    }
+    return show_entry(out, dialect, options);
+}
+
+Exit run_list(const Common& common, const Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    fmt::memory_buffer out;
+    (options.json ? json_list : print_list)(out, *dialect);
+    return write_out(out);
+}
+
+Exit run_show(const Common& common, const Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    fmt::memory_buffer out;
+    if (show(out, *dialect, options)) return write_out(out);
+    return fail(Exit::wrong_use, fmt::format("no message, enum or enum entry '{}'{}", options.name,
+                                             did_you_mean(options.name, all_names(*dialect))));
+}
+
+struct Summary {
+    std::size_t messages = 0, enums = 0, entries = 0, fields = 0;
+    std::size_t added = 0, changed = 0;  // beside the built-in definitions
+};
+
+Summary summarize(const dialect::Dialect& dialect) {
+    Summary summary;
+    summary.messages = dialect.messages().size();
+    summary.enums = dialect.enums().size();
+    for (const auto& e : dialect.enums()) summary.entries += e.entries.size();
+    for (const auto& message : dialect.messages()) {
+        summary.fields += message.fields.size();
+        const auto* known = dialect::default_dialect().find(message.id());
+        if (known == nullptr) ++summary.added;
+        else if (known->name != message.name || known->wire != message.wire) ++summary.changed;
+    }
+    return summary;
+}
+
+Exit run_check(const Options& options) {
+    const auto dialect = dialect::Dialect::load(options.file);
+    if (!dialect) return fail(Exit::bad_input, dialect.error().text);
+    const auto s = summarize(*dialect);
+    fmt::memory_buffer out;
+    if (options.json) {
+        fmt::format_to(
+            std::back_inserter(out),
+            "{{\"file\":{},\"messages\":{},\"fields\":{},\"enums\":{},\"entries\":{},\"added\":{},\"changed\":{}}}\n",
+            json_quoted(options.file), s.messages, s.fields, s.enums, s.entries, s.added, s.changed);
+    } else {
+        fmt::format_to(std::back_inserter(out),
+                       "{}: good; {} messages with {} fields, {} enums with {} entries\n"
+                       "Beside the built-in definitions: {} ids are new, {} have another name or wire form\n",
+                       options.file, s.messages, s.fields, s.enums, s.entries, s.added, s.changed);
+    }
+    return write_out(out);
+}
+
+}  // namespace
+
+Run declare_dialect(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    command.require_subcommand(1);
+    command.footer(
+        "Examples: mavloom dialect show ATTITUDE\n"
+        "          mavloom dialect show MAV_CMD_NAV_WAYPOINT\n"
+        "          mavloom dialect check mine.xml");
+    const auto part = [&](const char* name, const char* description) {
+        auto* added = command.add_subcommand(name, description);
+        added->fallthrough();
+        added->add_flag("--json", options->json, "one JSON object a line");
+        return added;
+    };
+    auto* list = part("list", "all messages: id, name, payload bytes (without..with extensions), file");
+    auto* show = part("show",
+                      "a message by name or id, an enum, or an entry of an enum, commands with their parameters");
+    show->add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT")->required();
+    auto* check = part("check", "read an XML file and what it includes; status 3 when there is a fault");
+    check->add_option("FILE", options->file, "message definitions in MAVLink's XML")->required();
+    return [&common, options, list, show, check] {
+        if (list->parsed()) return run_list(common, *options);
+        if (show->parsed()) return run_show(common, *options);
+        return check->parsed() ? run_check(*options) : Exit::wrong_use;
+    };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "mavloom/message/format.hpp"
+#include "output.hpp"
+#include "receiving.hpp"
+#include "signals.hpp"
+#include "traffic_report.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto longest_backlog = 1s;  // what Ctrl-C waits for while a slow reader takes the rest
+
+struct Options {
+    ReceiveOptions receive;
+    Selection selection;
+    bool json = false;
+    std::string csv;  // the message
+    bool stats = false;
+};
+
+class Listener {
+public:
+    Listener(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Receiver& receiver,
+             const dialect::Message* csv)
+        : common_(common), options_(options), dialect_(dialect), receiver_(receiver), csv_(csv) {}
+
+    Exit run() {
+        if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
+        const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); }, &receiver_);
+        receiver_.start(options_.receive.end(mono_now()));
+        while (going_ && receiver_.wait()) {
+            while (going_) {
+                const auto entry = receiver_.next();
+                if (!entry) break;
+                handle(*entry);
+            }
+            if (output_.flush() != Output::State::open) going_ = false;
+        }
+        receiver_.stop();
+        receiver_.join();
+        return finish();
+    }
+
+private:
+    void handle(const runtime::FrameQueue::Entry& entry) {
+        if (Signals::received() && !in_time_for_backlog()) return;
+        if (!options_.selection.takes(entry.frame)) return;
+        if (csv_ != nullptr && entry.frame.id() != csv_->id()) return;
+        const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame, dialect_.find(entry.frame.id())};
+        if (options_.stats) traffic_.add(entry.link, entry.frame, entry.time);
+        print(received);
+        ++printed_;
+        if (output_.flush_if_full() != Output::State::open || printed_ == options_.receive.count) going_ = false;
+    }
+
+    void print(const message::Received& received) {
+        auto& out = output_.buffer();
+        if (csv_ != nullptr) {
+            message::append_csv_row(out, received);
+        } else if (options_.json) {
+            message::append_json(out, received);
+        } else {
+            message::append_text(out, received, dialect_);
+        }
+    }
+
+    bool in_time_for_backlog() {
+        if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + longest_backlog;
+        if (mono_now() < backlog_end_) return true;
+        going_ = false;
+        return false;
+    }
+
+    Exit finish() {
+        std::uint64_t unprinted = 0;
+        if (printed_ != options_.receive.count || options_.receive.count == 0)
+            while (receiver_.next()) ++unprinted;
+        if (output_.state() == Output::State::failed) return fail(output_.error());
+        if (options_.stats) report();
+        if (!options_.stats) say_losses(common_, receiver_.totals());
+        if (unprinted != 0 && output_.state() != Output::State::closed_by_reader)
+            say(common_, fmt::format("{} frames received but not printed: the output was too slow for the end", unprinted));
+        if (const auto* error = receiver_.error()) return fail(Exit::failed, error->text);
+        return Signals::status(Exit::done);
+    }
+
+    void report() {
+        if (csv_ != nullptr) {
+            fmt::print(stderr, "{}", traffic_text(traffic_, receiver_, dialect_));
+            return;
+        }
+        const auto text = options_.json ? traffic_json(traffic_, receiver_, dialect_) : traffic_text(traffic_, receiver_, dialect_);
+        output_.reopen_after_signal();
+        output_.buffer().append(text);
+        output_.flush();
+    }
+
+    const Common& common_;
+    const Options& options_;
+    const dialect::Dialect& dialect_;
+    runtime::Receiver& receiver_;
+    const dialect::Message* csv_;
+    Output output_;
+    observe::TrafficTable traffic_;
+    std::uint64_t printed_ = 0;
+    MonoTime backlog_end_{};
+    bool going_ = true;
+};
+
+Exit listen(const Common& common, Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
+    const dialect::Message* csv = nullptr;
+    if (!options.csv.empty()) {
+        const auto message = dialect->message(options.csv);
+        if (!message) return fail(SetupError(message.error()).within("--csv"));
+        csv = *message;
+    }
+    auto receiver = options.receive.open(common, *dialect);
+    if (!receiver) return fail(receiver.error());
+    return Listener(common, options, *dialect, **receiver, csv).run();
+}
+
+}  // namespace
+
+Run declare_listen(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    options->receive.declare(command);
+    options->selection.declare(command);
+    auto* json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
+    command.add_option("--csv", options->csv, "one message as CSV: a header, then a row each")->type_name("MESSAGE")->excludes(json);
+    command.add_flag("--stats", options->stats, "end with a table: rates, gaps, bytes and loss by source and message");
+    command.footer("Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only ATTITUDE,VFR_HUD --json\n"
+                   "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C.");
+    return [options, &common] { return listen(common, *options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "command.hpp"
+#include "destinations.hpp"
+#include "mavloom/record/tlog_index.hpp"
+#include "mavloom/runtime/sources.hpp"
+#include "receiving.hpp"
+#include "signals.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t frames_a_turn = 256;
+constexpr auto longest_flush = 5s;  // for the last frames to reach the far side
+
+struct Options {
+    std::string file;
+    std::vector<std::string> to;
+    std::string speed = "1";
+    std::string start, duration;
+    Selection selection;
+    bool no_wait = false;
+};
+
+class Replayer : private runtime::LinkHandler {
+public:
+    Replayer(const Common& common, const Options& options, runtime::Sources& sources, Destinations& destinations)
+        : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
+
+    Exit run(MonoTime end) {
+        const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &sources_);
+        while (going(end) && !sources_.finished_recordings()) {
+            sources_.turn(*this, std::min(end, mono_now() + 100ms), destinations_.have_room() ? frames_a_turn : 0);
+            show_progress();
+        }
+        flush();
+        if (progress_shown_) fmt::print(stderr, "\n");
+        return finish();
+    }
+
+    // Until somebody is there for every destination.
+    void wait_for_peers(MonoTime end) {
+        if (options_.no_wait || destinations_.all_up()) return;
+        say(common_, "waiting for somebody to send to (--no-wait to start at once)");
+        while (going(end) && !destinations_.all_up()) sources_.links().turn(*this, mono_now() + 100ms);
+    }
+
+private:
+    void on_frame(const runtime::RxFrame& rx) override {
+        if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
+        if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame);
+    }
+
+    static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
+
+    void flush() {
+        const auto limit = mono_now() + longest_flush;
+        while (sources_.links().pending() && mono_now() < limit) sources_.links().turn(*this, mono_now() + 20ms);
+    }
+
+    void show_progress() {
+        const auto now = mono_now();
+        if (common_.quiet || now < next_progress_ || ::isatty(STDERR_FILENO) == 0) return;
+        next_progress_ = now + 250ms;
+        progress_shown_ = true;
+        const auto& reader = sources_.recordings().front()->reader;
+        const double part = reader.size() == 0 ? 0 : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
+        fmt::print(stderr, "\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent());
+    }
+
+    Exit finish() {
+        destinations_.say_sums(common_);
+        const auto& counters = sources_.recordings().front()->reader.counters();
+        if (counters.damaged_places.value() != 0)
+            say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file, counters.damaged_places.value(), counters.lost_bytes.value()));
+        if (const auto* error = sources_.error()) return fail(Exit::failed, error->text);
+        return Signals::status(Exit::done);
+    }
+
+    const Common& common_;
+    const Options& options_;
+    runtime::Sources& sources_;
+    Destinations& destinations_;
+    MonoTime next_progress_{};
+    bool progress_shown_ = false;
+};
+
+Exit replay(const Common& common, Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
+    auto endpoint = runtime::parse_endpoint(options.file.ends_with(".tlog") || options.file.find("://") != std::string::npos ? options.file : "tlog://" + options.file);
+    if (!endpoint) return fail(endpoint.error());
+    if (endpoint->scheme != runtime::Scheme::tlog) return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
+    if (!endpoint->options.speed)
+        if (auto set = runtime::set_endpoint_option(*endpoint, "speed", options.speed); !set) return fail(std::move(set.error()).within("--speed"));
+    Nanoseconds start{}, length{};
+    for (const auto& [text, value, name] : {std::tuple{&options.start, &start, "--start"}, std::tuple{&options.duration, &length, "--for"}}) {
+        if (text->empty()) continue;
+        const auto parsed = runtime::parse_duration(*text);
+        if (!parsed) return fail(SetupError(parsed.error()).within(name));
+        *value = *parsed;
+    }
+
+    auto sources = runtime::Sources::create(*dialect);
+    if (!sources) return fail(sources.error());
+    auto destinations = Destinations::open(common, options.to, sources->links());
+    if (!destinations) return fail(destinations.error());
+    const MonoTime forever = MonoTime::max();
+    Replayer replayer(common, options, *sources, *destinations);
+    replayer.wait_for_peers(forever);
+    if (auto added = sources->add(*endpoint, mono_now(), 1.0, start); !added) return fail(added.error());
+    return replayer.run(options.duration.empty() ? forever : mono_now() + length);
+}
+
+}  // namespace
+
+Run declare_replay(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    command.add_option("file", options->file, "the recording")->required()->type_name("FILE.tlog");
+    command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
+    command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")->capture_default_str()->type_name("N|max");
+    command.add_option("--start", options->start, "begin this long after the recording's first record: 30s, 2m")->type_name("TIME");
+    command.add_option("--for", options->duration, "end after this time")->type_name("TIME");
+    command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
+    options->selection.declare(command);
+    command.footer("Example:\n  mavloom replay flight.tlog --to udpout://127.0.0.1:14550 --speed 2");
+    return [options, &common] { return replay(common, *options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "receiving.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace mavloom::app {
+
+namespace {
+
+template <class T>
+std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || value > largest) return std::nullopt;
+    return T{static_cast<typename T::rep>(value)};
+}
+
+}  // namespace
+
+void Selection::declare(CLI::App& command) {
+    command.add_option("--only", only, "these messages only: names or ids, separated by commas")->delimiter(',')->type_name("NAMES");
+    command.add_option("--from", from, "from this system, or this component of it, only")->type_name("SYS[/COMP]");
+}
+
+SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
+    for (const auto& word : only) {
+        if (const auto id = whole_number<MessageId>(word, 0xff'ffff)) {
+            ids_.push_back(*id);
+            continue;
+        }
+        auto message = dialect.message(word);
+        if (!message) return tl::unexpected(std::move(message.error()).within("--only"));
+        ids_.push_back((*message)->id());
+    }
+    std::ranges::sort(ids_);
+    if (from.empty()) return {};
+    const auto slash = from.find('/');
+    system_ = whole_number<SystemId>(std::string_view(from).substr(0, slash), 255);
+    if (slash != std::string::npos) component_ = whole_number<ComponentId>(std::string_view(from).substr(slash + 1), 255);
+    if (!system_ || (slash != std::string::npos && !component_))
+        return setup_error(SetupCode::usage, fmt::format("--from {}: expected SYS or SYS/COMP, numbers from 0 to 255, for example --from 1/1", from));
+    return {};
+}
+
+bool Selection::takes(const wire::FrameView& frame) const noexcept {
+    if (system_ && frame.system() != *system_) return false;
+    if (component_ && frame.component() != *component_) return false;
+    return ids_.empty() || std::ranges::binary_search(ids_, frame.id());
+}
+
+void ReceiveOptions::declare(CLI::App& command) {
+    command.add_option("source", sources, "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, flight.tlog, ... (docs/guide/endpoints.md)")
+        ->required()
+        ->type_name("SOURCE");
+    command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms")->type_name("TIME");
+    command.add_option("--count", count, "end after this many messages")->type_name("N");
+    command.add_option("--buffer", buffer, "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
+        ->capture_default_str()
+        ->type_name("BYTES");
+}
+
+SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) const {
+    const auto bytes = runtime::parse_size(buffer);
+    if (!bytes) return tl::unexpected(SetupError(bytes.error()).within("--buffer"));
+    if (!duration.empty())
+        if (auto time = runtime::parse_duration(duration); !time) return tl::unexpected(std::move(time.error()).within("--for"));
+    const auto notice = [&common](std::string_view text) {
+        if (common.verbose > 0) say(common, text);
+    };
+    auto receiver = runtime::Receiver::create(dialect, *bytes, notice);
+    if (!receiver) return receiver;
+    for (const auto& text : sources) {
+        const auto endpoint = runtime::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(endpoint.error());
+        if (auto added = (*receiver)->add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
+    }
+    for (const auto& info : (*receiver)->endpoints())
+        if (info.endpoint.address.port == 0) say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+    return receiver;
+}
+
+MonoTime ReceiveOptions::end(MonoTime start) const {
+    return duration.empty() ? MonoTime::max() : start + *runtime::parse_duration(duration);
+}
+
+}  // namespace mavloom::app

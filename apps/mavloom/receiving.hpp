@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What listen and record share: options that name sources and bound the run, and the receiver made from them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "mavloom/runtime/receiver.hpp"
+
+namespace mavloom::app {
+
+// --only and --from.
+class Selection {
+public:
+    std::vector<std::string> only;  // message names or ids, separated by commas
+    std::string from;               // SYS or SYS/COMP
+
+    void declare(CLI::App& command);
+    // Resolves the words; an unknown name is an error with the nearest one.
+    [[nodiscard]] SetupResult<void> resolve(const dialect::Dialect& dialect);
+    [[nodiscard]] bool takes(const wire::FrameView& frame) const noexcept;
+
+private:
+    std::vector<MessageId> ids_;  // sorted; empty: all
+    std::optional<SystemId> system_;
+    std::optional<ComponentId> component_;
+};
+
+struct ReceiveOptions {
+    std::vector<std::string> sources;
+    std::string duration;  // --for
+    std::string buffer = "64M";
+    std::uint64_t count = 0;  // 0: no bound
+
+    void declare(CLI::App& command);
+    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common, const dialect::Dialect& dialect) const;
+    // When --for ends; the end of time without it. Call after `open`, which has checked the words.
+    [[nodiscard]] MonoTime end(MonoTime start) const;
+};
+
+}  // namespace mavloom::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "signals.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+
+namespace mavloom::app {
+
+namespace {
+
+std::atomic<int> received_signal{0};
+std::atomic<Signals::OnStop> stop_function{nullptr};
+std::atomic<void*> stop_context{nullptr};
+
+void handle(int signal) {
+    const int saved_errno = errno;
+    if (received_signal.exchange(signal) != 0) ::_exit(128 + signal);
+    if (const auto stop = stop_function.load()) stop(stop_context.load());
+    errno = saved_errno;
+}
+
+// Without SA_RESTART: a write that blocks on a slow reader returns.
+void install(void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    ::sigaction(SIGINT, &action, nullptr);
+    ::sigaction(SIGTERM, &action, nullptr);
+}
+
+}  // namespace
+
+Signals::Signals(OnStop on_stop, void* context) {
+    stop_context = context;
+    stop_function = on_stop;
+    install(handle);
+}
+
+Signals::~Signals() { stop_function = nullptr; }
+
+bool Signals::received() noexcept { return received_signal.load() != 0; }
+
+Exit Signals::status(Exit otherwise) noexcept {
+    switch (received_signal.load()) {
+        case SIGINT: return Exit::interrupted;
+        case SIGTERM: return Exit::terminated;
+        default: return otherwise;
+    }
+}
+
+}  // namespace mavloom::app

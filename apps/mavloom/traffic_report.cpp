@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "traffic_report.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace mavloom::app {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+double milliseconds(Nanoseconds t) { return std::chrono::duration<double, std::milli>(t).count(); }
+
+double loss_percent(const runtime::SourceLoss& loss) {
+    const auto sent = loss.received - loss.duplicate + loss.lost;
+    return sent == 0 ? 0 : 100.0 * static_cast<double>(loss.lost) / static_cast<double>(sent);
+}
+
+std::string message_name(const dialect::Dialect& dialect, MessageId id) {
+    const auto* message = dialect.find(id);
+    return message == nullptr ? fmt::format("#{}", id.value) : std::string(message->name);
+}
+
+struct Named {
+    std::string_view name, meaning;
+    std::uint64_t value;
+};
+
+// Every counter that is not a good frame handed on, with the words for it.
+auto losses_of(const runtime::ReceiverTotals& t) {
+    return std::array{
+        Named{"kernel_drop", "datagrams dropped by the kernel: the receive buffer was full", t.kernel_drop},
+        Named{"buffer_full", "frames not handed on: the output was slower than --buffer allows", t.buffer_full},
+        Named{"crc_error", "frames with a bad checksum", t.crc_error},
+        Named{"junk_bytes", "bytes that belong to no intact frame", t.junk_bytes},
+        Named{"damaged_places", "damaged places in recordings", t.damaged_places},
+        Named{"unknown_flags", "frames with an unknown incompatibility flag", t.unknown_flags},
+        Named{"bad_signature", "frames without a good signature", t.bad_signature},
+        Named{"wrong_peer", "datagrams from another address than the one called", t.wrong_peer},
+        Named{"stray_bytes", "bytes of strangers that hold no frame", t.stray_bytes},
+        Named{"peers_refused", "peers beyond max_peers", t.peers_refused},
+    };
+}
+
+void append_source(std::string& out, const runtime::SourceLoss& loss, std::string_view link) {
+    fmt::format_to(std::back_inserter(out), "\n{} {}/{}: {} frames, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n", link,
+                   loss.source.system.value, loss.source.component.value, loss.received, loss.lost, loss_percent(loss), loss.late,
+                   loss.duplicate, loss.resync);
+    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9} {:>10} {:>10} {:>10} {:>11}\n", "message", "count", "Hz", "gap min ms",
+                   "mean ms", "max ms", "bytes");
+}
+
+void append_row(std::string& out, const observe::TrafficRow& row, std::string_view name) {
+    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>11}\n", name, row.count, row.rate_hz(),
+                   milliseconds(row.shortest_gap), milliseconds(row.mean_gap()), milliseconds(row.longest_gap), row.bytes);
+}
+
+bool belongs(const observe::TrafficRow& row, const runtime::SourceLoss& loss) { return row.link == loss.link && row.source == loss.source; }
+
+ordered_json row_json(const observe::TrafficRow& row, const dialect::Dialect& dialect) {
+    const auto* message = dialect.find(row.id);
+    return {{"id", row.id.value},
+            {"name", message == nullptr ? ordered_json(nullptr) : ordered_json(message->name)},
+            {"count", row.count},
+            {"bytes", row.bytes},
+            {"rate_hz", row.rate_hz()},
+            {"gap_min_ms", milliseconds(row.shortest_gap)},
+            {"gap_mean_ms", milliseconds(row.mean_gap())},
+            {"gap_max_ms", milliseconds(row.longest_gap)}};
+}
+
+}  // namespace
+
+std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
+    std::string out;
+    const auto rows = traffic.sorted();
+    for (const auto& loss : receiver.losses()) {
+        append_source(out, loss, receiver.link_name(loss.link));
+        for (const auto& row : rows)
+            if (belongs(row, loss)) append_row(out, row, message_name(dialect, row.id));
+    }
+    const auto& totals = receiver.totals();
+    fmt::format_to(std::back_inserter(out), "\ntotal: {} frames, {} bytes\n", totals.frames, totals.bytes);
+    for (const auto& [name, meaning, value] : losses_of(totals))
+        if (value != 0) fmt::format_to(std::back_inserter(out), "  {}: {} {}\n", name, value, meaning);
+    return out;
+}
+
+std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
+    const auto rows = traffic.sorted();
+    auto sources = ordered_json::array();
+    for (const auto& loss : receiver.losses()) {
+        auto messages = ordered_json::array();
+        for (const auto& row : rows)
+            if (belongs(row, loss)) messages.push_back(row_json(row, dialect));
+        sources.push_back({{"link", receiver.link_name(loss.link)},
+                           {"sys", loss.source.system.value},
+                           {"comp", loss.source.component.value},
+                           {"frames", loss.received},
+                           {"lost", loss.lost},
+                           {"loss_percent", loss_percent(loss)},
+                           {"late", loss.late},
+                           {"duplicate", loss.duplicate},
+                           {"resync", loss.resync},
+                           {"messages", std::move(messages)}});
+    }
+    const auto& totals = receiver.totals();
+    ordered_json sums{{"frames", totals.frames}, {"bytes", totals.bytes}};
+    for (const auto& [name, meaning, value] : losses_of(totals)) sums[std::string(name)] = value;
+    return ordered_json{{"stats", {{"sources", std::move(sources)}, {"totals", std::move(sums)}}}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+void say_losses(const Common& common, const runtime::ReceiverTotals& totals) {
+    for (const auto& [name, meaning, value] : losses_of(totals))
+        if (value != 0) say(common, fmt::format("{}: {} {}", name, value, meaning));
+}
+
+}  // namespace mavloom::app

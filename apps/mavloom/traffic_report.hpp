@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The end of `listen --stats` and of other commands that received: what was heard, by link, source and message, and what was lost where.
+#pragma once
+
+#include <string>
+
+#include "command.hpp"
+#include "mavloom/observe/traffic_table.hpp"
+#include "mavloom/runtime/receiver.hpp"
+
+namespace mavloom::app {
+
+// A table for people. `receiver` has been joined.
+std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect);
+// One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md.
+std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect);
+// Lines on stderr for whatever was lost or damaged; nothing when all is well.
+void say_losses(const Common& common, const runtime::ReceiverTotals& totals);
+
+}  // namespace mavloom::app

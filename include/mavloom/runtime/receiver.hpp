@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Receives on a thread of its own, so that whoever prints, writes or sleeps never makes the kernel drop a datagram: frames wait in a bounded
+// queue (`--buffer`), and what does not fit there is counted as `buffer_full`. Recordings wait for room instead.
+//
+// One consumer thread: `next` and `wait`. `stop` may be called from any thread and from a signal handler. Everything under "after stop" is
+// complete once the consumer has seen the end (`wait` returned false) or `join` has returned.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "mavloom/runtime/frame_queue.hpp"
+#include "mavloom/runtime/sources.hpp"
+
+namespace mavloom::runtime {
+
+// The link's own loss, of one source.
+struct SourceLoss {
+    LinkId link;
+    Source source;
+    std::uint64_t received = 0, lost = 0, late = 0, duplicate = 0, resync = 0;
+};
+
+// Sums over all links and endpoints of a receiver: nothing that arrived and was not handed on is missing here.
+struct ReceiverTotals {
+    std::uint64_t frames = 0, bytes = 0;
+    std::uint64_t buffer_full = 0;  // our own: the consumer was slower than `--buffer` allows
+    std::uint64_t kernel_drop = 0;  // datagrams that the kernel had no room for
+    std::uint64_t crc_error = 0, junk_bytes = 0, unknown_flags = 0, bad_signature = 0, wrong_peer = 0, stray_bytes = 0, peers_refused = 0;
+    std::uint64_t damaged_places = 0;  // in recordings
+};
+
+class Receiver : private LinkHandler {
+public:
+    static constexpr std::size_t default_buffer_bytes = 64u << 20;
+
+    // Called on the receiving thread, for people: a line that says something happened once.
+    using Notice = std::function<void(std::string_view)>;
+
+    [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect, std::size_t buffer_bytes, Notice notice);
+    ~Receiver() override;
+
+    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
+    // What was opened, with the ports that were given: before `start`.
+    [[nodiscard]] std::vector<EndpointInfo> endpoints() const { return sources_.links().endpoints(); }
+    // Stops by itself at `end` (`--for`).
+    void start(MonoTime end = MonoTime::max());
+
+    // What the kernel holds already is still received (for at most 200 ms). Async-signal-safe.
+    void stop() noexcept;
+    void join();
+
+    [[nodiscard]] std::optional<FrameQueue::Entry> next() noexcept { return queue_->next(); }
+    [[nodiscard]] bool wait() noexcept { return queue_->wait(); }
+    // Stays valid until the receiver goes. Consumer thread.
+    [[nodiscard]] std::string_view link_name(LinkId link);
+
+    // After stop:
+    [[nodiscard]] const ReceiverTotals& totals() const noexcept { return totals_; }
+    [[nodiscard]] std::vector<SourceLoss> losses() const;
+    // The first recording that could not be read to its end.
+    [[nodiscard]] const SetupError* error() const noexcept { return sources_.error(); }
+
+private:
+    Receiver(Sources sources, std::unique_ptr<FrameQueue> queue, Notice notice);
+
+    void on_frame(const RxFrame& rx) override;
+    void on_link_up(LinkId link, EndpointId endpoint, std::string_view name) override;
+    void on_link_down(LinkId link, EndpointId endpoint, std::string_view why) override;
+    void on_notice(EndpointId endpoint, std::string_view text) override;
+
+    void run();
+    void drain();
+    [[nodiscard]] std::size_t frames_that_fit() const noexcept;
+    void count_loss(const RxFrame& rx);
+    void add_link_counters(const LinkCounters& counters);
+    void finish_totals();
+
+    Sources sources_;
+    std::unique_ptr<FrameQueue> queue_;
+    Notice notice_;
+    std::thread thread_;
+    std::atomic<bool> stopping_{false};
+    MonoTime end_ = MonoTime::max();
+
+    ReceiverTotals totals_;  // the receiving thread's until the queue is closed
+    std::map<std::tuple<LinkId, Source>, SourceLoss> losses_;
+    SourceLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
+
+    // Written when a link comes up, read on its first frame: the consumer keeps the last one it asked for.
+    std::mutex names_mutex_;
+    std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; entries are never removed
+    LinkId last_named_;                              // the consumer's
+    std::string_view last_name_;
+};
+
+}  // namespace mavloom::runtime

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/runtime/receiver.hpp"
+
+#include <algorithm>
+
+namespace mavloom::runtime {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t most_sources = 65'536;    // bounds what forged system and component ids can make us remember
+constexpr std::size_t largest_entry_bytes = 304; // in the queue: 16 of header and the longest frame, rounded
+constexpr std::size_t frames_a_turn = 4096;      // of recordings, so that live links get their turn
+constexpr auto longest_drain = 200ms;
+constexpr auto drops_every = 1s;                 // how often the kernel is asked for its drops
+
+}  // namespace
+
+SetupResult<std::unique_ptr<Receiver>> Receiver::create(const dialect::Dialect& dialect, std::size_t buffer_bytes, Notice notice) {
+    auto sources = Sources::create(dialect);
+    if (!sources) return tl::unexpected(std::move(sources.error()));
+    auto queue = FrameQueue::create(buffer_bytes);
+    if (!queue) return tl::unexpected(std::move(queue.error()));
+    return std::unique_ptr<Receiver>(new Receiver(std::move(*sources), std::move(*queue), std::move(notice)));
+}
+
+Receiver::Receiver(Sources sources, std::unique_ptr<FrameQueue> queue, Notice notice)
+    : sources_(std::move(sources)), queue_(std::move(queue)), notice_(std::move(notice)) {}
+
+Receiver::~Receiver() {
+    stop();
+    join();
+}
+
+SetupResult<void> Receiver::add(const Endpoint& endpoint) {
+    auto added = sources_.add(endpoint, mono_now());
+    if (added && endpoint.scheme == Scheme::tlog) {
+        const auto& recording = *sources_.recordings().back();
+        names_.emplace(recording.link, recording.name);
+    }
+    return added;
+}
+
+void Receiver::start(MonoTime end) {
+    end_ = end;
+    thread_ = std::thread([this] { run(); });
+}
+
+void Receiver::stop() noexcept {
+    stopping_.store(true, std::memory_order_relaxed);
+    sources_.wake();
+}
+
+void Receiver::join() {
+    if (thread_.joinable()) thread_.join();
+}
+
+std::size_t Receiver::frames_that_fit() const noexcept {
+    const std::size_t room = queue_->capacity() - std::min(queue_->capacity(), queue_->used_bytes() + largest_entry_bytes);
+    return std::min(frames_a_turn, room / largest_entry_bytes);
+}
+
+void Receiver::run() {
+    auto ask_kernel = mono_now() + drops_every;
+    for (auto now = mono_now(); !stopping_.load(std::memory_order_relaxed) && now < end_ && !sources_.finished(); now = mono_now()) {
+        if (now >= ask_kernel) {
+            sources_.links().refresh_kernel_drops();
+            ask_kernel = now + drops_every;
+        }
+        const std::size_t room = frames_that_fit();
+        sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), room);
+        queue_->publish();
+    }
+    drain();
+    finish_totals();
+    queue_->close();
+}
+
+// What had arrived before the end was asked for is not left in the kernel's buffers.
+void Receiver::drain() {
+    const auto limit = mono_now() + longest_drain;
+    while (mono_now() < limit && sources_.turn(*this, MonoTime{}, 0) != 0) queue_->publish();
+}
+
+void Receiver::on_frame(const RxFrame& rx) {
+    ++totals_.frames;
+    totals_.bytes += rx.frame.size();
+    count_loss(rx);
+    if (!queue_->push({rx.time, rx.link, rx.frame})) ++totals_.buffer_full;
+}
+
+void Receiver::count_loss(const RxFrame& rx) {
+    const auto source = rx.frame.source();
+    if (last_loss_ == nullptr || last_loss_->link != rx.link || last_loss_->source != source) {
+        const std::tuple key{rx.link, source};
+        auto it = losses_.find(key);
+        if (it == losses_.end()) {
+            if (losses_.size() == most_sources) return;
+            it = losses_.emplace(key, SourceLoss{rx.link, source}).first;
+        }
+        last_loss_ = &it->second;
+    }
+    using Verdict = wire::SequenceTracker::Verdict;
+    auto& loss = *last_loss_;
+    ++loss.received;
+    loss.lost += static_cast<std::uint64_t>(rx.sequence.lost);
+    loss.late += rx.sequence.verdict == Verdict::late;
+    loss.duplicate += rx.sequence.verdict == Verdict::duplicate;
+    loss.resync += rx.sequence.verdict == Verdict::resync;
+}
+
+void Receiver::on_link_up(LinkId link, EndpointId, std::string_view name) {
+    {
+        const std::lock_guard lock(names_mutex_);
+        names_.emplace(link, std::string(name));
+    }
+    if (notice_) notice_(std::string(name) + ": up");
+}
+
+void Receiver::on_link_down(LinkId link, EndpointId, std::string_view why) {
+    for (const auto& info : sources_.links().links()) {
+        if (info.id != link) continue;
+        add_link_counters(*info.counters);
+        if (notice_) notice_(info.name + ": down, " + std::string(why));
+    }
+}
+
+void Receiver::on_notice(EndpointId, std::string_view text) {
+    if (notice_) notice_(text);
+}
+
+std::string_view Receiver::link_name(LinkId link) {
+    if (link != last_named_ || last_name_.empty()) {
+        const std::lock_guard lock(names_mutex_);
+        last_name_ = names_[link];
+        last_named_ = link;
+    }
+    return last_name_;
+}
+
+void Receiver::add_link_counters(const LinkCounters& counters) {
+    totals_.crc_error += counters.crc_error.value();
+    totals_.junk_bytes += counters.junk_bytes.value();
+    totals_.unknown_flags += counters.unknown_flags.value();
+    totals_.bad_signature += counters.bad_signature.value();
+}
+
+void Receiver::finish_totals() {
+    auto& links = sources_.links();
+    links.refresh_kernel_drops();
+    for (const auto& link : links.links()) add_link_counters(*link.counters);
+    for (const auto& endpoint : links.endpoints()) {
+        totals_.kernel_drop += endpoint.counters->kernel_drop.value();
+        totals_.wrong_peer += endpoint.counters->wrong_peer.value();
+        totals_.stray_bytes += endpoint.counters->stray_bytes.value();
+        totals_.peers_refused += endpoint.counters->peers_refused.value();
+    }
+    for (const auto& recording : sources_.recordings()) {
+        const auto& counters = recording->reader.counters();
+        totals_.junk_bytes += counters.lost_bytes.value();
+        totals_.damaged_places += counters.damaged_places.value();
+        totals_.unknown_flags += counters.unknown_flags.value();
+    }
+}
+
+std::vector<SourceLoss> Receiver::losses() const {
+    std::vector<SourceLoss> all;
+    all.reserve(losses_.size());
+    for (const auto& [key, loss] : losses_) all.push_back(loss);
+    return all;
+}
+
+}  // namespace mavloom::runtime

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/runtime/sources.hpp"
+
+#include <algorithm>
+
+#include "mavloom/record/tlog_index.hpp"
+
+namespace mavloom::runtime {
+
+SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
+    auto links = Links::create(dialect);
+    if (!links) return tl::unexpected(std::move(links.error()));
+    Sources sources(std::move(*links));
+    sources.table_ = &dialect.wire_table();
+    return sources;
+}
+
+namespace {
+
+// The index is built by a reader of its own, so that damage is counted once.
+SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path, const wire::MessageTable& table, Nanoseconds skip) {
+    auto scan = record::TlogReader::open(path, table);
+    if (!scan) return tl::unexpected(std::move(scan.error()));
+    const auto index = record::TlogIndex::build(*scan);
+    if (!index) return tl::unexpected(index.error());
+    return index->seek(reader, index->earliest().value_or(WallTime{}) + skip);
+}
+
+}  // namespace
+
+SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
+    if (endpoint.scheme != Scheme::tlog) {
+        has_links_ = true;
+        return links_->add(endpoint).map([](EndpointId) {});
+    }
+    auto reader = record::TlogReader::open(endpoint.path, *table_);
+    if (!reader) return tl::unexpected(std::move(reader.error()));
+    if (skip != Nanoseconds{})
+        if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped) return skipped;
+    const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
+    const double speed = endpoint.options.speed.value_or(default_speed);
+    recordings_.push_back(std::make_unique<Recording>(
+        Recording{LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
+    advance(*recordings_.back());
+    return {};
+}
+
+void Sources::advance(Recording& recording) {
+    const auto record = recording.reader.next();
+    if (!record) {
+        recording.ended = true;
+        if (record.error() == record::TlogReader::Stop::failed) recording.error = recording.reader.error();
+        return;
+    }
+    recording.next = *record;
+    recording.due = recording.pacer.due(record->time);
+}
+
+std::size_t Sources::play(Recording& recording, LinkHandler& handler, std::size_t most_frames) {
+    std::size_t played = 0;
+    const MonoTime now = mono_now();
+    for (; !recording.ended && recording.due <= now && played < most_frames; ++played) {
+        const auto& record = *recording.next;
+        const auto update = recording.sequence.update(record.frame);
+        handler.on_frame({record.frame, record.info, recording.link, recording.endpoint, record.time, update});
+        advance(recording);
+    }
+    return played;
+}
+
+std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames) {
+    for (const auto& recording : recordings_)
+        if (!recording->ended && most_frames != 0) deadline = std::min(deadline, recording->due);
+    std::size_t frames = links_->turn(handler, deadline);
+    for (const auto& recording : recordings_) {
+        const std::size_t played = play(*recording, handler, most_frames);
+        most_frames -= played;
+        frames += played;
+    }
+    return frames;
+}
+
+bool Sources::finished_recordings() const noexcept {
+    return std::ranges::all_of(recordings_, [](const auto& r) { return r->ended; });
+}
+
+const SetupError* Sources::error() const noexcept {
+    for (const auto& recording : recordings_)
+        if (recording->error) return &*recording->error;
+    return nullptr;
+}
+
+}  // namespace mavloom::runtime
