@@ -31,7 +31,9 @@ constexpr std::string_view footer =
 void add_common(CLI::App& command, Common& common) {
     command.add_flag("-v,--verbose", common.verbose, "say more on stderr; may be repeated");
     command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
-    command.add_option("--dialect", common.dialect_files, "message definitions (MAVLink XML) to add to the built-in ones")->type_name("FILE");
+    command.add_option("--dialect", common.dialect_files, "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
 }
 
 // Two lines on stderr: what is wrong and where the help is.
@@ -64,7 +66,7 @@ Exit run(int argc, char** argv) {
     CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry.", "mavloom"};
     app.footer(std::string(footer));
     app.require_subcommand(1);
-    app.add_flag("--version", "print the version");
+    app.add_flag("--version")->description("print the version");
     std::vector<std::pair<CLI::App*, Run>> runs;
     for (const auto& command : commands) {
         CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
