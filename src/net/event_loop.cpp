@@ -92,16 +92,16 @@ void EventLoop::cancel_timer(TimerId& id) noexcept {
 }
 
 // epoll_pwait2 waits by the nanosecond; before Linux 5.11 milliseconds have to do, rounded up so that the loop does not spin.
-int EventLoop::wait_for(MonoTime deadline) noexcept {
+void EventLoop::wait(MonoTime deadline) noexcept {
     if (!timers_.empty()) deadline = std::min(deadline, timers_.begin()->first.when);
     const bool for_ever = deadline == MonoTime::max();
     const Nanoseconds left = for_ever ? Nanoseconds{} : std::max(deadline - mono_now(), Nanoseconds{});
     const timespec limit{static_cast<std::time_t>(left.count() / 1'000'000'000), static_cast<long>(left.count() % 1'000'000'000)};
-    const int count = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, for_ever ? nullptr : &limit, nullptr);
-    if (count >= 0 || errno != ENOSYS) return std::max(count, 0);
+    count_ = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, for_ever ? nullptr : &limit, nullptr);
+    if (count_ >= 0 || errno != ENOSYS) return;
     constexpr std::int64_t longest_ms = 3'600'000;
     const auto ms = static_cast<int>(std::min((left.count() + 999'999) / 1'000'000, longest_ms));
-    return std::max(epoll_wait(epoll_.get(), events_.get(), events_per_wait, for_ever ? -1 : ms), 0);
+    count_ = epoll_wait(epoll_.get(), events_.get(), events_per_wait, for_ever ? -1 : ms);
 }
 
 // Timers that a callback starts, also for now or earlier, wait for the next turn.
@@ -119,9 +119,10 @@ void EventLoop::run_timers(MonoTime now) {
     }
 }
 
-bool EventLoop::dispatch(int count) {
+bool EventLoop::dispatch(MonoTime now) {
+    run_timers(now);
     bool woken = false;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count_; ++i) {
         const epoll_event& event = events_[i];
         if (event.data.u64 == wake_token) {
             std::uint64_t times;
@@ -134,12 +135,6 @@ bool EventLoop::dispatch(int count) {
                                (event.events & (EPOLLERR | EPOLLHUP)) != 0});
     }
     return woken;
-}
-
-bool EventLoop::run_once(MonoTime deadline) {
-    const int count = wait_for(deadline);
-    run_timers(mono_now());
-    return dispatch(count);
 }
 
 void EventLoop::wake(const Fd& handle) noexcept {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -45,6 +46,11 @@ SetupResult<void> TcpStream::finish_connect() {
     if (getsockopt(fd_.get(), SOL_SOCKET, SO_ERROR, &error, &length) != 0) error = errno;
     if (error != 0) return system_error(fmt::format("cannot connect to {}", remote_.text()), error);
     return {};
+}
+
+bool TcpStream::wait_connected(std::chrono::milliseconds limit) const noexcept {
+    pollfd wanted{fd_.get(), POLLOUT, 0};
+    return ::poll(&wanted, 1, static_cast<int>(limit.count())) == 1;
 }
 
 IoResult<std::size_t> TcpStream::read(ByteSpan room) noexcept {

@@ -63,8 +63,14 @@ public:
     [[nodiscard]] TimerId start_timer(MonoTime when, TimerHandler& handler);
     void cancel_timer(TimerId& id) noexcept;
 
-    // Waits until something happens or `deadline`, then calls the handlers: timers first. Returns true when `wake` was among the causes.
-    bool run_once(MonoTime deadline);
+    // Waits until something happens, a timer is due, or `deadline`.
+    void wait(MonoTime deadline) noexcept;
+    // Calls the handlers of what `wait` found: timers first. Returns true when `wake` was among the causes.
+    bool dispatch(MonoTime now);
+    bool run_once(MonoTime deadline) {
+        wait(deadline);
+        return dispatch(mono_now());
+    }
 
     void wake() noexcept;
     // A duplicate of the wake-up's owner, for helper threads that may outlive the loop.
@@ -79,9 +85,7 @@ private:
     };
     EventLoop(Fd epoll, std::shared_ptr<const Fd> wake);
 
-    [[nodiscard]] int wait_for(MonoTime deadline) noexcept;
     void run_timers(MonoTime now);
-    bool dispatch(int count);
     [[nodiscard]] Watch* find(WatchId id) noexcept;
 
     Fd epoll_;
@@ -91,6 +95,7 @@ private:
     std::map<TimerId, TimerHandler*> timers_;
     std::uint64_t last_timer_ = 0;
     std::unique_ptr<epoll_event[]> events_;
+    int count_ = 0;
 };
 
 }  // namespace mavloom::net

@@ -5,6 +5,7 @@
 
 #include <sys/uio.h>
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,6 +25,8 @@ public:
     // Begins to connect, from `local` where given; when the descriptor becomes writable, `finish_connect` tells the outcome.
     [[nodiscard]] static SetupResult<TcpStream> start_connect(const Address& remote, const std::optional<Address>& local = std::nullopt);
     [[nodiscard]] SetupResult<void> finish_connect();
+    // For callers that may wait: true when `finish_connect` has an outcome within `limit`.
+    [[nodiscard]] bool wait_connected(std::chrono::milliseconds limit) const noexcept;
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }

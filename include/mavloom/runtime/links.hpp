@@ -3,7 +3,7 @@
 // frames for the way out and sends them in batches at the end of the turn. Every UDP peer and TCP client is a link of its own (parser,
 // sequence tracking, queue, counters). Endpoints whose far side is absent are retried for ever with back-off.
 //
-// Owned and driven by one thread; `stop()` and the counters may be used from any. The frame path neither allocates, locks nor logs.
+// Owned and driven by one thread; `wake()` and the counters' values may be used from any. The frame path neither allocates, locks nor logs.
 // DESIGN.md rules 2, 3, 4, 7 and 9; routing.md section 6 for loss.
 #pragma once
 
@@ -22,6 +22,11 @@
 #include "mavloom/runtime/endpoint.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
+#include "mavloom/wire/sequence.hpp"
+
+namespace mavloom::dialect {
+class Dialect;
+}
 
 namespace mavloom::runtime {
 
@@ -42,8 +47,9 @@ struct EndpointCounters {
     Counter kernel_drop;      // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
     Counter wrong_peer;       // udpout: datagrams from another address
     Counter stray_bytes;      // bytes of strangers whose datagrams held no valid frame
-    Counter peers_refused;    // over max_peers with none idle
-    Counter send_errors;      // the kernel refused a datagram (e.g. ECONNREFUSED, ENOBUFS after retries)
+    Counter peers_refused;    // over max_peers, and none of the others may go (docs/guide/queues.md)
+    Counter peers_evicted;    // the longest idle, gone for a newcomer
+    Counter send_errors;      // datagrams that met a closed port (ICMP said so) or that the kernel refused
     Counter reconnects;
 };
 
@@ -53,6 +59,7 @@ struct RxFrame {
     LinkId link;
     EndpointId endpoint;
     WallTime time{};                          // the kernel's receive time; a recording's own time for tlog sources
+    wire::SequenceTracker::Update sequence{};  // what it says of the link's loss
 };
 
 class LinkHandler {
@@ -86,34 +93,48 @@ struct EndpointInfo {
 
 class Links {
 public:
-    // `table` must outlive the object.
+    // `table` must outlive the object. A full queue then drops telemetry oldest first; with a dialect it knows which newer value replaces which.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const wire::MessageTable& table);
-    virtual ~Links() = default;
+    // The same with the dialect's table, which must outlive the object, and its instance fields (docs/guide/queues.md).
+    [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const dialect::Dialect& dialect);
+    Links(const Links&) = delete;
+    Links& operator=(const Links&) = delete;
+    ~Links();
 
     // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
-    [[nodiscard]] virtual SetupResult<EndpointId> add(const Endpoint& endpoint) = 0;
+    // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
+    // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
+    void remove(EndpointId endpoint);
 
     // One turn: waits until something is readable, writable, due, or `deadline`; reads all that is there (bounded, so that one flooded
     // socket cannot starve the rest), calls the handler, then sends what was queued. Returns the number of frames received.
-    virtual std::size_t turn(LinkHandler& handler, MonoTime deadline) = 0;
+    std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
     // Queues a whole frame for one link, or for every link of an endpoint that is up. Returns the number of links that took it.
-    virtual std::size_t send(LinkId link, wire::FrameView frame) = 0;
-    virtual std::size_t send(EndpointId endpoint, wire::FrameView frame) = 0;
+    std::size_t send(LinkId link, wire::FrameView frame);
+    std::size_t send(EndpointId endpoint, wire::FrameView frame);
     // True when something queued is not yet with the kernel.
-    [[nodiscard]] virtual bool pending() const = 0;
+    [[nodiscard]] bool pending() const;
     // Bytes queued for the links of an endpoint: a file source uses it to wait instead of overflowing a queue.
-    [[nodiscard]] virtual std::size_t queued_bytes(EndpointId endpoint) const = 0;
+    [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;
 
     // Wakes `turn`; any thread, also from a signal handler.
-    virtual void wake() noexcept = 0;
+    void wake() noexcept;
 
     // Reads SO_MEMINFO of every UDP socket into kernel_drop: to be called at snapshots and at the end.
-    virtual void refresh_kernel_drops() = 0;
+    void refresh_kernel_drops();
 
-    [[nodiscard]] virtual std::vector<LinkInfo> links() const = 0;
-    [[nodiscard]] virtual std::vector<EndpointInfo> endpoints() const = 0;
-    [[nodiscard]] virtual std::string_view link_name(LinkId link) const = 0;
+    // What is there now. `counters` of a link stay until its on_link_down has returned.
+    [[nodiscard]] std::vector<LinkInfo> links() const;
+    [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
+    // Empty for a link that is gone.
+    [[nodiscard]] std::string_view link_name(LinkId link) const;
+
+private:
+    class Impl;
+    explicit Links(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace mavloom::runtime

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/runtime/links.hpp"
+
+#include <fmt/format.h>
+
+#include "runtime/links_core.hpp"
+#include "runtime/links_options.hpp"
+#include "runtime/links_tcp.hpp"
+#include "runtime/links_udp.hpp"
+
+namespace mavloom::runtime {
+
+using namespace detail;
+
+class Links::Impl {
+public:
+    Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+        : core(table, std::move(classes), std::move(loop), std::move(batch)) {}
+
+    [[nodiscard]] OpenEndpoint* find(EndpointId id) const noexcept {
+        return id.value < endpoints.size() ? endpoints[id.value].get() : nullptr;
+    }
+
+    Core core;
+    std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
+};
+
+Links::Links(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Links::~Links() = default;
+
+template <class Make>
+static auto with_system_parts(Make&& make) -> SetupResult<std::unique_ptr<Links>> {
+    auto loop = net::EventLoop::create();
+    if (!loop) return tl::unexpected(std::move(loop).error());
+    auto batch = net::ReceiveBatch::create();
+    if (!batch) return tl::unexpected(std::move(batch).error());
+    return make(std::move(*loop), std::move(*batch));
+}
+
+SetupResult<std::unique_ptr<Links>> Links::create(const wire::MessageTable& table) {
+    return with_system_parts([&](auto loop, auto batch) {
+        return std::unique_ptr<Links>(new Links(std::make_unique<Impl>(table, MessageClasses(table), std::move(loop), std::move(batch))));
+    });
+}
+
+SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialect) {
+    return with_system_parts([&](auto loop, auto batch) {
+        return std::unique_ptr<Links>(
+            new Links(std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop), std::move(batch))));
+    });
+}
+
+static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
+    switch (opening.endpoint.scheme) {
+        case Scheme::udpin: return open_udpin(std::move(opening));
+        case Scheme::udpout: return open_udpout(std::move(opening));
+        case Scheme::tcpin: return open_tcpin(std::move(opening));
+        default: return open_tcpout(std::move(opening));
+    }
+}
+
+SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
+    if (auto checked = check_supported(endpoint); !checked) return tl::unexpected(std::move(checked).error());
+    for (const auto& other : impl_->endpoints) {
+        if (other && other->info.endpoint.label() == endpoint.label() && endpoint.address.port != 0) {
+            return setup_error(SetupCode::usage, fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
+        }
+    }
+    const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
+    auto signature = Signature::load(endpoint.options, id);
+    if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
+    auto opened = open({impl_->core, endpoint, id, std::move(*signature)});
+    if (!opened) return tl::unexpected(std::move(opened).error());
+    impl_->endpoints.push_back(std::move(*opened));
+    return id;
+}
+
+void Links::remove(EndpointId endpoint) {
+    if (impl_->find(endpoint) != nullptr) impl_->endpoints[endpoint.value].reset();
+}
+
+std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return impl_->core.turn(handler, deadline); }
+
+std::size_t Links::send(LinkId link, wire::FrameView frame) {
+    Link* const found = impl_->core.links().find(link);
+    return found != nullptr && found->up && impl_->core.send(*found, frame) ? 1 : 0;
+}
+
+std::size_t Links::send(EndpointId endpoint, wire::FrameView frame) {
+    OpenEndpoint* const found = impl_->find(endpoint);
+    return found == nullptr ? 0 : found->send(frame);
+}
+
+bool Links::pending() const { return impl_->core.pending(); }
+
+std::size_t Links::queued_bytes(EndpointId endpoint) const {
+    const OpenEndpoint* const found = impl_->find(endpoint);
+    return found == nullptr ? 0 : found->queued_bytes();
+}
+
+void Links::wake() noexcept { impl_->core.loop().wake(); }
+
+void Links::refresh_kernel_drops() {
+    for (const auto& endpoint : impl_->endpoints)
+        if (endpoint) endpoint->refresh_kernel_drops();
+}
+
+std::vector<LinkInfo> Links::links() const {
+    std::vector<LinkInfo> infos;
+    impl_->core.links().each([&](const Link& l) { infos.push_back({l.id, l.endpoint, l.name, l.up, &l.counters}); });
+    std::sort(infos.begin(), infos.end(), [](const LinkInfo& a, const LinkInfo& b) { return a.id < b.id; });
+    return infos;
+}
+
+std::vector<EndpointInfo> Links::endpoints() const {
+    std::vector<EndpointInfo> infos;
+    for (const auto& endpoint : impl_->endpoints) {
+        if (!endpoint) continue;
+        infos.push_back(endpoint->info);
+        infos.back().counters = &endpoint->counters;
+    }
+    return infos;
+}
+
+std::string_view Links::link_name(LinkId link) const {
+    const Link* const found = impl_->core.links().find(link);
+    return found == nullptr ? std::string_view{} : std::string_view(found->name);
+}
+
+}  // namespace mavloom::runtime

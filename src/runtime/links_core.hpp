@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// What all endpoints of one Links share: the loop, buffers, the table of links, the way of a frame from parser to handler and from `send` to a
+// queue. Private to module runtime; one owner thread.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mavloom/net/block_queue.hpp"
+#include "mavloom/net/event_loop.hpp"
+#include "mavloom/net/resolver.hpp"
+#include "mavloom/net/udp.hpp"
+#include "mavloom/runtime/links.hpp"
+#include "mavloom/wire/parse_event.hpp"
+#include "mavloom/wire/sequence.hpp"
+#include "mavloom/wire/signing.hpp"
+#include "runtime/links_message_class.hpp"
+
+namespace mavloom::runtime::detail {
+
+// Something with bytes to send at the end of a turn: a UDP socket with all its peers, or one TCP stream.
+class Outlet {
+public:
+    virtual ~Outlet() = default;
+    virtual void flush(MonoTime now) = 0;
+    // Something is still queued that the kernel would not take.
+    [[nodiscard]] virtual bool blocked() const = 0;
+    // Drops what has become too old while blocked.
+    virtual void expire(MonoTime now) = 0;
+
+    bool scheduled = false;  // stands in Core's list
+};
+
+class Signature;
+
+struct Link {
+    Link(EndpointId owner, const net::BlockQueue::Limits& limits) : endpoint(owner), queue(limits) {}
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+    virtual ~Link() = default;
+    // Tells the outlet that `queue` has something new.
+    virtual void schedule() = 0;
+
+    LinkId id;  // given by Core::add_link
+    EndpointId endpoint;
+    std::string name;
+    bool up = false;
+    bool told_up = false;
+    bool queued = false;  // waits in its outlet
+    Signature* signature = nullptr;
+    LinkCounters counters;
+    net::BlockQueue queue;
+    wire::SequenceTracker tracker;
+};
+
+// sign= and verify= of one endpoint.
+class Signature {
+public:
+    [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options, EndpointId endpoint);
+
+    [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
+    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1, or an id
+    // without definition).
+    [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table, WallTime now) noexcept;
+
+private:
+    std::optional<wire::Verifier> verifier_;
+    std::optional<wire::Signer> signer_;
+    std::array<std::uint8_t, wire::max_frame_length> buffer_{};
+};
+
+// Link ids rise and are never given twice, yet a look-up is one load: an id is skipped while its place in the table is taken.
+class LinkTable {
+public:
+    LinkTable() : places_(64) {}
+    // Gives the link its id.
+    void add(Link& link);
+    void remove(LinkId id) noexcept;
+    [[nodiscard]] Link* find(LinkId id) const noexcept {
+        Link* link = places_[id.value & (places_.size() - 1)];
+        return link != nullptr && link->id == id ? link : nullptr;
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    template <class F>
+    void each(F&& f) const {
+        for (Link* link : places_)
+            if (link != nullptr) f(*link);
+    }
+
+private:
+    std::vector<Link*> places_;  // a power of two, at most half taken
+    std::size_t size_ = 0;
+    std::uint32_t last_ = 0;
+};
+
+class Core;
+
+// What an endpoint is made from.
+struct Opening {
+    Core& core;
+    const Endpoint& endpoint;
+    EndpointId id;
+    std::unique_ptr<Signature> signature;
+};
+
+// One endpoint of the grammar, opened.
+class OpenEndpoint {
+public:
+    explicit OpenEndpoint(Opening& opening) : signature(std::move(opening.signature)) {
+        info.id = opening.id;
+        info.endpoint = opening.endpoint;
+    }
+    OpenEndpoint(const OpenEndpoint&) = delete;
+    OpenEndpoint& operator=(const OpenEndpoint&) = delete;
+    virtual ~OpenEndpoint() = default;
+    virtual std::size_t send(const wire::FrameView& frame) = 0;
+    [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
+    virtual void refresh_kernel_drops() {}
+    // The answer to a look-up that this endpoint asked for.
+    virtual void on_resolved(net::Resolver::Answer) {}
+
+    EndpointInfo info;
+    EndpointCounters counters;
+    std::unique_ptr<Signature> signature;
+};
+
+[[nodiscard]] net::BlockQueue::Limits queue_limits(const EndpointOptions& options);
+
+class Core {
+public:
+    Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch);
+
+    std::size_t turn(LinkHandler& handler, MonoTime deadline);
+
+    [[nodiscard]] net::EventLoop& loop() noexcept { return *loop_; }
+    [[nodiscard]] const wire::MessageTable& table() const noexcept { return table_; }
+    [[nodiscard]] net::ReceiveBatch& receive_batch() noexcept { return receive_; }
+    [[nodiscard]] net::SendBatch& send_batch() noexcept { return send_; }
+    [[nodiscard]] ByteSpan stream_buffer() noexcept { return stream_; }
+    [[nodiscard]] net::Resolver& resolver() noexcept { return resolver_; }
+    [[nodiscard]] const LinkTable& links() const noexcept { return links_; }
+    // The instant of this turn.
+    [[nodiscard]] MonoTime now() const noexcept { return now_; }
+
+    // `link.name` is made unique. The handler is told at once inside a turn, else when the next begins.
+    void add_link(Link& link);
+    void set_up(Link& link);
+    void set_down(Link& link, std::string_view why);
+    void remove_link(Link& link, std::string_view why);
+    void notice(EndpointId endpoint, std::string text);
+
+    // What a link's parser found.
+    void on_event(Link& link, const wire::ParseEvent& event, WallTime time) {
+        if (event.kind == wire::ParseEvent::Kind::frame) [[likely]] {
+            on_frame(link, event, time);
+        } else {
+            on_bad_bytes(link, event);
+        }
+    }
+    // True when the frame was queued.
+    bool send(Link& link, const wire::FrameView& frame);
+
+    void schedule(Outlet& outlet) {
+        if (std::exchange(outlet.scheduled, true)) return;
+        outlets_.push_back(&outlet);
+    }
+    void forget(Outlet& outlet) noexcept;
+
+    // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for.
+    void resolve(OpenEndpoint& endpoint, const HostPort& host);
+    [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const HostPort& host, std::chrono::milliseconds limit, OpenEndpoint& endpoint);
+    void forget(const OpenEndpoint& endpoint) noexcept;
+
+    // A stream parser that holds bytes back gives its deadline here; `tick` is called once when it has passed.
+    class Ticker {
+    public:
+        virtual ~Ticker() = default;
+        [[nodiscard]] virtual std::optional<MonoTime> tick_due() const = 0;
+        virtual void tick(MonoTime now) = 0;
+        bool ticking = false;  // stands in Core's list
+    };
+    void keep_ticking(Ticker& ticker) {
+        if (!std::exchange(ticker.ticking, true)) tickers_.push_back(&ticker);
+    }
+    void forget(Ticker& ticker) noexcept;
+    // Destroyed when the turn is over: objects may end themselves inside their own callbacks.
+    void bury(std::unique_ptr<Link> link) { graveyard_.push_back(std::move(link)); }
+    [[nodiscard]] bool pending() const;
+
+private:
+    void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
+    void on_bad_bytes(Link& link, const wire::ParseEvent& event) noexcept;
+    static void count_sequence(Link& link, wire::SequenceTracker::Update update) noexcept;
+    void tell_backlog();
+    void flush();
+    void expire_blocked();
+    [[nodiscard]] MonoTime wait_limit(MonoTime deadline) const;
+    void run_tickers();
+    void collect_answers();
+    [[nodiscard]] bool name_taken(const std::string& name) const;
+
+    const wire::MessageTable& table_;
+    MessageClasses classes_;
+    std::unique_ptr<net::EventLoop> loop_;
+    net::Resolver resolver_;
+    net::ReceiveBatch receive_;
+    net::SendBatch send_;
+    std::vector<std::uint8_t> stream_;
+    LinkTable links_;
+    LinkHandler* handler_ = nullptr;  // inside a turn only
+    MonoTime now_ = mono_now();
+    std::size_t frames_this_turn_ = 0;
+    std::vector<Outlet*> outlets_, flushing_;
+    std::vector<Ticker*> tickers_;
+    std::vector<std::pair<std::uint64_t, OpenEndpoint*>> questions_;
+    std::vector<std::pair<EndpointId, std::string>> notices_;
+    std::vector<LinkId> to_tell_up_;
+    std::vector<std::unique_ptr<Link>> graveyard_;
+};
+
+}  // namespace mavloom::runtime::detail

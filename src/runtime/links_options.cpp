@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/links_options.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mavloom::runtime::detail {
+
+static tl::unexpected<SetupError> usage(const Endpoint& endpoint, std::string_view text) {
+    return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), text));
+}
+
+SetupResult<void> check_supported(const Endpoint& endpoint) {
+    switch (endpoint.scheme) {
+        case Scheme::udpin: case Scheme::udpout: case Scheme::tcpin: case Scheme::tcpout: break;
+        case Scheme::tlog: return usage(endpoint, "a recording is no link: it is read and written by listen, relay, record and replay");
+        default: return usage(endpoint, fmt::format("{}:// is not available in this version", scheme_name(endpoint.scheme)));
+    }
+    const EndpointOptions& o = endpoint.options;
+    const std::pair<std::string_view, bool> not_yet[] = {
+        {"group", !o.group.empty() || o.group_mode != GroupMode::all},
+        {"max_rate", !o.max_rate.empty()},
+        {"max_bytes", o.max_bytes_per_s.has_value()},
+        {"in_allow", !o.in_allow.empty()},
+        {"in_block", !o.in_block.empty()},
+        {"out_allow", !o.out_allow.empty()},
+        {"out_block", !o.out_block.empty()},
+        {"tap", o.tap},
+        {"private", o.is_private},
+        {"iface", !o.iface.empty()},
+        {"ttl", o.ttl.has_value()},
+        {"low_latency", o.low_latency},
+    };
+    for (const auto& [name, set] : not_yet) {
+        if (set) return usage(endpoint, fmt::format("option {}= is not available in this version", name));
+    }
+    return {};
+}
+
+SetupResult<void> check_destination(const Endpoint& endpoint) {
+    const auto& [host, port] = endpoint.address;
+    const bool udp = endpoint.scheme == Scheme::udpout;
+    if (host.empty()) return usage(endpoint, "a destination needs a host, as in 127.0.0.1");
+    if (port == 0) return usage(endpoint, "port 0 is no destination; name the port that the far side listens on");
+    const auto address = net::Address::parse(host, port);
+    if (!address) return {};
+    if (address->is_any()) {
+        return usage(endpoint, fmt::format("{} is no destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}", host,
+                                           udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
+                                           address->is_v4() ? "127.0.0.1" : "[::1]", port));
+    }
+    if (address->is_multicast()) return usage(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
+    if (address->is_broadcast()) return usage(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
+    return {};
+}
+
+SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint) {
+    const auto& bind = endpoint.options.bind;
+    if (!bind) return std::nullopt;
+    const auto address = net::Address::parse(bind->host, bind->port);
+    if (!address) return usage(endpoint, fmt::format("bind= takes an address of this machine in numbers, not '{}'", bind->host));
+    return address;
+}
+
+}  // namespace mavloom::runtime::detail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// What Links checks in an endpoint before it opens it. Private to module runtime.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mavloom/net/address.hpp"
+#include "mavloom/runtime/endpoint.hpp"
+
+namespace mavloom::runtime::detail {
+
+// An error for a scheme or an option that these links do not honour, so that none is silently ignored.
+[[nodiscard]] SetupResult<void> check_supported(const Endpoint& endpoint);
+// An error for what nobody can send to: 0.0.0.0, port 0, a group or a broadcast address; the text says what to type.
+[[nodiscard]] SetupResult<void> check_destination(const Endpoint& endpoint);
+// bind=HOST:PORT as an address; nothing where it is not set.
+[[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
+
+}  // namespace mavloom::runtime::detail

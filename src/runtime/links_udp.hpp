@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// udpin and udpout: a socket with its peers, each peer a link. Private to module runtime; one owner thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mavloom/net/udp.hpp"
+#include "mavloom/wire/datagram_parser.hpp"
+#include "runtime/links_core.hpp"
+#include "runtime/links_peer_table.hpp"
+
+namespace mavloom::runtime::detail {
+
+class UdpPort;
+
+struct UdpPeer final : Link {
+    UdpPeer(EndpointId owner, const net::BlockQueue::Limits& limits, const wire::MessageTable& table, UdpPort& p, const net::Address& a)
+        : Link(owner, limits), port(&p), address(a), parser(table) {}
+    void schedule() override;
+
+    UdpPort* port;
+    net::Address address;
+    wire::DatagramParser parser;
+    MonoTime last_heard{};
+    std::uint64_t datagrams = 0;
+};
+
+// What an endpoint decides about its sockets' datagrams.
+class UdpOwner {
+public:
+    virtual ~UdpOwner() = default;
+    // Whose datagram this is; null: nobody's, and it is counted.
+    [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
+    // The kernel or the network refused what went to `peer`.
+    virtual void on_send_error(UdpPort& port, net::IoError error) = 0;
+};
+
+// One socket: reads a batch a turn, and sends what its peers queued with one sendmmsg a turn.
+class UdpPort final : public Outlet, public net::IoHandler, public net::TimerHandler {
+public:
+    UdpPort(Core& core, UdpOwner& owner, EndpointCounters& counters, std::uint32_t mtu_bytes)
+        : core_(core), owner_(owner), counters_(counters), mtu_bytes_(mtu_bytes) {}
+    ~UdpPort() override;
+
+    [[nodiscard]] SetupResult<void> open(const net::Address& local, const net::UdpOptions& options);
+    [[nodiscard]] const net::UdpSocket& socket() const noexcept { return socket_; }
+    [[nodiscard]] PeerTable<UdpPeer>& peers() noexcept { return peers_; }
+
+    void schedule(UdpPeer& peer) {
+        waiting_.push_back(&peer);
+        core_.schedule(*this);
+    }
+    // The peer is about to go.
+    void forget(UdpPeer& peer) noexcept;
+    void refresh_kernel_drops() noexcept;
+
+    void on_io(net::IoEvents events) override;
+    void on_timer(MonoTime now) override;
+    void flush(MonoTime now) override;
+    [[nodiscard]] bool blocked() const override { return blocked_; }
+    void expire(MonoTime now) override;
+
+private:
+    struct Part {  // of the batch being built: one datagram
+        UdpPeer* peer;
+        net::BlockQueue::Position until;
+        std::uint32_t frames, bytes;
+    };
+
+    void receive();
+    bool submit();
+    bool recover(std::size_t index, net::IoError error, int& refusals);
+    static void account(const Part& part) noexcept;
+    void block(bool wait_for_room);
+
+    Core& core_;
+    UdpOwner& owner_;
+    EndpointCounters& counters_;
+    std::uint32_t mtu_bytes_;
+    net::UdpSocket socket_;
+    net::WatchId watch_;
+    net::TimerId retry_;
+    PeerTable<UdpPeer> peers_;
+    std::vector<UdpPeer*> waiting_;  // with something queued
+    std::vector<Part> parts_;
+    bool blocked_ = false;
+    std::uint32_t last_drops_ = 0;
+};
+
+// Both make the endpoint at once or say why not.
+[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening);
+[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening);
+
+}  // namespace mavloom::runtime::detail

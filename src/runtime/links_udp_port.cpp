@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+
+#include "runtime/links_udp.hpp"
+
+namespace mavloom::runtime::detail {
+
+// A datagram needs few pieces, for frames lie one behind the other; one of very many would be cut short here and is complete again after a submit.
+static constexpr std::size_t fewest_pieces = 64;
+// ICMP errors of earlier datagrams make a send fail without having been tried; one more of them may come in between.
+static constexpr int most_refusals = 3;
+static constexpr std::chrono::milliseconds retry_after{1};
+
+void UdpPeer::schedule() { port->schedule(*this); }
+
+UdpPort::~UdpPort() {
+    core_.forget(*this);
+    core_.loop().cancel_timer(retry_);
+    core_.loop().unwatch(watch_);
+}
+
+SetupResult<void> UdpPort::open(const net::Address& local, const net::UdpOptions& options) {
+    auto socket = net::UdpSocket::open(local, options);
+    if (!socket) return tl::unexpected(std::move(socket).error());
+    auto watch = core_.loop().watch(socket->fd(), true, false, *this);
+    if (!watch) return tl::unexpected(std::move(watch).error());
+    core_.loop().unwatch(watch_);
+    refresh_kernel_drops();
+    socket_ = std::move(*socket);
+    watch_ = *watch;
+    last_drops_ = 0;
+    blocked_ = false;
+    return {};
+}
+
+void UdpPort::forget(UdpPeer& peer) noexcept {
+    peers_.remove(peer.address);
+    std::erase(waiting_, &peer);
+    for (Part& part : parts_)
+        if (part.peer == &peer) part.peer = nullptr;
+}
+
+void UdpPort::refresh_kernel_drops() noexcept {
+    if (!socket_) return;
+    const std::uint32_t drops = socket_.kernel_drops();
+    counters_.kernel_drop.add(drops - last_drops_);  // the kernel's counter wraps at 2^32, and so does the difference
+    last_drops_ = drops;
+}
+
+void UdpPort::on_io(net::IoEvents events) {
+    if (events.failed) {
+        const std::size_t errors = socket_.drain_errors();
+        counters_.send_errors.add(errors);
+        if (errors != 0) owner_.on_send_error(*this, net::IoError::refused);
+    }
+    if (events.writable && blocked_) {
+        blocked_ = false;
+        core_.loop().change(watch_, true, false);
+        core_.schedule(*this);
+    }
+    if (events.readable) receive();
+}
+
+void UdpPort::on_timer(MonoTime) {
+    retry_ = {};
+    blocked_ = false;
+    core_.schedule(*this);
+}
+
+void UdpPort::receive() {
+    net::ReceiveBatch& batch = core_.receive_batch();
+    const auto count = socket_.receive(batch);
+    if (!count) return;  // would_block, or an ICMP error that `failed` reports as well
+    for (std::size_t i = 0; i < *count; ++i) {
+        const net::Datagram datagram = batch[i];
+        UdpPeer* const peer = owner_.peer_of(*this, datagram);
+        if (peer == nullptr) continue;
+        peer->last_heard = core_.now();
+        ++peer->datagrams;
+        const WallTime time = datagram.time == WallTime{} ? wall_now() : datagram.time;
+        peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
+        peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
+    }
+}
+
+void UdpPort::expire(MonoTime now) {
+    for (UdpPeer* peer : waiting_) peer->counters.queue_age.add(peer->queue.expire(now));
+}
+
+void UdpPort::flush(MonoTime) {
+    if (blocked_) return;
+    net::SendBatch& batch = core_.send_batch();
+    batch.clear();
+    parts_.clear();
+    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
+        UdpPeer& peer = *waiting_[i];
+        auto position = peer.queue.front();
+        for (;;) {
+            if ((batch.full() || batch.room().size() < fewest_pieces) && !submit()) break;
+            const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
+            if (gathered.blocks == 0) break;
+            batch.add(&peer.address, gathered.pieces);
+            parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks), static_cast<std::uint32_t>(gathered.bytes)});
+        }
+    }
+    if (!blocked_) submit();
+    std::erase_if(waiting_, [](UdpPeer* peer) {
+        peer->queued = !peer->queue.empty();
+        return !peer->queued;
+    });
+}
+
+// Sends the batch; false when the kernel will take no more for now. What was not sent is still queued.
+bool UdpPort::submit() {
+    net::SendBatch& batch = core_.send_batch();
+    int refusals = 0;
+    for (std::size_t first = 0; first < batch.size();) {
+        const auto sent = socket_.send(batch, first);
+        if (!sent) {
+            if (!recover(first, sent.error(), refusals)) break;
+            if (refusals == 0) ++first;
+            continue;
+        }
+        for (std::size_t i = first; i < first + *sent; ++i) account(parts_[i]);
+        first += *sent;
+        refusals = 0;
+    }
+    batch.clear();
+    parts_.clear();
+    return !blocked_;
+}
+
+void UdpPort::account(const Part& part) noexcept {
+    if (part.peer == nullptr) return;
+    part.peer->counters.frames_out.add(part.frames);
+    part.peer->counters.bytes_out.add(part.bytes);
+    part.peer->queue.pop(part.until);
+}
+
+// False: stop for now. With refusals at 0 the datagram was given up, else it is to be tried again.
+bool UdpPort::recover(std::size_t index, net::IoError error, int& refusals) {
+    if (error == net::IoError::would_block || error == net::IoError::no_buffers) {
+        block(error == net::IoError::would_block);
+        return false;
+    }
+    if (error == net::IoError::refused && ++refusals < most_refusals) return true;
+    refusals = 0;
+    counters_.send_errors.add();
+    if (parts_[index].peer != nullptr) parts_[index].peer->queue.pop(parts_[index].until);
+    owner_.on_send_error(*this, error);
+    return true;
+}
+
+// ENOBUFS comes from a full device queue, and no event tells when it has room again.
+void UdpPort::block(bool wait_for_room) {
+    blocked_ = true;
+    if (wait_for_room) {
+        core_.loop().change(watch_, true, true);
+    } else {
+        retry_ = core_.loop().start_timer(core_.now() + retry_after, *this);
+    }
+}
+
+}  // namespace mavloom::runtime::detail
