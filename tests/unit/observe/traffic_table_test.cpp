@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/observe/traffic_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/golden_frames.hpp"
+
+namespace mavloom::observe {
+
+using namespace std::chrono_literals;
+
+namespace {
+const auto heartbeat = wire::FrameView::unchecked(test::heartbeat_v2);
+const auto attitude = wire::FrameView::unchecked(test::attitude_v1);
+WallTime at(Nanoseconds t) { return WallTime{t}; }
+}  // namespace
+
+TEST(TrafficTable, TakesTheRateFromMeasuredTime) {
+    TrafficTable sut;
+    for (const auto t : {100ms, 150ms, 300ms, 350ms, 600ms}) sut.add(LinkId{1}, heartbeat, at(t));
+
+    const auto rows = sut.sorted();
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].count, 5u);
+    EXPECT_EQ(rows[0].bytes, 5 * 21u);
+    EXPECT_DOUBLE_EQ(rows[0].rate_hz(), 8.0);  // 4 gaps in half a second
+    EXPECT_EQ(rows[0].shortest_gap, 50ms);
+    EXPECT_EQ(rows[0].longest_gap, 250ms);
+    EXPECT_EQ(rows[0].mean_gap(), 125ms);
+}
+
+TEST(TrafficTable, OneFrameHasNoRate) {
+    TrafficTable sut;
+    sut.add(LinkId{1}, heartbeat, at(1s));
+
+    EXPECT_EQ(sut.sorted()[0].rate_hz(), 0);
+    EXPECT_EQ(sut.sorted()[0].mean_gap(), 0ns);
+}
+
+TEST(TrafficTable, SortsByLinkSourceAndId) {
+    TrafficTable sut;
+    sut.add(LinkId{2}, heartbeat, at(0s));
+    sut.add(LinkId{1}, attitude, at(0s));
+    sut.add(LinkId{1}, heartbeat, at(0s));
+
+    const auto rows = sut.sorted();
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].id, MessageId{0});
+    EXPECT_EQ(rows[1].id, MessageId{30});
+    EXPECT_EQ(rows[2].link, LinkId{2});
+}
+
+TEST(TrafficTable, BoundsItsRowsAndCountsTheRest) {
+    TrafficTable sut;
+    auto bytes = test::heartbeat_v2;
+    for (unsigned link = 0; link < 2; ++link)
+        for (unsigned source = 0; source < 65536; ++source) {
+            bytes[5] = static_cast<std::uint8_t>(source);
+            bytes[6] = static_cast<std::uint8_t>(source >> 8);
+            sut.add(LinkId{link}, wire::FrameView::unchecked(bytes), at(0s));
+        }
+
+    EXPECT_EQ(sut.sorted().size(), TrafficTable::max_rows);
+    EXPECT_EQ(sut.unlisted(), 65536u);
+}
+
+}  // namespace mavloom::observe

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The first working path on one machine, over real UDP sockets:
+
+    recorded PX4 flight --replay--> +--> mavloom listen   (decoded, shown here)
+                                    +--> mavloom relay    (decoded, re-encoded) --> ground-station port (recorded)
+
+Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte what the vehicle sent.
+Exit status: 0 all bytes agree, 4 they do not, 1 a program failed.
+"""
+import argparse
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FLIGHT = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
+SHOWN_EACH_S = 2.0  # of every message one line in this time: all 370 a second would be a blur
+
+
+class Program:
+    """One of our programs with its talk (stderr) on a thread; its ports are read from there."""
+
+    def __init__(self, program, *args):
+        self.args = args
+        self.process = subprocess.Popen([program, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
+        self.talk = []
+        self.thread = threading.Thread(target=self._read_talk, daemon=True)
+        self.thread.start()
+
+    def _read_talk(self):
+        for line in self.process.stderr:
+            self.talk.append(line.rstrip())
+
+    def port(self, seconds=10.0):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for line in self.talk:
+                if found := re.search(r"listening on port (\d+)", line):
+                    return int(found[1])
+            if self.process.poll() is not None:
+                break
+            time.sleep(0.01)
+        raise SystemExit(f"demo: 'mavloom {' '.join(map(str, self.args))}' did not start:\n" + "\n".join(self.talk))
+
+    def stop(self, seconds=10.0):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self.thread.join(seconds)
+        return self.process.returncode
+
+
+def frames_of(tlog):
+    """The frames of a tlog, split by their own length bytes: nothing of ours is used to check ours."""
+    data, frames, at = pathlib.Path(tlog).read_bytes(), [], 0
+    while at + 8 + 3 <= len(data):
+        start, length, flags = data[at + 8], data[at + 9], data[at + 10]
+        size = length + (12 + 13 * (flags & 1) if start == 0xFD else 8)
+        frames.append(data[at + 8:at + 8 + size])
+        at += 8 + size
+    return frames
+
+
+class Show:
+    """Prints one line of each message now and then, and everything of the closing table."""
+
+    def __init__(self, stream):
+        self.last, self.lines, self.in_table = {}, 0, False
+        self.thread = threading.Thread(target=self._run, args=(stream,), daemon=True)
+        self.thread.start()
+
+    def _run(self, stream):
+        for line in stream:
+            self.in_table = self.in_table or line == "\n"
+            if self.in_table:
+                print(line, end="")
+                continue
+            self.lines += 1
+            name = next((word for word in line.split() if word.isupper() and len(word) > 3), "")
+            if time.monotonic() - self.last.get(name, -SHOWN_EACH_S) >= SHOWN_EACH_S:
+                self.last[name] = time.monotonic()
+                print(line.rstrip()[:180], flush=True)
+
+
+def wait_until_steady(path, seconds=3.0):
+    """The recorder has written all that is under way when the file no longer grows."""
+    size, since = -1, time.monotonic()
+    end = since + seconds
+    while time.monotonic() < end and time.monotonic() - since < 0.5:
+        now = os.path.getsize(path) if os.path.exists(path) else 0
+        if now != size:
+            size, since = now, time.monotonic()
+        time.sleep(0.02)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=str(ROOT / "build" / "release" / "bin" / "mavloom"))
+    parser.add_argument("--for", dest="duration", default=None, metavar="TIME", help="only this much of the flight, for example 20s (default: all of it, 108 s)")
+    parser.add_argument("--speed", default="1", metavar="N", help="times the recorded pace (default 1)")
+    parser.add_argument("--flight", default=str(FLIGHT), metavar="FILE.tlog", help="another recording")
+    options = parser.parse_args()
+
+    with tempfile.TemporaryDirectory(prefix="mavloom-demo-") as folder:
+        return run(options, pathlib.Path(folder))
+
+
+def run(options, folder):
+    mavloom, received = options.program, folder / "ground-station.tlog"
+    started = []
+    try:
+        station = Program(mavloom, "record", "udpin://127.0.0.1:0", "-o", received)
+        started.append(station)
+        relay = Program(mavloom, "relay", "udpin://127.0.0.1:0", "--to", f"udpout://127.0.0.1:{station.port()}")
+        started.append(relay)
+        listen = Program(mavloom, "listen", "udpin://127.0.0.1:0", "--stats")
+        started.append(listen)
+        show = Show(listen.process.stdout)
+        bound = ["--for", options.duration] if options.duration else []
+        print(f"demo: replaying {pathlib.Path(options.flight).name} to mavloom listen (port {listen.port()}) and through mavloom relay (port {relay.port()}) "
+              f"to a ground station (port {station.port()})\n", flush=True)
+        replay = Program(mavloom, "replay", options.flight, "--speed", options.speed, *bound,
+                         "--to", f"udpout://127.0.0.1:{listen.port()}", "--to", f"udpout://127.0.0.1:{relay.port()}")
+        started.append(replay)
+        status = replay.process.wait()
+        replay.thread.join()
+        wait_until_steady(received)
+        statuses = {"relay": relay.stop(), "record": station.stop(), "listen": listen.stop()}
+        show.thread.join(10)
+    except KeyboardInterrupt:
+        return 130
+    finally:
+        for program in started:
+            program.stop(2)
+
+    for name, program in (("replay", replay), ("relay", relay), ("record", station), ("listen", listen)):
+        for line in program.talk:
+            print(f"{name:>7} | {line}")
+    bad = {name: code for name, code in statuses.items() if code != 130}
+    if status != 0 or bad:
+        print(f"demo: FAILED: replay ended with {status}, others with {statuses}")
+        return 1
+    return compare(options, received, show.lines, sent_by(replay))
+
+
+def sent_by(replay):
+    """How many frames replay says it sent to each of its destinations (the fewest of them)."""
+    return min(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) frames, \d+ bytes sent", line)))
+
+
+def compare(options, received, shown, count):
+    got, sent = frames_of(received), frames_of(options.flight)[:count]
+    print(f"\ndemo: {len(got)} frames reached the ground station, {sum(map(len, got))} bytes; mavloom listen showed {shown} messages")
+    if got == sent and shown == len(got) and got:
+        print("demo: OK: byte for byte what was sent")
+        return 0
+    differing = next((i for i, (a, b) in enumerate(zip(sent, got)) if a != b), min(len(sent), len(got)))
+    print(f"demo: MISMATCH: {len(sent)} frames sent, {len(got)} received, {shown} shown; the first difference is at frame {differing}")
+    return 4
+
+
+if __name__ == "__main__":
+    sys.exit(main())
