@@ -22,7 +22,7 @@ set(generated "${PROJECT_BINARY_DIR}/generated")
 _mavloom_generate_dialect("${PROJECT_SOURCE_DIR}/dialects/all.xml" mavloom::msg "${generated}" --builtin)
 add_library(mavloom_dialect_builtin ${tables})
 add_library(mavloom::dialect_builtin ALIAS mavloom_dialect_builtin)
-set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin POSITION_INDEPENDENT_CODE ON)
+set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin POSITION_INDEPENDENT_CODE ON CXX_CLANG_TIDY "")
 target_link_libraries(mavloom_dialect_builtin PUBLIC mavloom_dialect_core)
 target_link_libraries(mavloom_dialect INTERFACE mavloom_dialect_builtin mavloom_dialect_core)
 

@@ -27,7 +27,7 @@ def installed(tmp_path_factory):
 
 
 def build_outside(folder, *options):
-    call("cmake", "-S", OUTSIDE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *options)
+    call("cmake", "-S", OUTSIDE, "-B", folder, "-G", "Ninja", *options)
     call("cmake", "--build", folder, "-j", str(os.cpu_count()))
     return call(folder / "outside")
 
