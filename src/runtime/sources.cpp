@@ -30,8 +30,7 @@ SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path
 
 SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
     if (endpoint.scheme != Scheme::tlog) {
-        has_links_ = true;
-        return links_->add(endpoint).map([](EndpointId) {});
+        return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
     auto reader = record::TlogReader::open(endpoint.path, *table_);
     if (!reader) return tl::unexpected(std::move(reader.error()));
@@ -78,6 +77,12 @@ std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t m
         frames += played;
     }
     return frames;
+}
+
+std::size_t Sources::send(const wire::FrameView& frame) {
+    std::size_t takers = 0;
+    for (const auto id : live_) takers += links_->send(id, frame);
+    return takers;
 }
 
 bool Sources::finished_recordings() const noexcept {

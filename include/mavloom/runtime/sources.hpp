@@ -28,8 +28,11 @@ public:
     // One turn of the links, then at most `most_frames` frames of the recordings that are due. Returns the number of frames handed over.
     std::size_t turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames);
 
+    // Sends a frame to every live source: what a destination answered goes back. Returns the number of links that took it.
+    std::size_t send(const wire::FrameView& frame);
+
     // Every source is a recording and all were read to their end.
-    [[nodiscard]] bool finished() const noexcept { return !has_links_ && finished_recordings(); }
+    [[nodiscard]] bool finished() const noexcept { return live_.empty() && finished_recordings(); }
     [[nodiscard]] bool finished_recordings() const noexcept;
     // The first error that ended a recording before its end.
     [[nodiscard]] const SetupError* error() const noexcept;
@@ -63,7 +66,7 @@ private:
     std::unique_ptr<Links> links_;
     const wire::MessageTable* table_ = nullptr;
     std::vector<std::unique_ptr<Recording>> recordings_;
-    bool has_links_ = false;
+    std::vector<EndpointId> live_;
 };
 
 }  // namespace mavloom::runtime

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "destinations.hpp"
+#include "mavloom/edit/stage.hpp"
+#include "mavloom/runtime/sources.hpp"
+#include "signals.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t frames_a_turn = 1024;  // of recordings
+constexpr auto longest_flush = 5s;
+
+struct Options {
+    std::vector<std::string> sources, to;
+    std::string duration;
+    edit::Options edit;
+    std::string sign_file;
+    bool as_v1 = false, as_v2 = false;
+};
+
+class Relay : private runtime::LinkHandler {
+public:
+    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage)
+        : common_(common), sources_(sources), destinations_(destinations), stage_(stage) {}
+
+    // Recordings wait for somebody to send to; live sources do not.
+    Exit run(MonoTime end) {
+        const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &sources_);
+        while (going(end) && !sources_.finished()) {
+            const bool room = (started_ = started_ || destinations_.all_up()) && destinations_.have_room();
+            sources_.turn(*this, std::min(end, mono_now() + (started_ ? 1s : 20ms)), room ? frames_a_turn : 0);
+        }
+        drain();
+        return finish();
+    }
+
+private:
+    void on_frame(const runtime::RxFrame& rx) override {
+        const auto now = mono_now();
+        if (destinations_.has(rx.endpoint)) {
+            const auto outcome = stage_.backward(rx.frame, now, rx.time);
+            if (outcome.verdict == edit::Verdict::forward) sources_.send(outcome.frame);
+            return;
+        }
+        const auto outcome = stage_.forward(rx.frame, now, rx.time);
+        if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame);
+    }
+    void on_link_up(LinkId, runtime::EndpointId, std::string_view name) override {
+        if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
+    }
+    void on_link_down(LinkId, runtime::EndpointId, std::string_view why) override {
+        if (common_.verbose > 0) say(common_, fmt::format("link down: {}", why));
+    }
+    void on_notice(runtime::EndpointId, std::string_view text) override {
+        if (common_.verbose > 0) say(common_, text);
+    }
+
+    static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
+
+    // What had arrived is relayed, and what is queued gets its time to leave.
+    void drain() {
+        const auto limit = mono_now() + longest_flush;
+        while (mono_now() < limit && (sources_.turn(*this, MonoTime{}, 0) != 0 || sources_.links().pending()))
+            if (sources_.links().pending()) sources_.links().turn(*this, mono_now() + 5ms);
+    }
+
+    Exit finish() {
+        sources_.links().refresh_kernel_drops();
+        destinations_.say_sums(common_);
+        const auto& c = stage_.counters();
+        say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(), c.reencoded.value(),
+                                 c.passed_untouched.value()));
+        say_unless_zero(c.filtered, "filtered: frames that --only leaves out");
+        say_unless_zero(c.rate_limited, "rate_limited: frames over --max-rate");
+        say_unless_zero(c.not_v1, "not_v1: frames that MAVLink 1 cannot carry");
+        say_unless_zero(c.signature_removed, "signature_removed: changed frames that lost their signature (--sign gives a new one)");
+        for (const auto& endpoint : sources_.links().endpoints())
+            say_unless_zero(endpoint.counters->kernel_drop, "kernel_drop: datagrams that the kernel had no room for");
+        if (const auto* error = sources_.error()) return fail(Exit::failed, error->text);
+        return Signals::status(Exit::done);
+    }
+
+    void say_unless_zero(const Counter& counter, std::string_view meaning) const {
+        if (counter.value() != 0) say(common_, fmt::format("{} {}", counter.value(), meaning));
+    }
+
+    const Common& common_;
+    runtime::Sources& sources_;
+    Destinations& destinations_;
+    edit::Stage& stage_;
+    bool started_ = false;
+};
+
+SetupResult<void> check_words(Options& options) {
+    if (options.as_v1) options.edit.as_version = wire::Version::v1;
+    if (options.as_v2) options.edit.as_version = wire::Version::v2;
+    if (!options.sign_file.empty()) {
+        auto key = wire::SigningKey::load(options.sign_file);
+        if (!key) return tl::unexpected(std::move(key.error()).within("--sign"));
+        options.edit.sign_key = *key;
+    }
+    if (!options.duration.empty())
+        if (auto time = runtime::parse_duration(options.duration); !time) return tl::unexpected(std::move(time.error()).within("--for"));
+    return {};
+}
+
+SetupResult<void> open_sources(const Common& common, const Options& options, runtime::Sources& sources) {
+    for (const auto& text : options.sources) {
+        const auto endpoint = runtime::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(endpoint.error());
+        if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
+    }
+    for (const auto& info : sources.links().endpoints())
+        if (info.endpoint.address.port == 0) say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+    return {};
+}
+
+Exit relay(const Common& common, Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    if (auto checked = check_words(options); !checked) return fail(checked.error());
+    auto stage = edit::Stage::create(*dialect, options.edit);
+    if (!stage) return fail(stage.error());
+    auto sources = runtime::Sources::create(*dialect);
+    if (!sources) return fail(sources.error());
+    if (auto opened = open_sources(common, options, *sources); !opened) return fail(opened.error());
+    auto destinations = Destinations::open(common, options.to, sources->links());
+    if (!destinations) return fail(destinations.error());
+    const auto end = options.duration.empty() ? MonoTime::max() : mono_now() + *runtime::parse_duration(options.duration);
+    return Relay(common, *sources, *destinations, **stage).run(end);
+}
+
+}  // namespace
+
+Run declare_relay(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    auto& edit = options->edit;
+    command.add_option("source", options->sources, "where to receive")->required()->type_name("SOURCE");
+    command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
+    command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")->type_name("MESSAGE.FIELD=VALUE");
+    command.add_option("--remap-system", edit.remap_system, "change system id A to B, and back in what the far side answers")->type_name("A=B");
+    command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")->delimiter(',')->type_name("NAMES");
+    command.add_option("--max-rate", edit.max_rate, "at most this many a second of each source: ATTITUDE:10,*:50")->delimiter(',')->type_name("MESSAGE:HZ");
+    auto* v1 = command.add_flag("--as-v1", options->as_v1, "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
+    command.add_flag("--as-v2", options->as_v2, "send MAVLink 2")->excludes(v1);
+    command.add_option("--sign", options->sign_file, "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)")->type_name("FILE")->excludes(v1);
+    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in signatures")->capture_default_str()->type_name("0-255");
+    command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
+    command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
+    command.footer("Without options what comes out is byte for byte what went in. What the far side answers goes back.\n\nExamples:\n"
+                   "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
+                   "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
+    return [options, &common] { return relay(common, *options); };
+}
+
+}  // namespace mavloom::app
