@@ -2,43 +2,28 @@
 // A folder of XML files for one test, removed with it.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "mavloom/dialect/dialect.hpp"
+#include "support/temp_dir.hpp"
 
 namespace mavloom::dialect::test {
 
 class XmlFolder {
 public:
-    XmlFolder() {
-        auto pattern = (std::filesystem::temp_directory_path() / "mavloom_xml_XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp " + pattern);
-        path_ = pattern;
-    }
-    ~XmlFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    XmlFolder(const XmlFolder&) = delete;
-    XmlFolder& operator=(const XmlFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
 
     void write(std::string_view name, std::string_view text) const {
-        const auto file = path_ / name;
+        const auto file = folder_ / std::string(name);
         std::filesystem::create_directories(file.parent_path());
         std::ofstream(file, std::ios::binary) << text;
     }
 
     [[nodiscard]] SetupResult<Dialect> load(std::string_view name = "a.xml") const {
-        return Dialect::load(path_ / name);
+        return Dialect::load(folder_ / std::string(name));
     }
 
     // The error of loading `name`, the folder's path cut out of it; empty where it loads.
@@ -46,17 +31,17 @@ public:
         const auto loaded = load(name);
         if (loaded) return "";
         auto text = loaded.error().text;
-        const auto prefix = path_.string() + "/";
+        const auto prefix = path().string() + "/";
         for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
             text.erase(at, prefix.size());
         return text;
     }
 
 private:
-    std::filesystem::path path_;
+    mavloom::test::TempDir folder_;
 };
 
-// One <message> line, by default the first line of a file's content: line 2 of the file that `messages` makes.
+// A file of messages, or of enums, whose content begins on line 2.
 inline std::string messages(std::string_view content) {
     return "<mavlink><messages>\n" + std::string(content) + "\n</messages></mavlink>\n";
 }
