@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+
+namespace mavloom::record {
+
+tl::unexpected<SetupError> File::failed(std::string_view doing, int error) const {
+    return system_error(fmt::format("cannot {} {}", doing, path_.string()), error);
+}
+
+SetupResult<File> File::open(const std::filesystem::path& path, int flags, std::string_view doing) {
+    const int fd = ::open(path.c_str(), flags | O_CLOEXEC, 0644);
+    File file(path, fd, false);
+    if (fd < 0) return file.failed(doing, errno);
+    struct stat status {};
+    if (::fstat(fd, &status) != 0) return file.failed(doing, errno);
+    if (S_ISDIR(status.st_mode)) return file.failed(doing, EISDIR);
+    file.regular_ = S_ISREG(status.st_mode);
+    return file;
+}
+
+SetupResult<File> File::open_to_read(const std::filesystem::path& path) {
+    auto file = open(path, O_RDONLY, "read");
+    if (file && file->regular_)
+        (void)::posix_fadvise(file->fd_, 0, 0, POSIX_FADV_SEQUENTIAL);  // only advice: a refusal changes nothing
+    return file;
+}
+
+SetupResult<File> File::create(const std::filesystem::path& path) {
+    return open(path, O_WRONLY | O_CREAT | O_EXCL, "create");
+}
+
+SetupResult<File> File::open_to_write(const std::filesystem::path& path) { return open(path, O_WRONLY, "write"); }
+
+File& File::operator=(File&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(fd_, other.fd_);
+    std::swap(regular_, other.regular_);
+    return *this;
+}
+
+File::~File() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+SetupResult<std::size_t> File::read(ByteSpan out) {
+    std::size_t done = 0;
+    while (done < out.size()) {
+        const auto got = ::read(fd_, out.data() + done, out.size() - done);
+        if (got == 0) break;
+        if (got > 0) done += static_cast<std::size_t>(got);
+        else if (errno != EINTR) return failed("read", errno);
+    }
+    return done;
+}
+
+File::Written File::write(ByteView bytes) noexcept {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const auto took = ::write(fd_, bytes.data() + done, bytes.size() - done);
+        if (took >= 0) done += static_cast<std::size_t>(took);
+        else if (errno != EINTR) return {done, errno};
+    }
+    return {done, 0};
+}
+
+SetupResult<void> File::seek(std::uint64_t offset) {
+    if (::lseek(fd_, static_cast<off_t>(offset), SEEK_SET) < 0) return failed("seek in", errno);
+    return {};
+}
+
+SetupResult<void> File::truncate(std::uint64_t size) {
+    if (::ftruncate(fd_, static_cast<off_t>(size)) != 0) return failed("shorten", errno);
+    return seek(size);
+}
+
+SetupResult<std::uint64_t> File::size() const {
+    struct stat status {};
+    if (::fstat(fd_, &status) != 0) return failed("read the size of", errno);
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+SetupResult<void> File::sync_and_close() {
+    const int fd = std::exchange(fd_, -1);
+    const int sync_error = regular_ && ::fdatasync(fd) != 0 ? errno : 0;
+    const int close_error = ::close(fd) != 0 ? errno : 0;
+    if (sync_error != 0) return failed("write", sync_error);
+    if (close_error != 0 && close_error != EINTR) return failed("write", close_error);
+    return {};
+}
+
+}  // namespace mavloom::record

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "record/tlog_format.hpp"
+
+#include <algorithm>
+
+#include "mavloom/wire/crc.hpp"
+
+namespace mavloom::record {
+
+namespace {
+
+constexpr bool is_start(std::uint8_t byte) noexcept { return byte == wire::stx_v1 || byte == wire::stx_v2; }
+
+// The length of the frame whose first bytes these are, whether or not it is here; 0 where the bytes that tell it are missing.
+std::size_t frame_length(ByteView bytes) noexcept {
+    if (bytes.size() < 3 || !is_start(bytes[0])) return 0;
+    if (bytes[0] == wire::stx_v1) return wire::min_frame_length + bytes[1];
+    const bool is_signed = (bytes[2] & wire::incompat_signed) != 0;
+    return wire::header_length_v2 + wire::checksum_length + bytes[1] + (is_signed ? wire::signature_length : 0);
+}
+
+bool has_plausible_time(ByteView bytes) noexcept {
+    return bytes.size() >= time_length && load_be64(bytes.data()) < time_limit_us;
+}
+
+std::uint16_t checksum_without_extra(const wire::FrameView& frame) noexcept {
+    return wire::crc_update(wire::crc_seed,
+                            frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length()));
+}
+
+// Whether the checksum is good, or for an id without definition could be with some CRC_EXTRA (1 in 256 of random ones can).
+bool is_possible(const wire::FrameView& frame, const wire::MessageInfo* info) noexcept {
+    const auto before = checksum_without_extra(frame);
+    if (info == nullptr) return wire::crc_extra_between(before, frame.checksum()) >= 0;
+    return wire::crc_update(before, info->crc_extra) == frame.checksum();
+}
+
+// Whether `rest`, all that follows a frame of unknown id, looks like another record: whole, or cut by the end of the file.
+bool continues(ByteView rest, const wire::MessageTable& table) noexcept {
+    if (rest.empty()) return true;
+    if (rest.size() <= time_length) return rest.front() == 0;  // the highest byte of any plausible time
+    if (!has_plausible_time(rest) || !is_start(rest[time_length])) return false;
+    const auto length = frame_length(rest.subspan(time_length));
+    if (length == 0 || time_length + length > rest.size()) return true;
+    const auto frame = wire::FrameView::unchecked(rest.subspan(time_length, length));
+    return is_possible(frame, table.find(frame.id()));
+}
+
+}  // namespace
+
+std::size_t record_length(ByteView bytes) noexcept {
+    if (bytes.size() < min_record_length) return 0;
+    const auto length = frame_length(bytes.subspan(time_length));
+    return length == 0 || time_length + length > bytes.size() ? 0 : time_length + length;
+}
+
+Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept {
+    if (!has_plausible_time(bytes)) return {};
+    const auto size = record_length(bytes);
+    if (size == 0) return {};
+    const auto frame = wire::FrameView::unchecked(bytes.subspan(time_length, size - time_length));
+    const auto* info = table.find(frame.id());
+    if (!is_possible(frame, info)) return {};
+    if (info == nullptr && !continues(bytes.subspan(size), table)) return {};
+    const bool flagged = (frame.incompat_flags() & ~wire::incompat_signed) != 0;
+    return {flagged ? Found::Kind::unknown_flags : Found::Kind::record, size, info};
+}
+
+std::size_t skip_startless(ByteView bytes) noexcept {
+    if (bytes.size() <= time_length) return 0;
+    const auto starts = bytes.subspan(time_length);
+    constexpr std::size_t block = 64;  // looked at without a branch, which compilers turn into vector instructions
+    std::size_t at = 0;
+    for (; at + block <= starts.size(); at += block) {
+        bool any = false;
+        for (std::size_t i = 0; i < block; ++i) any |= is_start(starts[at + i]);
+        if (any) break;
+    }
+    while (at < starts.size() && !is_start(starts[at])) ++at;
+    return at;
+}
+
+}  // namespace mavloom::record

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/tlog_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "record/tlog_format.hpp"
+
+namespace mavloom::record {
+
+TlogReader::TlogReader(File file, std::uint64_t size, const wire::MessageTable& table)
+    : file_(std::move(file)), table_(&table), buffer_(std::make_unique<std::uint8_t[]>(buffer_length)), size_(size) {}
+
+SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, const wire::MessageTable& table) {
+    auto file = File::open_to_read(path);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    const auto size = file->is_regular() ? file->size() : std::uint64_t{0};
+    if (!size) return tl::unexpected(size.error());
+    return TlogReader(std::move(*file), *size, table);
+}
+
+bool TlogReader::read_failed(SetupError error) {
+    error_ = std::move(error);
+    at_end_ = true;
+    begin_ = end_;
+    return false;
+}
+
+// Moves what is unread to the front and reads on. False when the file failed.
+bool TlogReader::fill() {
+    std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+    base_ += begin_;
+    end_ -= begin_;
+    begin_ = 0;
+    const auto got = file_.read({buffer_.get() + end_, buffer_length - end_});
+    if (!got) return read_failed(got.error());
+    at_end_ = *got < buffer_length - end_;
+    end_ += *got;
+    if (at_end_ && base_ + end_ < size_)
+        return read_failed(SetupError{SetupCode::bad_input, 0,
+                                      fmt::format("{} was shortened while it was read: {} of {} bytes are left",
+                                                  file_.path().string(), base_ + end_, size_)});
+    return true;
+}
+
+void TlogReader::lose(std::size_t bytes) noexcept {
+    if (bytes == 0) return;
+    if (lost_run_ == 0) counters_.damaged_places.add();
+    lost_run_ += bytes;
+    counters_.lost_bytes.add(bytes);
+    begin_ += bytes;
+}
+
+Result<Record, TlogReader::Stop> TlogReader::next() {
+    if (error_) return tl::unexpected(Stop::failed);
+    while (true) {
+        if (end_ - begin_ < look_ahead && !at_end_ && !fill()) return tl::unexpected(Stop::failed);
+        if (begin_ == end_) return tl::unexpected(Stop::end);
+        const auto found = examine_record(unread(), *table_);
+        if (found.kind == Found::Kind::nothing) [[unlikely]] {
+            lose(1);
+            lose(skip_startless(unread()));
+            if (at_end_ && end_ - begin_ < min_record_length) lose(end_ - begin_);
+            continue;
+        }
+        const ByteView bytes = unread().first(found.size);
+        const std::uint64_t offset = position();
+        begin_ += found.size;
+        const std::uint64_t lost = std::exchange(lost_run_, 0);
+        if (found.kind == Found::Kind::unknown_flags) [[unlikely]] {
+            counters_.unknown_flags.add();
+            counters_.flagged_bytes.add(found.size);
+            continue;
+        }
+        counters_.records.add();
+        counters_.record_bytes.add(found.size);
+        if (found.info == nullptr) counters_.unknown_ids.add();
+        return Record{wall_from_us(load_be64(bytes.data())), wire::FrameView::unchecked(bytes.subspan(time_length)),
+                      found.info, offset, lost};
+    }
+}
+
+SetupResult<void> TlogReader::seek(std::uint64_t offset) {
+    if (auto done = file_.seek(offset); !done) return done;
+    base_ = offset;
+    begin_ = end_ = 0;
+    lost_run_ = 0;
+    at_end_ = false;
+    error_.reset();
+    return {};
+}
+
+}  // namespace mavloom::record

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/tlog_writer.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "record/tlog_format.hpp"
+
+namespace mavloom::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Renames without ever replacing a file; 0 or errno. File systems that cannot promise that in one step are asked in two.
+int rename_to_free_name(const fs::path& from, const fs::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    struct stat status {};
+    if (::lstat(to.c_str(), &status) == 0) return EEXIST;
+    return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+SetupResult<fs::path> move_away(const fs::path& path) {
+    constexpr int most_old_files = 9999;
+    for (int n = 1; n <= most_old_files; ++n) {
+        const fs::path old = fmt::format("{}.{}", path.string(), n);
+        const int error = rename_to_free_name(path, old);
+        if (error == 0) return old;
+        if (error != EEXIST)
+            return system_error(fmt::format("cannot rename the existing {} to {}", path.string(), old.string()), error);
+    }
+    return setup_error(SetupCode::in_use, fmt::format("{} exists, and so do {}.1 to {}.{}: move some away",
+                                                      path.string(), path.string(), path.string(), most_old_files));
+}
+
+std::uint64_t time_on_file(WallTime time) noexcept {
+    return static_cast<std::uint64_t>(
+        std::clamp<std::int64_t>(unix_us(time), 0, static_cast<std::int64_t>(time_limit_us) - 1));
+}
+
+}  // namespace
+
+TlogWriter::TlogWriter(File file, fs::path renamed_to, std::size_t buffer_bytes)
+    : file_(std::move(file)),
+      renamed_to_(std::move(renamed_to)),
+      buffer_(std::make_unique<std::uint8_t[]>(buffer_bytes)),
+      capacity_(buffer_bytes) {}
+
+SetupResult<TlogWriter> TlogWriter::create(const fs::path& path, std::size_t buffer_bytes) {
+    buffer_bytes = std::max(buffer_bytes, max_record_length);
+    struct stat status {};
+    const bool leads_somewhere = ::stat(path.c_str(), &status) == 0;
+    if (leads_somewhere && !S_ISREG(status.st_mode)) {
+        auto device = File::open_to_write(path);
+        if (!device) return tl::unexpected(std::move(device.error()));
+        return TlogWriter(std::move(*device), {}, buffer_bytes);
+    }
+    fs::path old;
+    if (::lstat(path.c_str(), &status) == 0) {
+        auto moved = move_away(path);
+        if (!moved) return tl::unexpected(std::move(moved.error()));
+        old = std::move(*moved);
+    }
+    auto file = File::create(path);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    return TlogWriter(std::move(*file), std::move(old), buffer_bytes);
+}
+
+TlogWriter::~TlogWriter() {
+    if (file_.is_open() && used_ != 0) (void)flush();
+}
+
+SetupResult<void> TlogWriter::write(WallTime time, const wire::FrameView& frame) {
+    const std::size_t length = time_length + frame.size();
+    if (length > capacity_ - used_)
+        if (auto done = flush(); !done) return done;
+    std::uint8_t* record = buffer_.get() + used_;
+    store_be64(record, time_on_file(time));
+    std::memcpy(record + time_length, frame.bytes().data(), frame.size());
+    used_ += length;
+    records_.add();
+    return {};
+}
+
+SetupResult<void> TlogWriter::flush() {
+    if (used_ == half_) return {};
+    return keep_whole_records(file_.write({buffer_.get() + half_, used_ - half_}));
+}
+
+// After a write: forgets the records that are in the file, takes back the part of one that is not whole.
+SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
+    const std::size_t taken = half_ + result.bytes;
+    std::size_t whole = 0;
+    while (whole < taken) {
+        const std::size_t next = record_length({buffer_.get() + whole, used_ - whole});
+        if (next == 0 || whole + next > taken) break;
+        whole += next;
+    }
+    written_ += whole;
+    used_ -= whole;
+    std::memmove(buffer_.get(), buffer_.get() + whole, used_);
+    half_ = taken - whole;
+    if (result.error == 0) return {};
+    if (half_ != 0 && file_.is_regular()) {
+        if (auto cut = file_.truncate(written_); !cut) return cut;
+        half_ = 0;
+    }
+    return file_.failed("write", result.error);
+}
+
+SetupResult<void> TlogWriter::close() {
+    auto flushed = flush();
+    auto closed = file_.sync_and_close();
+    return flushed ? closed : flushed;
+}
+
+}  // namespace mavloom::record
