@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Our own figures on this machine; `./run bench` puts the peers of docs/performance.md beside them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "command.hpp"
+#include "mavloom/message/format.hpp"
+#include "mavloom/record/tlog_reader.hpp"
+#include "mavloom/wire/stream_parser.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct Options {
+    std::string file;
+    int turns = 21;
+    std::size_t chunk = 4096;
+    bool json = false;
+};
+
+struct Recording {
+    Bytes frames;                   // back to back, as a serial line would carry them
+    std::vector<WallTime> times;
+};
+
+SetupResult<Recording> read_recording(const std::string& path, const wire::MessageTable& table) {
+    auto reader = record::TlogReader::open(path, table);
+    if (!reader) return tl::unexpected(std::move(reader.error()));
+    Recording recording;
+    while (const auto record = reader->next()) {
+        const auto bytes = record->frame.bytes();
+        recording.frames.insert(recording.frames.end(), bytes.begin(), bytes.end());
+        recording.times.push_back(record->time);
+    }
+    if (recording.times.empty()) return setup_error(SetupCode::bad_input, fmt::format("{} holds no frame", path));
+    return recording;
+}
+
+// The median over the turns of what one second would hold.
+template <class Work>
+double per_second(int turns, double amount, Work&& work) {
+    std::vector<double> rates;
+    for (int turn = 0; turn < std::max(turns, 1); ++turn) {
+        const auto begin = mono_now();
+        work();
+        rates.push_back(amount / std::chrono::duration<double>(mono_now() - begin).count());
+    }
+    std::ranges::nth_element(rates, rates.begin() + static_cast<std::ptrdiff_t>(rates.size() / 2));
+    return rates[rates.size() / 2];
+}
+
+template <class OnFrame>
+void parse_all(const Recording& recording, std::size_t chunk, const wire::MessageTable& table, OnFrame&& on_frame) {
+    wire::StreamParser parser(table);
+    const auto sink = [&](const wire::ParseEvent& event) {
+        if (event.kind == wire::ParseEvent::Kind::frame) on_frame(event.frame);
+    };
+    const ByteView all{recording.frames};
+    for (std::size_t at = 0; at < all.size(); at += chunk) parser.feed(all.subspan(at, std::min(chunk, all.size() - at)), MonoTime{}, sink);
+    parser.finish(sink);
+}
+
+void print(const Options& options, std::string_view what, double per_s, std::string_view unit, const Recording& recording) {
+    if (options.json) {
+        fmt::print("{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n", what, per_s, unit,
+                   recording.times.size(), recording.frames.size(), options.turns);
+    } else {
+        fmt::print("{:<14} {:>14.0f} {}/s   ({} frames, {} bytes, median of {} turns)\n", what, per_s, unit, recording.times.size(),
+                   recording.frames.size(), options.turns);
+    }
+}
+
+Exit bench_parse(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
+    const auto& table = dialect.wire_table();
+    std::uint64_t found = 0;
+    parse_all(recording, options.chunk, table, [&](const wire::FrameView&) { ++found; });
+    if (found != recording.times.size())
+        return fail(Exit::mismatch, fmt::format("the stream parser found {} of {} frames", found, recording.times.size()));
+    const auto work = [&] { parse_all(recording, options.chunk, table, [&](const wire::FrameView& frame) { found += frame.sequence(); }); };
+    const double rate = per_second(options.turns, static_cast<double>(recording.frames.size()), work);
+    print(options, "parse", rate, "bytes", recording);
+    return Exit::done;
+}
+
+template <class Append>
+void bench_form(const Options& options, std::string_view what, const dialect::Dialect& dialect, const Recording& recording, Append&& append) {
+    message::TextBuffer out;
+    const auto work = [&] {
+        std::size_t index = 0;
+        parse_all(recording, options.chunk, dialect.wire_table(), [&](const wire::FrameView& frame) {
+            out.clear();
+            append(out, message::Received{recording.times[index++], "bench", frame, dialect.find(frame.id())});
+        });
+    };
+    print(options, what, per_second(options.turns, static_cast<double>(recording.times.size()), work), "messages", recording);
+}
+
+Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
+    bench_form(options, "decode json", dialect, recording, [](auto& out, const auto& received) { message::append_json(out, received); });
+    bench_form(options, "decode text", dialect, recording, [&](auto& out, const auto& received) { message::append_text(out, received, dialect); });
+    return Exit::done;
+}
+
+template <class Bench>
+Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    const auto recording = read_recording(options.file, dialect->wire_table());
+    if (!recording) return fail(recording.error());
+    return bench(options, *dialect, *recording);
+}
+
+CLI::App* declare_one(CLI::App& command, Options& options, const char* name, const char* description) {
+    auto* sub = command.add_subcommand(name, description);
+    sub->add_option("file", options.file, "a recording")->required()->type_name("FILE.tlog");
+    sub->add_option("--turns", options.turns, "how often to measure; the median counts")->capture_default_str()->check(CLI::Range(1, 10'000));
+    sub->add_option("--chunk", options.chunk, "bytes handed to the parser at once")->capture_default_str()->check(CLI::Range(1, 1 << 30));
+    sub->add_flag("--json", options.json, "one JSON object a line");
+    return sub;
+}
+
+}  // namespace
+
+Run declare_bench(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    auto* parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
+    declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
+    command.require_subcommand(1);
+    command.footer("Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
+    return [options, parse, &common] {
+        return parse->parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
+    };
+}
+
+}  // namespace mavloom::app
