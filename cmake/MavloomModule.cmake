@@ -4,8 +4,8 @@
 # A module without sources is an interface library.
 
 add_library(mavloom_warnings INTERFACE)
-target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                       -Wnon-virtual-dtor -Wold-style-cast -Wcast-align -Woverloaded-virtual $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
+target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-align
+                       $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
 function(mavloom_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
