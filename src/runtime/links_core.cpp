@@ -14,8 +14,7 @@ static constexpr std::chrono::milliseconds expire_interval{100};
 
 net::BlockQueue::Limits queue_limits(const EndpointOptions& options) {
     net::BlockQueue::Limits limits;
-    // Offsets in the queue have 32 bits and its memory is up to twice the bound.
-    limits.max_bytes = static_cast<std::size_t>(std::min<std::uint64_t>(options.queue_bytes, std::uint64_t{1} << 30));
+    limits.max_bytes = static_cast<std::size_t>(options.queue_bytes);
     if (options.queue_age) limits.max_age.fill(*options.queue_age);
     return limits;
 }

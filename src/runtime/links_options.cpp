@@ -35,6 +35,8 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
     for (const auto& [name, set] : not_yet) {
         if (set) return usage(endpoint, fmt::format("option {}= is not available in this version", name));
     }
+    constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // offsets within a queue have 32 bits
+    if (o.queue_bytes > most_queue_bytes) return usage(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
 }
 

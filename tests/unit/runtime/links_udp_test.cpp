@@ -92,15 +92,20 @@ TEST(LinksUdp, GarbageOfAStrangerMakesNoPeer) {
 TEST(LinksUdp, FramesOfOneTurnShareDatagramsUpToTheMtu) {
     Node node;
     const auto far = PlainSocket::udp();
-    const auto out = node.add(to("udpout", far.port(), "?mtu=128"));
-    for (std::uint8_t i = 0; i < 5; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);  // 40 bytes each
+    const auto out = node.add(to("udpout", far.port(), "?mtu=280"));
+    Bytes all;
+    for (std::uint8_t i = 0; i < 10; ++i) {
+        EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+        all = std::move(all) + attitude(i);
+    }
+    const auto eighth = all.begin() + 7 * 40;
     EXPECT_TRUE(node.links->pending());
     node.poll();
     EXPECT_FALSE(node.links->pending());
-    EXPECT_EQ(far.read(), attitude(0) + attitude(1) + attitude(2));
-    EXPECT_EQ(far.read(), attitude(3) + attitude(4));
-    EXPECT_EQ(node.links->links().at(0).counters->frames_out.value(), 5u);
-    EXPECT_EQ(node.links->links().at(0).counters->bytes_out.value(), 200u);
+    EXPECT_EQ(far.read(), Bytes(all.begin(), eighth));
+    EXPECT_EQ(far.read(), Bytes(eighth, all.end()));
+    EXPECT_EQ(node.links->links().at(0).counters->frames_out.value(), 10u);
+    EXPECT_EQ(node.links->links().at(0).counters->bytes_out.value(), 400u);
 }
 
 TEST(LinksUdp, MtuZeroKeepsOneFrameADatagram) {
