@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/tcp.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+
+#include <array>
+#include <string>
+
+namespace mavloom::net {
+namespace {
+
+const Address any_port = *Address::parse("127.0.0.1", 0);
+
+void await(int fd, short events) {
+    pollfd wanted{fd, events, 0};
+    ASSERT_EQ(::poll(&wanted, 1, 5000), 1);
+}
+
+struct Tcp : ::testing::Test {
+    void connect() {
+        near = std::move(*TcpStream::start_connect(listener.local()));
+        ASSERT_TRUE(near.wait_connected(std::chrono::seconds(5)));
+        ASSERT_TRUE(near.finish_connect());
+        await(listener.fd(), POLLIN);
+        far = std::move(*listener.accept());
+    }
+    TcpListener listener = std::move(*TcpListener::open(any_port, false));
+    TcpStream near, far;
+    std::array<std::uint8_t, 64> room{};
+};
+
+TEST_F(Tcp, ConnectsAndExchanges) {
+    EXPECT_EQ(listener.accept().error(), IoError::would_block);
+    connect();
+    std::string one = "hello ", two = "there";
+    const std::array<iovec, 2> pieces{{{one.data(), one.size()}, {two.data(), two.size()}}};
+    EXPECT_EQ(*near.write(pieces), 11u);
+    await(far.fd(), POLLIN);
+    EXPECT_EQ(*far.read(room), 11u);
+    EXPECT_EQ(std::string(room.begin(), room.begin() + 11), "hello there");
+    EXPECT_EQ(far.read(room).error(), IoError::would_block);
+    EXPECT_EQ(near.remote(), listener.local());
+}
+
+TEST_F(Tcp, TellsTheEndOfAStream) {
+    connect();
+    near = {};
+    await(far.fd(), POLLIN);
+    EXPECT_EQ(far.read(room).error(), IoError::closed);
+}
+
+TEST_F(Tcp, WritesUntilTheKernelTakesNoMore) {
+    connect();
+    std::string block(65536, 'x');
+    const std::array<iovec, 1> pieces{{{block.data(), block.size()}}};
+    std::size_t total = 0;
+    IoResult<std::size_t> written;
+    while ((written = near.write(pieces))) total += *written;
+    EXPECT_EQ(written.error(), IoError::would_block);
+    EXPECT_GT(total, 0u);
+}
+
+TEST_F(Tcp, APortInUseIsNamed) {
+    const auto second = TcpListener::open(listener.local(), false);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, SetupCode::in_use);
+    EXPECT_NE(second.error().text.find(listener.local().text()), std::string::npos) << second.error().text;
+}
+
+TEST_F(Tcp, ARefusedConnectionIsNamed) {
+    const Address closed = listener.local();
+    listener = {};
+    auto stream = TcpStream::start_connect(closed);
+    ASSERT_TRUE(stream);
+    ASSERT_TRUE(stream->wait_connected(std::chrono::seconds(5)));
+    const auto outcome = stream->finish_connect();
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().code, SetupCode::unreachable);
+    EXPECT_NE(outcome.error().text.find(closed.text()), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mavloom::net
