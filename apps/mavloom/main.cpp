@@ -117,6 +117,7 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
 }  // namespace mavloom::app
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), handled where it happens
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
+    std::signal(SIGXFSZ, SIG_IGN);
     return static_cast<int>(mavloom::app::run(argc, argv));
 }
