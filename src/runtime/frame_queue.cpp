@@ -37,25 +37,27 @@ SetupResult<std::unique_ptr<FrameQueue>> FrameQueue::create(std::size_t capacity
 
 FrameQueue::~FrameQueue() { ::munmap(memory_, capacity_); }
 
-// Pads to the ring's end; there is room for that (the caller has looked).
-void FrameQueue::skip_to_start(std::uint64_t tail) noexcept {
-    const Header padding{0, 0, 0};
-    const std::size_t rest = capacity_ - (tail & (capacity_ - 1));
-    if (rest >= header_bytes) std::memcpy(at(tail), &padding, header_bytes);
-    tail_.position.store(tail + rest, std::memory_order_release);  // pairs with the acquire in next()
+void FrameQueue::look_at_head() noexcept {
+    tail_.head_seen = std::max(head_.position.load(std::memory_order_acquire), tail_.restarted_to);  // pairs with the release in next()
 }
 
 bool FrameQueue::push(const Entry& entry) noexcept {
     const std::size_t size = header_bytes + rounded(entry.frame.size());
     std::uint64_t tail = tail_.position.load(std::memory_order_relaxed);
-    std::size_t rest = capacity_ - (tail & (capacity_ - 1));
-    const bool at_warm_end = capacity_ - rest > warm_bytes;
+    const bool warm_end = capacity_ - to_end(tail) > warm_bytes;
+    if (warm_end) look_at_head();
+    if (warm_end && tail_.head_seen == tail) {  // empty: back to the memory that is in the cache
+        tail_.restart_at.store(tail, std::memory_order_relaxed);  // seen by the reader with the new tail
+        tail += to_end(tail);
+        tail_.restarted_to = tail_.head_seen = tail;
+    }
+    const std::size_t rest = to_end(tail);
     const std::size_t needed = rest < size ? rest + size : size;
-    if (tail + needed - tail_.head_seen > capacity_ || at_warm_end)
-        tail_.head_seen = head_.position.load(std::memory_order_acquire);  // pairs with the release in next()
+    if (tail + needed - tail_.head_seen > capacity_) look_at_head();
     if (tail + needed - tail_.head_seen > capacity_) return false;
-    if (rest < size || (at_warm_end && tail_.head_seen == tail)) {
-        skip_to_start(tail);
+    if (rest < size) {
+        const Header padding{0, 0, 0};
+        if (rest >= header_bytes) std::memcpy(at(tail), &padding, header_bytes);
         tail += rest;
     }
     const Header header{entry.time.time_since_epoch().count(), entry.link.value, static_cast<std::uint32_t>(entry.frame.size())};
@@ -88,15 +90,15 @@ std::optional<FrameQueue::Entry> FrameQueue::next() noexcept {
             head_.tail_seen = tail_.position.load(std::memory_order_acquire);  // pairs with the release in push()
             if (head == head_.tail_seen) return std::nullopt;
         }
-        const std::size_t rest = capacity_ - (head & (capacity_ - 1));
         Header header{};
-        if (rest >= header_bytes) std::memcpy(&header, at(head), header_bytes);
+        if (head != tail_.restart_at.load(std::memory_order_relaxed) && to_end(head) >= header_bytes)
+            std::memcpy(&header, at(head), header_bytes);
         if (header.frame_bytes != 0) {
             head_.release_to = head + header_bytes + rounded(header.frame_bytes);
             return Entry{WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link},
                          wire::FrameView::unchecked({at(head) + header_bytes, header.frame_bytes})};
         }
-        head += rest;
+        head += to_end(head);
         head_.release_to = head;
         head_.position.store(head, std::memory_order_release);
     }
@@ -116,9 +118,8 @@ bool FrameQueue::wait() noexcept {
 }
 
 std::size_t FrameQueue::used_bytes() const noexcept {
-    const auto head = head_.position.load(std::memory_order_relaxed);
-    const auto tail = tail_.position.load(std::memory_order_relaxed);
-    return tail > head ? static_cast<std::size_t>(tail - head) : 0;
+    const auto head = std::max(head_.position.load(std::memory_order_relaxed), tail_.restarted_to);
+    return static_cast<std::size_t>(tail_.position.load(std::memory_order_relaxed) - head);
 }
 
 }  // namespace mavloom::runtime

@@ -44,20 +44,24 @@ public:
     [[nodiscard]] bool wait() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
-    [[nodiscard]] std::size_t used_bytes() const noexcept;  // either thread; a moment's value
+    // Writer: a moment's value.
+    [[nodiscard]] std::size_t used_bytes() const noexcept;
 
 private:
     struct Header;
     FrameQueue(std::uint8_t* memory, std::size_t capacity) noexcept : memory_(memory), capacity_(capacity) {}
     [[nodiscard]] std::uint8_t* at(std::uint64_t position) const noexcept { return memory_ + (position & (capacity_ - 1)); }
-    void skip_to_start(std::uint64_t tail) noexcept;
+    [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept { return capacity_ - (position & (capacity_ - 1)); }
+    void look_at_head() noexcept;
 
     std::uint8_t* const memory_;
     const std::size_t capacity_;
     // Positions count bytes since the beginning and never wrap; each lies on a cache line of its own with what its owner remembers of the other.
     struct alignas(64) {
         std::atomic<std::uint64_t> position{0};
+        std::atomic<std::uint64_t> restart_at{~std::uint64_t{0}};  // an empty queue went on from here at the ring's start
         std::uint64_t head_seen = 0;
+        std::uint64_t restarted_to = 0;  // all before is read, even if the reader does not know yet
     } tail_;  // the writer's
     struct alignas(64) {
         std::atomic<std::uint64_t> position{0};

@@ -90,6 +90,26 @@ TEST(FrameQueue, StaysInItsFirstPartWhileTheReaderKeepsUp) {
     EXPECT_LT(highest - lowest, 512 * 1024);
 }
 
+// A queue that went back to its start is as large as before, although the reader has not yet followed.
+TEST(FrameQueue, HoldsItsWholeCapacityWherever) {
+    const auto sut = queue_of(2u << 20);
+    std::uint32_t written = 0, read = 0;
+    for (int round = 0; round < 20; ++round) {
+        std::size_t bytes = 0;
+        for (; sut->push(entry(numbered(written))); ++written) bytes += 16 + (30 + written % 100 + 7) / 8 * 8;
+        ASSERT_GT(bytes, sut->capacity() - 1024) << round;
+        for (unsigned to_read = round % 2 == 0 ? written - read : 5000; to_read != 0; --to_read) ASSERT_EQ(number_of(*sut->next()), read++);
+        const auto rest = written - read;
+        for (unsigned i = 0; i < rest; ++i) ASSERT_EQ(number_of(*sut->next()), read++);
+        ASSERT_FALSE(sut->next());
+        for (unsigned i = 0; i < 4000 + 17u * static_cast<unsigned>(round); ++i) {
+            ASSERT_TRUE(sut->push(entry(numbered(written++))));
+            ASSERT_EQ(number_of(*sut->next()), read++);
+        }
+        ASSERT_FALSE(sut->next());
+    }
+}
+
 TEST(FrameQueue, EndsAfterCloseOnceItIsEmpty) {
     const auto sut = queue_of(65536);
     ASSERT_TRUE(sut->push(entry(test::heartbeat_v2)));

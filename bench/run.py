@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Runs the benchmarks behind docs/performance.md, one after the other, each beside its peer: ./run bench [parse|decode|listen ...]"""
+import argparse
+import pathlib
+import platform
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+FLIGHT = HERE.parent / "tests" / "data" / "px4_gcs_flight.tlog"
+
+
+def commands(program, build):
+    folder = pathlib.Path(build) / "bench" / "bin"
+    return {
+        "parse": [[folder / "parse_bench", FLIGHT, chunk] for chunk in ("4096", "65536", "256")],
+        "decode": [[sys.executable, HERE / "decode.py", "--program", program]],
+        "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", default="build/release/bin/mavloom")
+    parser.add_argument("--build", default="build/release")
+    parser.add_argument("what", nargs="*", help="some of them; all without")
+    options = parser.parse_args()
+    table = commands(options.program, options.build)
+    if unknown := set(options.what) - set(table):
+        parser.error(f"no benchmark {', '.join(sorted(unknown))}; there are {', '.join(table)}")
+    print(f"machine: {platform.processor() or platform.machine()}, Linux {platform.release()}", flush=True)
+    status = 0
+    for what in options.what or table:
+        for command in table[what]:
+            print(f"\n== {what}: {' '.join(str(part) for part in command[1:])}", flush=True)
+            status = max(status, subprocess.run([str(part) for part in command]).returncode)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
