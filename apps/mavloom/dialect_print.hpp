@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How `mavloom dialect` shows definitions: for people in columns, for programs one JSON object a line (keys: docs/guide/json.md).
+// How `mavloom dialect` shows definitions: for people in columns, for programs one JSON object a line (keys: docs/guide/dialects.md).
 // Each function appends to `out`.
 #pragma once
 

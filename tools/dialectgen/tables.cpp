@@ -15,11 +15,8 @@ namespace {
 using dialect::CommandParam;
 using dialect::Deprecation;
 using dialect::Dialect;
-using dialect::Enum;
-using dialect::EnumEntry;
 using dialect::Field;
 using dialect::FieldType;
-using dialect::Message;
 
 std::string text(std::string_view value) {
     return value.empty() ? "{}" : fmt::format("{{{}, {}}}", literal(value), value.size());

@@ -177,6 +177,7 @@ private:
 
     tl::unexpected<SetupError> unknown_enum(const FieldDefinition& written) const {
         std::vector<std::string_view> names;
+        names.reserve(records_.enums.size());
         for (const auto& e : records_.enums) names.push_back(e.name);
         return conflict(written.place,
                         fmt::format("field '{}' names the enum '{}', which no file defines{}; expected an enum",
