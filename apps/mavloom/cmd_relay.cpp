@@ -42,13 +42,12 @@ public:
 
 private:
     void on_frame(const runtime::RxFrame& rx) override {
-        const auto now = mono_now();
         if (destinations_.has(rx.endpoint)) {
-            const auto outcome = stage_.backward(rx.frame, now, rx.time);
+            const auto outcome = stage_.backward(rx.frame);
             if (outcome.verdict == edit::Verdict::forward) sources_.send(outcome.frame);
             return;
         }
-        const auto outcome = stage_.forward(rx.frame, now, rx.time);
+        const auto outcome = stage_.forward(rx.frame, rx.time, wall_now());
         if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame);
     }
     void on_link_up(LinkId, runtime::EndpointId, std::string_view name) override {
@@ -76,9 +75,11 @@ private:
         const auto& c = stage_.counters();
         say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(), c.reencoded.value(),
                                  c.passed_untouched.value()));
+        say_unless_zero(c.rewrapped, "rewrapped: frames without full definition that got a new header and checksum");
         say_unless_zero(c.filtered, "filtered: frames that --only leaves out");
         say_unless_zero(c.rate_limited, "rate_limited: frames over --max-rate");
         say_unless_zero(c.not_v1, "not_v1: frames that MAVLink 1 cannot carry");
+        say_unless_zero(c.not_signed, "not_signed: MAVLink 1 frames, which cannot carry a signature (--as-v2 makes them MAVLink 2)");
         say_unless_zero(c.signature_removed, "signature_removed: changed frames that lost their signature (--sign gives a new one)");
         for (const auto& endpoint : sources_.links().endpoints())
             say_unless_zero(endpoint.counters->kernel_drop, "kernel_drop: datagrams that the kernel had no room for");

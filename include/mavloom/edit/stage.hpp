@@ -19,29 +19,35 @@
 
 namespace mavloom::edit {
 
-// As users type them; `Stage::create` checks every word.
+// As users type them; `Stage::create` checks every word. Lists may also be one text with commas.
 struct Options {
-    std::vector<std::string> set;           // "MESSAGE.field=value"
-    std::vector<std::string> remap_system;  // "A=B"
-    std::vector<std::string> only;          // message names or ids
-    std::vector<std::string> max_rate;      // "ATTITUDE:10", "*:50"
-    std::optional<wire::Version> as_version;
-    std::optional<wire::SigningKey> sign_key;
+    std::vector<std::string> set{};           // "MESSAGE.field=value"; applied after remap_system
+    std::vector<std::string> remap_system{};  // "A=B": source and target system; all at once, so "1=2" and "2=1" swap
+    std::vector<std::string> only{};          // message names or ids
+    // "ATTITUDE:10", "*:50" for all others: of each source and message, counted in the frames' own time.
+    std::vector<std::string> max_rate{};
+    std::optional<wire::Version> as_version{};
+    std::optional<wire::SigningKey> sign_key{};
     std::uint8_t sign_link_id = 0;
     bool resequence = false;
 };
 
-// Every frame that does not come out, or not as somebody might expect, has a name (DESIGN.md rule 3).
+// Every frame that does not come out, or not as somebody might expect, has a name (DESIGN.md rule 3). Of the frames that went in forward:
+// frames = reencoded + rewrapped + passed_untouched + filtered + rate_limited + not_v1. Frames on the way back are counted apart.
 struct Counters {
-    Counter frames;             // that went in
-    Counter reencoded;          // decoded and encoded again
+    Counter frames;     // that went in
+    Counter reencoded;  // decoded and encoded again
+    Counter rewrapped;  // given a new header and checksum around a payload that has no (or not all of its) definition
     Counter passed_untouched;   // could not be, or must not be, decoded and encoded: unknown id, not canonical, signed
-    Counter filtered;           // --only
-    Counter rate_limited;       // --max-rate
-    Counter not_v1;             // as MAVLink 1: id over 255
-    Counter signature_removed;  // a signed frame was changed and no key was given
+    Counter filtered;           // only
+    Counter rate_limited;       // max_rate
+    Counter not_v1;             // as MAVLink 1: id over 255, or without the definition that says what to cut
+    Counter not_signed;         // of those that came out: MAVLink 1, which has no signatures, although a key was given
+    Counter signature_removed;  // a signed frame was changed and not signed again, in either direction
+    Counter backward;           // that went in on the way back
 };
 
+// All but `forward` by the names of their counters.
 enum class Verdict : std::uint8_t { forward, filtered, rate_limited, not_v1 };
 
 struct Outcome {
@@ -52,15 +58,17 @@ struct Outcome {
 class Stage {
 public:
     // `dialect` must outlive the stage. Errors are `usage`, name the option and the nearest valid spelling.
-    [[nodiscard]] static SetupResult<std::unique_ptr<Stage>> create(const dialect::Dialect& dialect, const Options& options);
+    [[nodiscard]] static SetupResult<std::unique_ptr<Stage>> create(const dialect::Dialect& dialect,
+                                                                    const Options& options);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    // On the way from the sources to the destinations: all options apply.
-    [[nodiscard]] Outcome forward(const wire::FrameView& frame, MonoTime now, WallTime wall) noexcept;
+    // On the way from the sources to the destinations: all options apply. `received` is the frame's own time (the kernel's, or the
+    // recording's), by which max_rate counts; `now` is the time for signatures.
+    [[nodiscard]] Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept;
     // On the way back: only what keeps the conversation whole, which is remap_system in reverse (source and target system).
-    [[nodiscard]] Outcome backward(const wire::FrameView& frame, MonoTime now, WallTime wall) noexcept;
+    [[nodiscard]] Outcome backward(const wire::FrameView& frame) noexcept;
 
     [[nodiscard]] const Counters& counters() const noexcept;
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "edit/rate_limiter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "mavloom/wire/frame_writer.hpp"
+
+namespace mavloom::edit {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr WallTime t0{1'700'000'000s};
+
+struct Heartbeat {
+    explicit Heartbeat(std::uint8_t system = 1, std::uint32_t id = 0) {
+        const wire::MessageInfo info{MessageId{id}, 50, 9, 9};
+        frame = wire::write_frame(buffer, {wire::Version::v2, 0, {SystemId{system}, ComponentId{1}}}, info, {});
+    }
+    wire::FrameBuffer buffer{};
+    wire::FrameView frame;
+};
+
+int admitted(RateLimiter& limiter, const Heartbeat& heartbeat, Nanoseconds period, int frames) {
+    int count = 0;
+    for (int i = 0; i < frames; ++i) count += limiter.admit(heartbeat.frame, t0 + i * period);
+    return count;
+}
+
+TEST(RateLimiter, WithoutRatesAdmitsEverything) {
+    RateLimiter sut;
+
+    EXPECT_EQ(admitted(sut, Heartbeat(), 0ns, 100), 100);
+}
+
+TEST(RateLimiter, KeepsTheRateOfAStreamThatIsALittleFaster) {
+    RateLimiter sut({{0, 100ms}}, {});
+
+    EXPECT_NEAR(admitted(sut, Heartbeat(), 83333333ns, 1200), 1000, 1);  // 12 Hz for 100 s, limited to 10 Hz
+}
+
+TEST(RateLimiter, LeavesSlowerStreamsAlone) {
+    RateLimiter sut({{0, 100ms}}, {});
+
+    EXPECT_EQ(admitted(sut, Heartbeat(), 100ms, 100), 100);
+    EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 + 1h));
+    EXPECT_FALSE(sut.admit(Heartbeat().frame, t0 + 1h + 50ms));  // silence earns no burst
+    EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 + 1h + 100ms));
+}
+
+TEST(RateLimiter, CountsSourcesAndMessagesApart) {
+    RateLimiter sut({{0, 1s}}, {});
+
+    EXPECT_TRUE(sut.admit(Heartbeat(1).frame, t0));
+    EXPECT_TRUE(sut.admit(Heartbeat(2).frame, t0));
+    EXPECT_FALSE(sut.admit(Heartbeat(1).frame, t0));
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 30).frame, t0));  // no rate given for id 30
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 30).frame, t0));
+}
+
+TEST(RateLimiter, TheRateForOthersIsForEachOfThem) {
+    RateLimiter sut({{0, 1s}}, 2s);
+
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 30).frame, t0));
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 31).frame, t0));
+    EXPECT_FALSE(sut.admit(Heartbeat(1, 30).frame, t0 + 1s));
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 0).frame, t0));
+    EXPECT_TRUE(sut.admit(Heartbeat(1, 0).frame, t0 + 1s));
+}
+
+TEST(RateLimiter, AClockSetBackDoesNotSilenceAStream) {
+    RateLimiter sut({{0, 1s}}, {});
+    EXPECT_TRUE(sut.admit(Heartbeat().frame, t0));
+
+    EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 - 1h));
+    EXPECT_FALSE(sut.admit(Heartbeat().frame, t0 - 1h + 500ms));
+    EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 - 1h + 1s));
+}
+
+TEST(RateLimiter, MoreStreamsThanItRemembersStillPass) {
+    RateLimiter sut({}, 1s);
+    int count = 0;
+    for (std::uint32_t id = 0; id < 100'000; ++id) count += sut.admit(Heartbeat(1, id).frame, t0);
+
+    EXPECT_EQ(count, 100'000);
+}
+
+}  // namespace
+}  // namespace mavloom::edit
