@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Counts operator new: in steady state the way of a frame from socket to parser to queue to socket must not allocate.
+#include <cstdlib>
+#include <new>
+
+#include "unit/runtime/links_fixture.hpp"
+
+static thread_local std::size_t allocations = 0;
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    throw std::bad_alloc{};
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace mavloom::runtime {
+namespace {
+
+using namespace testing;
+
+struct Forwarder : LinkHandler {
+    void on_frame(const RxFrame& rx) override {
+        ++frames;
+        links->send(out, rx.frame);
+        links->send(rx.link, rx.frame);
+    }
+    Links* links = nullptr;
+    EndpointId out;
+    std::size_t frames = 0;
+};
+
+std::size_t allocations_of(Node& node, Forwarder& forwarder, const std::function<void()>& send_burst, std::size_t frames) {
+    const std::size_t before = allocations;
+    const std::size_t wanted = forwarder.frames + frames;
+    const MonoTime deadline = mono_now() + std::chrono::seconds(10);
+    send_burst();
+    const std::size_t by_sender = allocations - before;
+    while (forwarder.frames < wanted && mono_now() < deadline) node.links->turn(forwarder, mono_now() + std::chrono::milliseconds(1));
+    EXPECT_EQ(forwarder.frames, wanted);
+    return allocations - before - by_sender;
+}
+
+TEST(LinksAllocation, UdpInSteadyStateAllocatesNothing) {
+    Node node;
+    Forwarder forwarder;
+    const auto far = PlainSocket::udp(), a = PlainSocket::udp(), b = PlainSocket::udp();
+    const auto in = node.add("udpin://127.0.0.1:0");
+    forwarder.links = node.links.get();
+    forwarder.out = node.add(fmt::format("udpout://127.0.0.1:{}", far.port()));
+    std::uint8_t sequence = 0;
+    const auto burst = [&] {
+        for (int i = 0; i < 50; ++i, ++sequence) {
+            a.send_to(node.port(in), attitude(sequence) + heartbeat(sequence));
+            b.send_to(node.port(in), attitude(sequence));
+        }
+    };
+    for (int i = 0; i < 3; ++i) (void)allocations_of(node, forwarder, burst, 150);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(allocations_of(node, forwarder, burst, 150), 0u);
+}
+
+TEST(LinksAllocation, TcpInSteadyStateAllocatesNothing) {
+    Node node;
+    Forwarder forwarder;
+    const auto in = node.add("tcpin://127.0.0.1:0");
+    forwarder.links = node.links.get();
+    forwarder.out = in;
+    const auto client = PlainSocket::connected_tcp(node.port(in));
+    std::uint8_t sequence = 0;
+    const auto burst = [&] {
+        for (int i = 0; i < 50; ++i) client.write(attitude(sequence++));
+        (void)client.read();
+    };
+    for (int i = 0; i < 3; ++i) (void)allocations_of(node, forwarder, burst, 50);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(allocations_of(node, forwarder, burst, 50), 0u);
+}
+
+}  // namespace
+}  // namespace mavloom::runtime

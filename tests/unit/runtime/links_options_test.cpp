@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// What Links refuses, and how it says so.
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "unit/runtime/links_fixture.hpp"
+
+namespace mavloom::runtime {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct Refusal {
+    const char* url;
+    const char* says;
+};
+
+TEST(LinksOptions, NothingIsSilentlyIgnored) {
+    for (const auto& [url, says] : {
+             Refusal{"serial:///dev/ttyACM0?baud=57600", "serial:// is not available in this version"},
+             Refusal{"shm://ring", "shm:// is not available in this version"},
+             Refusal{"udpbcast://255.255.255.255:14550", "udpbcast:// is not available in this version"},
+             Refusal{"udpmcast://239.255.145.50:14550", "udpmcast:// is not available in this version"},
+             Refusal{"tlog://flight.tlog", "a recording is no link"},
+             Refusal{"udpin://127.0.0.1:1?group=air", "group= is not available"},
+             Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is not available"},
+             Refusal{"udpin://127.0.0.1:1?max_bytes=5000", "max_bytes= is not available"},
+             Refusal{"udpin://127.0.0.1:1?in_allow=sys:1", "in_allow= is not available"},
+             Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is not available"},
+             Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is not available"},
+             Refusal{"udpin://127.0.0.1:1?private=true", "private= is not available"},
+             Refusal{"udpin://127.0.0.1:1?ttl=3", "ttl= is not available"},
+             Refusal{"udpin://127.0.0.1:1?queue_bytes=2000000000", "queue_bytes= goes up to 1 GiB"},
+         }) {
+        Node node;
+        const auto error = node.refused(url);
+        EXPECT_EQ(error.code, SetupCode::usage) << url;
+        EXPECT_THAT(error.text, HasSubstr(says)) << url;
+    }
+}
+
+TEST(LinksOptions, WhatIsNoDestinationIsRefusedWithTheSpellingToType) {
+    Node node;
+    Endpoint endpoint;
+    endpoint.scheme = Scheme::udpout;
+    endpoint.address = {"0.0.0.0", 14550};
+    auto refused = node.links->add(endpoint);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, SetupCode::usage);
+    EXPECT_THAT(refused.error().text, AllOf(HasSubstr("udpin://0.0.0.0:14550"), HasSubstr("udpout://127.0.0.1:14550")));
+    endpoint.address = {"::", 14550};
+    EXPECT_THAT(node.links->add(endpoint).error().text, AllOf(HasSubstr("udpin://[::]:14550"), HasSubstr("udpout://[::1]:14550")));
+    endpoint.address = {"127.0.0.1", 0};
+    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("port 0 is no destination"));
+    endpoint.address = {"239.1.2.3", 14550};
+    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("udpmcast://239.1.2.3:14550"));
+    endpoint.scheme = Scheme::tcpout;
+    endpoint.address = {"0.0.0.0", 5760};
+    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("tcpout://127.0.0.1:5760"));
+}
+
+TEST(LinksOptions, AnUnknownHostIsNamed) {
+    Node node;
+    for (const auto* scheme : {"udpin", "tcpin"}) {
+        const auto error = node.refused(fmt::format("{}://no-such-host.invalid:14550", scheme));
+        EXPECT_THAT(error.text, HasSubstr("no-such-host.invalid"));
+    }
+    node.add("udpout://no-such-host.invalid:14550");
+    EXPECT_TRUE(until([&] { return !node.recorder.notices.empty(); }, node)) << "what calls tries again for ever";
+    EXPECT_THAT(node.recorder.notices[0], HasSubstr("no-such-host.invalid"));
+}
+
+TEST(LinksOptions, TwoEndpointsOfOneNameAreRefused) {
+    Node node;
+    node.add("udpout://127.0.0.1:14550?name=gcs");
+    EXPECT_THAT(node.refused("udpout://127.0.0.1:14551?name=gcs").text, HasSubstr("two endpoints are called gcs"));
+}
+
+TEST(LinksOptions, BindFixesTheLocalSide) {
+    Node node;
+    const auto far = PlainSocket::udp();
+    std::uint16_t port;
+    {
+        port = PlainSocket::udp().port();
+    }
+    const auto out = node.add(fmt::format("udpout://127.0.0.1:{}?bind=127.0.0.1:{}", far.port(), port));
+    EXPECT_EQ(node.port(out), port);
+    EXPECT_EQ(node.refused(fmt::format("udpout://127.0.0.1:{}?bind=127.0.0.1:{}", far.port() + 1, port)).code, SetupCode::in_use);
+}
+
+class LinksSigning : public ::testing::Test {
+protected:
+    std::string key_file(char digit) {
+        const std::string path = fmt::format("{}/links_key_{}_{}", ::testing::TempDir(), ::getpid(), digit);
+        std::ofstream(path) << std::string(64, digit) << '\n';
+        ::chmod(path.c_str(), 0600);
+        files_.push_back(path);
+        return path;
+    }
+    ~LinksSigning() override {
+        for (const auto& file : files_) ::unlink(file.c_str());
+    }
+
+private:
+    std::vector<std::string> files_;
+};
+
+TEST_F(LinksSigning, SignedFramesPassVerificationOthersAreCounted) {
+    Node listener, right, wrong, unsigned_one;
+    const auto in = listener.add("udpin://127.0.0.1:0?verify=" + key_file('a'));
+    const std::string url = fmt::format("udpout://127.0.0.1:{}", listener.port(in));
+    const auto from_right = right.add(url + "?sign=" + key_file('a'));
+    const auto from_wrong = wrong.add(url + "?sign=" + key_file('b'));
+    const auto from_unsigned = unsigned_one.add(url);
+    for (std::uint8_t i = 0; i < 3; ++i) {
+        right.links->send(from_right, view(attitude(i)));
+        wrong.links->send(from_wrong, view(attitude(i)));
+        unsigned_one.links->send(from_unsigned, view(attitude(i)));
+    }
+    std::uint64_t bad = 0;
+    ASSERT_TRUE(until(
+        [&] {
+            bad = 0;
+            for (const auto& l : listener.links->links()) bad += l.counters->bad_signature.value();
+            return bad == 6 && listener.recorder.frames.size() == 3;
+        },
+        listener, right, wrong, unsigned_one));
+    for (const auto& heard : listener.recorder.frames) {
+        EXPECT_EQ(heard.bytes.size(), attitude(0).size() + wire::signature_length);
+        EXPECT_TRUE(view(heard.bytes).is_signed());
+    }
+}
+
+TEST_F(LinksSigning, AMissingKeyIsAnError) {
+    Node node;
+    const auto error = node.refused("udpin://127.0.0.1:0?verify=/no/such/key");
+    EXPECT_EQ(error.code, SetupCode::not_found);
+    EXPECT_THAT(error.text, HasSubstr("/no/such/key"));
+}
+
+}  // namespace
+}  // namespace mavloom::runtime
