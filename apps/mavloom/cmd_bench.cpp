@@ -29,7 +29,7 @@ struct Recording {
 
 SetupResult<Recording> read_recording(const std::string& path, const wire::MessageTable& table) {
     auto reader = record::TlogReader::open(path, table);
-    if (!reader) return tl::unexpected(std::move(reader.error()));
+    if (!reader) return tl::unexpected(of_input_file(std::move(reader.error())));
     Recording recording;
     while (const auto record = reader->next()) {
         const auto bytes = record->frame.bytes();

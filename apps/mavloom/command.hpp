@@ -46,6 +46,8 @@ Run declare_bench(CLI::App&, const Common&);
 // Prints "mavloom: TEXT" to stderr and gives the status that belongs to the kind of error.
 Exit fail(const SetupError& error);
 Exit fail(Exit status, std::string_view text);
+// A file that the user named as input: missing or unreadable is status 3 like a file with wrong content.
+SetupError of_input_file(SetupError error);
 // "mavloom: TEXT" on stderr, unless --quiet.
 void say(const Common& common, std::string_view text);
 

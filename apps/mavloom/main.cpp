@@ -95,6 +95,11 @@ Exit fail(const SetupError& error) {
     return fail(status, error.text);
 }
 
+SetupError of_input_file(SetupError error) {
+    if (error.code == SetupCode::not_found || error.code == SetupCode::permission) error.code = SetupCode::bad_input;
+    return error;
+}
+
 Exit fail(Exit status, std::string_view text) {
     fmt::print(stderr, "mavloom: {}\n", text);
     return status;
@@ -108,7 +113,7 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
     dialect::Dialect all = dialect::default_dialect();
     for (const auto& file : common.dialect_files) {
         auto more = dialect::Dialect::load(file);
-        if (!more) return tl::unexpected(std::move(more.error()));
+        if (!more) return tl::unexpected(of_input_file(std::move(more.error())));
         all = all.with(*more);
     }
     return all;

@@ -33,7 +33,10 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
         return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
     auto reader = record::TlogReader::open(endpoint.path, *table_);
-    if (!reader) return tl::unexpected(std::move(reader.error()));
+    if (!reader) {
+        reader.error().code = SetupCode::bad_input;  // the user named it as input: status 3, missing or unreadable alike
+        return tl::unexpected(std::move(reader.error()));
+    }
     if (skip != Nanoseconds{})
         if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped) return skipped;
     const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());

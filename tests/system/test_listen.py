@@ -335,7 +335,7 @@ def test_a_port_in_use_is_an_error_at_once(run):
 def test_a_missing_recording(run):
     done = run("listen", "nowhere.tlog")
 
-    assert done.status == 1
+    assert done.status == 3
     assert "nowhere.tlog" in done.stderr
 
 
