@@ -20,6 +20,7 @@ using Set = SetupResult<void> (*)(EndpointOptions&, std::string_view);
 struct Option {
     std::string_view name;
     SchemeSet schemes;
+    std::string_view default_text;  // as `check` shows it; empty: not set
     Set set;
 };
 
@@ -136,62 +137,62 @@ constexpr SchemeSet links = address_schemes | serial | shm;
 constexpr SchemeSet all = links | tlog;
 
 constexpr std::array options_table{
-    Option{"name", all, set_text<&O::name>},
-    Option{"group", links, set_group},
-    Option{"group_mode", links, set_group_mode},
-    Option{"mtu", udp_schemes, set_mtu},
-    Option{"idle", address_schemes,
+    Option{"name", all, "", set_text<&O::name>},
+    Option{"group", links, "", set_group},
+    Option{"group_mode", links, "all", set_group_mode},
+    Option{"mtu", udp_schemes, "1280", set_mtu},
+    Option{"idle", address_schemes, "",
            [](O& o, std::string_view t) {
                return put(
                    duration_of_at_least(t, std::chrono::milliseconds{1}, "type a long time, such as 1000h, for never"),
                    o.idle);
            }},
-    Option{"queue_bytes", links,
+    Option{"queue_bytes", links, "1MiB",
            [](O& o, std::string_view t) {
                return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.queue_bytes);
            }},
-    Option{"queue_age", links,
+    Option{"queue_age", links, "1s for class 2, 10s for the others",
            [](O& o, std::string_view t) {
                return put(duration_of_at_least(t, std::chrono::milliseconds{1}, "a millisecond is the least"),
                           o.queue_age);
            }},
-    Option{"max_rate", all, [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
-    Option{"max_bytes", links,
+    Option{"max_rate", all, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
+    Option{"max_bytes", links, "",
            [](O& o, std::string_view t) {
                return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.max_bytes_per_s);
            }},
-    Option{"in_allow", all, set_filter<&O::in_allow>},
-    Option{"in_block", all, set_filter<&O::in_block>},
-    Option{"out_allow", all, set_filter<&O::out_allow>},
-    Option{"out_block", all, set_filter<&O::out_block>},
-    Option{"tap", links, set_flag<&O::tap>},
-    Option{"private", links, set_flag<&O::is_private>},
-    Option{"sign", links, set_text<&O::sign_key_file>},
-    Option{"verify", links, set_text<&O::verify_key_file>},
-    Option{"rcvbuf", udp_schemes,
+    Option{"in_allow", all, "", set_filter<&O::in_allow>},
+    Option{"in_block", all, "", set_filter<&O::in_block>},
+    Option{"out_allow", all, "", set_filter<&O::out_allow>},
+    Option{"out_block", all, "", set_filter<&O::out_block>},
+    Option{"tap", links, "false", set_flag<&O::tap>},
+    Option{"private", links, "false", set_flag<&O::is_private>},
+    Option{"sign", links, "", set_text<&O::sign_key_file>},
+    Option{"verify", links, "", set_text<&O::verify_key_file>},
+    Option{"rcvbuf", udp_schemes, "32MiB",
            [](O& o, std::string_view t) { return put(size_within(t, 4096, most_rcvbuf_bytes), o.rcvbuf_bytes); }},
     Option{"max_peers",
-           set_of(Scheme::udpin) | set_of(Scheme::udpbcast) | set_of(Scheme::udpmcast) | set_of(Scheme::tcpin),
+           set_of(Scheme::udpin) | set_of(Scheme::udpbcast) | set_of(Scheme::udpmcast) | set_of(Scheme::tcpin), "256",
            [](O& o, std::string_view t) { return put(parse_integer(t, 1, 1'000'000), o.max_peers); }},
-    Option{"iface", udp_schemes,
+    Option{"iface", udp_schemes, "",
            [](O& o, std::string_view t) -> SetupResult<void> {
                if (t.size() > 15)
                    return usage(fmt::format("{} is longer than an interface's name can be (15)", quoted(t)));
                return set_text<&O::iface>(o, t);
            }},
-    Option{"ttl", udp_schemes, [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
-    Option{"low_latency", address_schemes | serial, set_flag<&O::low_latency>},
-    Option{"required", links, set_flag<&O::required>},
-    Option{"bind", set_of(Scheme::udpout) | set_of(Scheme::udpbcast) | set_of(Scheme::tcpout), set_bind},
-    Option{"fixed", set_of(Scheme::udpbcast), set_flag<&O::fixed>},
-    Option{"baud", serial, set_baud},
-    Option{"flow", serial, set_flow},
-    Option{"from", shm, set_from},
-    Option{"lossless", shm, set_flag<&O::lossless>},
-    Option{"speed", tlog, set_speed},
-    Option{"rotate_bytes", tlog,
+    Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
+    Option{"low_latency", address_schemes | serial, "false", set_flag<&O::low_latency>},
+    Option{"required", links, "false", set_flag<&O::required>},
+    Option{"bind", set_of(Scheme::udpout) | set_of(Scheme::udpbcast) | set_of(Scheme::tcpout), "", set_bind},
+    Option{"fixed", set_of(Scheme::udpbcast), "false", set_flag<&O::fixed>},
+    Option{"baud", serial, "57600", set_baud},
+    Option{"flow", serial, "none", set_flow},
+    Option{"from", shm, "newest", set_from},
+    Option{"lossless", shm, "false", set_flag<&O::lossless>},
+    Option{"speed", tlog, "", set_speed},
+    Option{"rotate_bytes", tlog, "",
            [](O& o, std::string_view t) { return put(size_within(t, 4096, most_queue_bytes), o.rotate_bytes); }},
-    Option{"rotate_every", tlog,
+    Option{"rotate_every", tlog, "",
            [](O& o, std::string_view t) {
                return put(duration_of_at_least(t, std::chrono::seconds{1}, "segments are named by the second"),
                           o.rotate_every);
@@ -204,11 +205,10 @@ constexpr auto option_names = [] {
     return names;
 }();
 
-std::vector<std::string_view> names_for(Scheme scheme) {
-    std::vector<std::string_view> names;
-    for (const Option& option : options_table)
-        if ((option.schemes & set_of(scheme)) != 0) names.push_back(option.name);
-    return names;
+const Option* find_option(std::string_view name) {
+    const auto option = std::find_if(options_table.begin(), options_table.end(),
+                                     [&](const Option& o) { return o.name == name; });
+    return option == options_table.end() ? nullptr : &*option;
 }
 
 std::string schemes_text(SchemeSet schemes) {
@@ -220,13 +220,25 @@ std::string schemes_text(SchemeSet schemes) {
 
 }  // namespace
 
+std::vector<std::string_view> detail::option_names_for(Scheme scheme) {
+    std::vector<std::string_view> names;
+    for (const Option& option : options_table)
+        if ((option.schemes & set_of(scheme)) != 0) names.push_back(option.name);
+    return names;
+}
+
+std::string_view detail::default_option_text(Scheme scheme, std::string_view name) noexcept {
+    if (name == "idle" && (set_of(scheme) & udp_schemes) != 0) return "60";  // TCP clients have none unless set
+    const Option* const option = find_option(name);
+    return option == nullptr ? std::string_view{} : option->default_text;
+}
+
 std::span<const std::string_view> endpoint_option_names() noexcept { return option_names; }
 
 SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value) {
-    const auto option = std::find_if(options_table.begin(), options_table.end(),
-                                     [&](const Option& o) { return o.name == key; });
-    if (option == options_table.end()) {
-        const auto names = names_for(endpoint.scheme);
+    const Option* const option = find_option(key);
+    if (option == nullptr) {
+        const auto names = option_names_for(endpoint.scheme);
         auto hint = did_you_mean(key, names);
         if (hint.empty()) hint = fmt::format("; {} takes {}", scheme_name(endpoint.scheme), fmt::join(names, ", "));
         return usage(fmt::format("there is no option {}{}", quoted(key), hint));

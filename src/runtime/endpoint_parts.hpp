@@ -32,6 +32,10 @@ inline constexpr SchemeSet address_schemes = udp_schemes | tcp_schemes;
 // 'text', for the start of a message.
 [[nodiscard]] std::string quoted(std::string_view text);
 
+// The options that the scheme takes, and the text of the value that stands where none is given (empty: not set).
+[[nodiscard]] std::vector<std::string_view> option_names_for(Scheme scheme);
+[[nodiscard]] std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept;
+
 struct OptionText {
     std::string key;
     std::string value;

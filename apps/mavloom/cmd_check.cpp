@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "command.hpp"
+#include "dialect_print.hpp"
+#include "mavloom/runtime/config.hpp"
+#include "output.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+struct Options {
+    std::string file;
+    bool json = false;
+};
+
+std::string_view origin_name(runtime::Origin origin) {
+    switch (origin) {
+        case runtime::Origin::by_default: return "default";
+        case runtime::Origin::file: return "file";
+        case runtime::Origin::environment: return "environment";
+    }
+    return {};
+}
+
+std::string where(const runtime::Setting& setting, std::string_view file) {
+    if (setting.origin == runtime::Origin::file) return fmt::format("{}:{}", file, setting.line);
+    return setting.origin == runtime::Origin::environment ? setting.variable : "default";
+}
+
+void print_text(message::TextBuffer& out, const runtime::Config& config, std::string_view file) {
+    for (const auto& section : config.sections) {
+        const auto heading = section.label.empty() ? fmt::format("[{}]", section.name)
+                                                   : fmt::format("[[{}]]  {}", section.name, section.label);
+        fmt::format_to(fmt::appender(out), "{}\n", heading);
+        for (const auto& setting : section.settings)
+            fmt::format_to(fmt::appender(out), "  {:<17} = {:<32}  # {}\n", setting.key,
+                           setting.value.empty() ? "(not set)" : setting.value, where(setting, file));
+    }
+}
+
+// {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default","file":null,"line":null,"variable":null}
+void print_json(message::TextBuffer& out, const runtime::Config& config, std::string_view file) {
+    const auto text = [](std::string_view t) { return t.empty() ? std::string("null") : json_quoted(t); };
+    for (const auto& section : config.sections) {
+        for (const auto& setting : section.settings) {
+            const bool in_file = setting.origin == runtime::Origin::file;
+            fmt::format_to(fmt::appender(out),
+                           "{{\"section\":{},\"endpoint\":{},\"key\":{},\"value\":{},\"origin\":\"{}\",\"file\":{},"
+                           "\"line\":{},\"variable\":{}}}\n",
+                           json_quoted(section.name), text(section.label), json_quoted(setting.key),
+                           text(setting.value), origin_name(setting.origin), in_file ? json_quoted(file) : "null",
+                           in_file ? fmt::format("{}", setting.line) : "null", text(setting.variable));
+        }
+    }
+}
+
+Exit check(const Options& options) {
+    const auto config = runtime::load_config(options.file, runtime::environment_of(environ));
+    if (!config) return fail(Exit::bad_input, config.error().text);
+    Output output;
+    if (options.json) print_json(output.buffer(), *config, options.file);
+    else print_text(output.buffer(), *config, options.file);
+    return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
+}
+
+}  // namespace
+
+Run declare_check(CLI::App& command, const Common&) {
+    auto options = std::make_shared<Options>();
+    command.add_option("file", options->file, "a router's configuration (TOML)")->required()->type_name("FILE");
+    command.add_flag("--json", options->json, "one JSON object a line, one for each value");
+    command.footer(
+        "Prints every effective value and where it came from: default, FILE:LINE, or a variable of the environment "
+        "(MAVLOOM_ROUTER_DEDUP_MS\n"
+        "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line.\n\n"
+        "Example: mavloom check router.toml");
+    return [options] { return check(*options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The configuration file: TOML with [router], [[endpoint]], [ring], [record], [log] and [web] (DESIGN.md sections 4 and 5,
+// docs/guide/configuration.md). Each value knows where it came from; the order is default, file, environment. Nothing is guessed: an unknown
+// section, key or value is an error with file, line and the nearest spelling. Immutable values; loading allocates.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/runtime/endpoint.hpp"
+
+namespace mavloom::runtime {
+
+enum class UnknownComponent : std::uint8_t { system, drop };
+enum class UnknownTarget : std::uint8_t { drop, flood };
+enum class RingFull : std::uint8_t { wait, drop_newest, evict };
+enum class LogLevel : std::uint8_t { debug, info, warning, error };
+
+struct RouterConfig {
+    std::uint32_t dedup_ms = 0;  // 0: off
+    UnknownComponent unknown_component = UnknownComponent::system;
+    UnknownTarget unknown_target = UnknownTarget::drop;
+    std::chrono::nanoseconds route_timeout{};
+    std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat;  // system and component; empty: off
+};
+
+struct RingConfig {
+    std::string name;  // empty: no ring
+    std::uint64_t capacity_bytes = 0;
+    RingFull full = RingFull::evict;
+    std::uint16_t mode = 0;
+};
+
+struct RecordConfig {
+    std::string path;  // empty: nothing is recorded
+    std::uint64_t rotate_bytes = 0;
+    std::chrono::nanoseconds rotate_every{};
+};
+
+struct WebConfig {
+    HostPort listen;
+};
+
+enum class Origin : std::uint8_t { by_default, file, environment };
+
+// One effective value in the words of the file, and where it came from.
+struct Setting {
+    std::string key;
+    std::string value;  // empty: not set, and nothing stands in for it
+    Origin origin = Origin::by_default;
+    std::uint32_t line = 0;  // of the file
+    std::string variable;    // of the environment
+};
+
+struct Section {
+    std::string name;   // "router"; "endpoint" once for each
+    std::string label;  // of an endpoint
+    std::vector<Setting> settings;
+};
+
+struct Config {
+    RouterConfig router;
+    RingConfig ring;
+    RecordConfig record;
+    LogLevel log_level = LogLevel::info;
+    WebConfig web;
+    std::vector<Endpoint> endpoints;
+
+    std::vector<Section> sections;  // all of the above, for people and for `check`
+};
+
+// NAME=VALUE pairs; those that begin with MAVLOOM_ROUTER_, MAVLOOM_RING_, MAVLOOM_RECORD_, MAVLOOM_LOG_ or MAVLOOM_WEB_ are for the keys of
+// these sections (MAVLOOM_ROUTER_DEDUP_MS), the rest is ignored.
+using Environment = std::vector<std::pair<std::string, std::string>>;
+[[nodiscard]] Environment environment_of(const char* const* envp);
+
+// Errors are `bad_input` and begin with FILE:LINE: or the variable's name.
+[[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,
+                                               const Environment& environment = {});
+[[nodiscard]] SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment = {});
+
+}  // namespace mavloom::runtime

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/config_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "mavloom/base/suggest.hpp"
+#include "runtime/endpoint_parts.hpp"
+
+namespace mavloom::runtime::detail {
+
+namespace {
+
+template <class T, class Target>
+SetupResult<void> put(SetupResult<T> parsed, Target& target) {
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    target = static_cast<Target>(std::move(*parsed));
+    return {};
+}
+
+template <class E, std::size_t n>
+SetupResult<void> put_choice(std::string_view text, const std::array<std::string_view, n>& choices, E& target) {
+    const auto choice = std::find(choices.begin(), choices.end(), text);
+    if (choice == choices.end())
+        return usage(
+            fmt::format("{} is none of {}{}", quoted(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
+    target = static_cast<E>(choice - choices.begin());
+    return {};
+}
+
+SetupResult<void> set_heartbeat(Config& config, std::string_view text) {
+    if (text == "off") {
+        config.router.heartbeat.reset();
+        return {};
+    }
+    const auto slash = text.find('/');
+    const auto system = parse_integer(text.substr(0, slash), 1, 255);
+    const auto component = slash == std::string_view::npos ? system : parse_integer(text.substr(slash + 1), 1, 255);
+    if (slash == std::string_view::npos || !system || !component)
+        return usage(fmt::format("{} is neither off nor SYS/COMP, each from 1 to 255", quoted(text)));
+    config.router.heartbeat.emplace(static_cast<std::uint8_t>(*system), static_cast<std::uint8_t>(*component));
+    return {};
+}
+
+SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
+    const auto timeout = parse_duration(text);
+    if (timeout && timeout->count() <= 0) return usage("a route needs some time above 0");
+    return put(timeout, config.router.route_timeout);
+}
+
+SetupResult<void> set_capacity(Config& config, std::string_view text) {
+    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 40;  // records have up to 64 KiB
+    const auto size = parse_size(text);
+    if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
+        return usage(fmt::format("{} is no power of two from 64k to 1024G", quoted(text)));
+    return put(size, config.ring.capacity_bytes);
+}
+
+SetupResult<void> set_ring_name(Config& config, std::string_view text) {
+    if (!is_ring_name(text))
+        return usage(fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", quoted(text)));
+    config.ring.name = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_mode(Config& config, std::string_view text) {
+    std::uint32_t mode = 0;
+    const bool octal = text.size() == 4 && text[0] == '0' &&
+                       text.find_first_not_of("01234567") == std::string_view::npos;
+    for (const char c : text) mode = mode * 8 + static_cast<std::uint32_t>(c - '0');
+    if (!octal)
+        return usage(fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", quoted(text)));
+    config.ring.mode = static_cast<std::uint16_t>(mode);
+    return {};
+}
+
+SetupResult<void> set_record_path(Config& config, std::string_view text) {
+    if (auto good = check_path(Scheme::tlog, text); !good) return good;
+    config.record.path = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_rotate_every(Config& config, std::string_view text) {
+    const auto every = parse_duration(text);
+    if (every && *every < std::chrono::seconds{1}) return usage("segments are named by the second: 1s is the least");
+    return put(every, config.record.rotate_every);
+}
+
+constexpr std::array<std::string_view, 2> components{"system", "drop"};
+constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
+constexpr std::array<std::string_view, 3> fulls{"wait", "drop_newest", "evict"};
+constexpr std::array<std::string_view, 4> levels{"debug", "info", "warning", "error"};
+
+constexpr std::array keys{
+    ConfigKey{"router", "dedup_ms", "0",
+              [](Config& c, std::string_view t) { return put(parse_integer(t, 0, 60'000), c.router.dedup_ms); }},
+    ConfigKey{"router", "unknown_component", "system",
+              [](Config& c, std::string_view t) { return put_choice(t, components, c.router.unknown_component); }},
+    ConfigKey{"router", "unknown_target", "drop",
+              [](Config& c, std::string_view t) { return put_choice(t, targets, c.router.unknown_target); }},
+    ConfigKey{"router", "route_timeout", "60", set_route_timeout},
+    ConfigKey{"router", "heartbeat", "off", set_heartbeat},
+    ConfigKey{"ring", "name", "", set_ring_name},
+    ConfigKey{"ring", "capacity", "8MiB", set_capacity},
+    ConfigKey{"ring", "full", "evict", [](Config& c, std::string_view t) { return put_choice(t, fulls, c.ring.full); }},
+    ConfigKey{"ring", "mode", "0600", set_mode},
+    ConfigKey{"record", "path", "", set_record_path},
+    ConfigKey{"record", "rotate_bytes", "",
+              [](Config& c, std::string_view t) { return put(parse_size(t), c.record.rotate_bytes); }},
+    ConfigKey{"record", "rotate_every", "", set_rotate_every},
+    ConfigKey{"log", "level", "info", [](Config& c, std::string_view t) { return put_choice(t, levels, c.log_level); }},
+    ConfigKey{"web", "listen", "127.0.0.1:8088",
+              [](Config& c, std::string_view t) { return put(parse_host_port(t, {}), c.web.listen); }},
+};
+
+constexpr std::array<std::string_view, 5> sections{"router", "ring", "record", "log", "web"};
+
+}  // namespace
+
+std::span<const ConfigKey> config_keys() noexcept { return keys; }
+std::span<const std::string_view> config_sections() noexcept { return sections; }
+
+}  // namespace mavloom::runtime::detail
