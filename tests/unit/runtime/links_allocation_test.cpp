@@ -5,8 +5,16 @@
 
 #include "unit/runtime/links_fixture.hpp"
 
+// Clang's thread sanitizer brings its own operator new, which cannot be replaced.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define MAVLOOM_ALLOCATIONS_UNCOUNTED
+#endif
+#endif
+
 static thread_local std::size_t allocations = 0;
 
+#ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
 [[gnu::noinline]] void* operator new(std::size_t size) {
     ++allocations;
     if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
@@ -14,6 +22,7 @@ static thread_local std::size_t allocations = 0;
 }
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#endif
 
 namespace mavloom::runtime {
 namespace {
