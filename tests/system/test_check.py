@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""mavloom check: effective values with their origin, errors with file and line."""
+import json
+
+import pytest
+
+pytestmark = pytest.mark.short
+
+GOOD = """\
+[router]
+dedup_ms = 5
+[[endpoint]]
+url = "udpin://0.0.0.0:14550?idle=2"
+mtu = 0
+"""
+
+
+def values(done):
+    return {(v["section"], v["endpoint"], v["key"]): v for v in map(json.loads, done.lines)}
+
+
+def test_shows_values_and_where_they_came_from(run, tmp_path):
+    path = tmp_path / "router.toml"
+    path.write_text(GOOD)
+    done = run("check", path, "--json", env={"MAVLOOM_ROUTER_ROUTE_TIMEOUT": "2m"})
+
+    assert done.status == 0, done
+    found = values(done)
+    endpoint = "udpin://0.0.0.0:14550"
+    assert found["router", None, "dedup_ms"] == {"section": "router", "endpoint": None, "key": "dedup_ms", "value": "5", "origin": "file",
+                                                 "file": str(path), "line": 2, "variable": None}
+    assert found["router", None, "route_timeout"] == {"section": "router", "endpoint": None, "key": "route_timeout", "value": "2m",
+                                                      "origin": "environment", "file": None, "line": None,
+                                                      "variable": "MAVLOOM_ROUTER_ROUTE_TIMEOUT"}
+    assert (found["endpoint", endpoint, "idle"]["value"], found["endpoint", endpoint, "idle"]["line"]) == ("2", 4)
+    assert (found["endpoint", endpoint, "mtu"]["value"], found["endpoint", endpoint, "mtu"]["line"]) == ("0", 5)
+    assert (found["endpoint", endpoint, "max_peers"]["value"], found["endpoint", endpoint, "max_peers"]["origin"]) == ("256", "default")
+    assert found["ring", None, "name"]["value"] is None
+
+
+def test_text_names_file_and_line(run, tmp_path):
+    path = tmp_path / "router.toml"
+    path.write_text(GOOD)
+    done = run("check", path)
+
+    assert done.status == 0
+    assert any(line.split() == ["dedup_ms", "=", "5", "#", f"{path}:2"] for line in done.lines)
+
+
+@pytest.mark.parametrize("text, expected", [
+    ("[rooter]\n", "{path}:1: there is no section 'rooter', did you mean 'router'?"),
+    ("[router]\ndedup_msec = 1\n", "{path}:2: [router] has no key 'dedup_msec', did you mean 'dedup_ms'?"),
+    ("[[endpoint]]\nurl = \"udp://:14540\"\n", "type udpin://0.0.0.0:14540 to listen"),
+    ("[router\n", "{path}:1: "),
+])
+def test_a_bad_file_is_status_3(run, tmp_path, text, expected):
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    done = run("check", path)
+
+    assert done.status == 3
+    assert done.stdout == ""
+    assert expected.format(path=path) in done.stderr
+
+
+def test_no_file_and_no_configuration(run, tmp_path, data):
+    assert run("check", tmp_path / "none.toml").status == 3
+    assert run("check", data / "px4_gcs_flight.tlog").status == 3
+    assert run("check", "/dev/zero").status == 3
+    assert run("check").status == 2
