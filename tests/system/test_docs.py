@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""Every command that README, the guides and --help show is run: as written, but for ports (the kernel's choice), a bound on its time, and files of
+the examples' names in a temporary folder."""
+import re
+import shlex
+import shutil
+
+import pytest
+
+import frames
+import harness
+
+pytestmark = pytest.mark.short
+
+PAGES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs").rglob("*.md"))]
+COMMANDS = ("listen", "relay", "record", "replay", "dialect", "check", "bench")
+LIVE = ("listen", "relay", "record", "replay")
+
+
+def shell_lines(text):
+    """Lines of ```sh blocks, and the examples in the README's table of commands."""
+    for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
+        yield from block.splitlines()
+    yield from re.findall(r"\| `(mavloom [^`]*)` \|$", text, re.MULTILINE)
+
+
+def page_examples():
+    for page in PAGES:
+        for line in shell_lines(page.read_text()):
+            line = line.split("  #")[0].strip()
+            if re.match(r"(build/release/bin/)?mavloom (%s)\b" % "|".join(COMMANDS), line) and "|" not in line and "FILE" not in line:
+                yield pytest.param(line, id=f"{page.name}: {line}")
+
+
+def runnable(line):
+    words = shlex.split(line)[1:]
+    words = [re.sub(r"((?:udpin|tcpin):(?://)?[^?]*:)\d+", r"\g<1>0", word) for word in words]
+    if words[0] in LIVE and "--for" not in words:
+        words += ["--for", "300ms"]
+    if "--for" in words:
+        words[words.index("--for") + 1] = "300ms"
+    if words[0] == "replay" and "--no-wait" not in words:
+        words.append("--no-wait")
+    return words
+
+
+@pytest.fixture
+def folder(tmp_path):
+    shutil.copy(frames.FLIGHT, tmp_path / "flight.tlog")
+    (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
+                                       '<field type="uint16_t" name="count">n</field></message></messages></mavlink>')
+    for name in ("mavloom.toml", "router.toml"):
+        (tmp_path / name).write_text('[[endpoint]]\nurl = "udpin://127.0.0.1:14550"\n')
+    for name in ("key", "key.hex", "keys.hex", "vehicle.key", "my.key"):
+        (tmp_path / name).write_text("07" * 32)
+        (tmp_path / name).chmod(0o600)
+    return tmp_path
+
+
+@pytest.mark.parametrize("line", list(page_examples()))
+def test_example_of_a_page(run, folder, line):
+    done = run(*runnable(line), cwd=folder)
+
+    assert done.status == 0, done
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_examples_of_help(run, folder, command):
+    text = run(command, "--help").stdout
+    examples = re.findall(r"^\s*(?:Example: )?(mavloom %s [^-[].*)$" % command, text, re.MULTILINE)
+
+    assert examples, text
+    for line in examples:
+        done = run(*runnable(line), cwd=folder)
+        assert done.status == 0, done
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+        assert (page.parent / target).exists(), target
