@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """mavloom check: effective values with their origin, errors with file and line."""
 import json
+import re
 
 import pytest
+
+import harness
 
 pytestmark = pytest.mark.short
 
@@ -68,3 +71,33 @@ def test_no_file_and_no_configuration(run, tmp_path, data):
     assert run("check", data / "px4_gcs_flight.tlog").status == 3
     assert run("check", "/dev/zero").status == 3
     assert run("check").status == 2
+
+
+def rows(page):
+    """The cells of the tables in a page of the guide, without back quotes."""
+    lines = (harness.ROOT / "docs" / "guide" / page).read_text().splitlines()
+    return [[cell.strip().replace("`", "") for cell in line.strip("|").split("|")] for line in lines if line.startswith("| `")]
+
+
+def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
+    urls = {"udpin": "udpin://127.0.0.1:1", "udpout": "udpout://127.0.0.1:2", "udpbcast": "udpbcast://10.0.0.255:3", "tcpin": "tcpin://127.0.0.1:4",
+            "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6", "serial": "serial:///dev/ttyS0", "shm": "shm://main",
+            "tlog": "tlog://x.tlog"}
+    path = tmp_path / "all.toml"
+    path.write_text("".join(f'[[endpoint]]\nurl = "{url}"\n' for url in urls.values()))
+    effective = [json.loads(line) for line in run("check", path, "--json").lines]
+
+    def takes(schemes, scheme):
+        if schemes.startswith("all"):
+            return not (scheme == "tlog" and "but tlog" in schemes)
+        return any(re.fullmatch(word.strip().replace("*", ".*"), scheme) for word in schemes.split(","))
+
+    options = {(scheme, row[0]): row[2].removesuffix(" for udp*") for row in rows("endpoints.md") if len(row) == 4
+               for scheme in urls if takes(row[1], scheme)}
+    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide says in words that TCP has no default
+    found = {(v["endpoint"].split(":")[0], v["key"]): v["value"] or "" for v in effective if v["section"] == "endpoint" and v["key"] != "url"}
+    assert (found.pop(("tcpin", "idle")), found.pop(("tcpout", "idle"))) == ("", "")
+    assert found == options
+
+    keys = {(row[0], row[1]): row[2] for row in rows("configuration.md")}
+    assert {(v["section"], v["key"]): v["value"] or "" for v in effective if v["section"] != "endpoint"} == keys
