@@ -2,24 +2,9 @@
 // Counts operator new: the stage allocates when it is made and never for a frame.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "mavloom/edit/stage.hpp"
+#include "support/count_allocations.hpp"
 #include "support/golden_frames.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined: GCC would take new and free for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace mavloom::edit {
 namespace {
@@ -30,7 +15,7 @@ TEST(Stage, AllocatesNothingForAFrame) {
     options.sign_key.emplace(std::array<std::uint8_t, 32>{});
     const auto sut = Stage::create(dialect::default_dialect(), options);
     ASSERT_TRUE(sut.has_value());
-    const auto before = allocations;
+    const auto before = test::allocations;
 
     for (int i = 0; i < 1000; ++i) {
         const WallTime now{std::chrono::milliseconds{i}};
@@ -41,7 +26,7 @@ TEST(Stage, AllocatesNothingForAFrame) {
         }
     }
 
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(test::allocations, before);
 }
 
 }  // namespace

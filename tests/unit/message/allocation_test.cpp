@@ -2,23 +2,8 @@
 // Counts operator new: printing messages into a buffer that has its size must not allocate.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "support/count_allocations.hpp"
 #include "unit/message/sample_messages.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined: GCC would take new and free for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace mavloom::message {
 namespace {
@@ -32,7 +17,7 @@ TEST(Formatter, AllocatesNothingForAMessage) {
     for (const auto& message : messages) {
         const SampleFrame frame(message, ByteView(payload).first(message.wire.max_length));
         const auto received = frame.received("a name that is longer than the small string of any library");
-        const auto before = allocations;
+        const auto before = test::allocations;
         for (int i = 0; i < 3; ++i) {
             out.clear();
             append_json(out, received);
@@ -40,7 +25,7 @@ TEST(Formatter, AllocatesNothingForAMessage) {
             append_csv_header(out, message);
             append_csv_row(out, received);
         }
-        EXPECT_EQ(allocations, before) << message.name;
+        EXPECT_EQ(test::allocations, before) << message.name;
     }
 }
 
@@ -52,9 +37,9 @@ TEST(Formatter, AllocatesOnlyUntilTheBufferHasGrown) {
         for (int i = 0; i < 100; ++i) append_json(out, frame.received());
     };
     print_many();
-    const auto before = allocations;
+    const auto before = test::allocations;
     print_many();
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(test::allocations, before);
 }
 
 }  // namespace

@@ -1,28 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Counts operator new: in steady state the way of a frame from socket to parser to queue to socket must not allocate.
-#include <cstdlib>
-#include <new>
-
+#include "support/count_allocations.hpp"
 #include "unit/runtime/links_fixture.hpp"
-
-// Clang's thread sanitizer brings its own operator new, which cannot be replaced.
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define MAVLOOM_ALLOCATIONS_UNCOUNTED
-#endif
-#endif
-
-static thread_local std::size_t allocations = 0;
-
-#ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-    throw std::bad_alloc{};
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-#endif
 
 namespace mavloom::runtime {
 namespace {
@@ -40,15 +19,17 @@ struct Forwarder : LinkHandler {
     std::size_t frames = 0;
 };
 
-std::size_t allocations_of(Node& node, Forwarder& forwarder, const std::function<void()>& send_burst, std::size_t frames) {
-    const std::size_t before = allocations;
+std::size_t allocations_of(Node& node, Forwarder& forwarder, const std::function<void()>& send_burst,
+                           std::size_t frames) {
+    const std::size_t before = test::allocations;
     const std::size_t wanted = forwarder.frames + frames;
     const MonoTime deadline = mono_now() + std::chrono::seconds(10);
     send_burst();
-    const std::size_t by_sender = allocations - before;
-    while (forwarder.frames < wanted && mono_now() < deadline) node.links->turn(forwarder, mono_now() + std::chrono::milliseconds(1));
+    const std::size_t by_sender = test::allocations - before;
+    while (forwarder.frames < wanted && mono_now() < deadline)
+        node.links->turn(forwarder, mono_now() + std::chrono::milliseconds(1));
     EXPECT_EQ(forwarder.frames, wanted);
-    return allocations - before - by_sender;
+    return test::allocations - before - by_sender;
 }
 
 TEST(LinksAllocation, UdpInSteadyStateAllocatesNothing) {

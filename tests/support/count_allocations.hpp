@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Counts operator new of this thread. Replaces the global operators, so exactly one file of a test program includes it. With Clang's thread
+// sanitizer, whose own operator new cannot be replaced, nothing is counted: that build checks threads, the others check allocations.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define MAVLOOM_ALLOCATIONS_UNCOUNTED
+#endif
+#endif
+
+namespace mavloom::test {
+inline thread_local std::size_t allocations = 0;
+}
+
+#ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
+// Not inlined: GCC would take new and free for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++mavloom::test::allocations;
+    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#endif
