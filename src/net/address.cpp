@@ -85,7 +85,8 @@ std::string Address::host_text() const {
 
 std::string Address::text() const {
     const std::string host = host_text();
-    return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port()) : fmt::format("[{}]:{}", host, port());
+    return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, port())
+                                               : fmt::format("[{}]:{}", host, port());
 }
 
 }  // namespace mavloom::net

@@ -18,7 +18,8 @@ BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, st
     }
     if (tail_ + block.size() > capacity_ || entries_.size() == entries_.capacity()) reserve(block.size());
     std::memcpy(memory_.get() + tail_, block.data(), block.size());
-    entries_.push_back({key, now, static_cast<std::uint32_t>(tail_), static_cast<std::uint32_t>(block.size()), block_class, true});
+    entries_.push_back(
+        {key, now, static_cast<std::uint32_t>(tail_), static_cast<std::uint32_t>(block.size()), block_class, true});
     tail_ += block.size();
     bytes_ += block.size();
     class_bytes_[block_class] += block.size();

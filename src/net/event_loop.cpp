@@ -28,7 +28,8 @@ SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.u64 = wake_token;
-    if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &event) != 0) return system_error("cannot watch a descriptor", errno);
+    if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &event) != 0)
+        return system_error("cannot watch a descriptor", errno);
     return std::unique_ptr<EventLoop>(new EventLoop(std::move(epoll), std::move(wake)));
 }
 
@@ -47,7 +48,8 @@ SetupResult<WatchId> EventLoop::watch(int fd, bool readable, bool writable, IoHa
     epoll_event event{};
     event.events = interest(readable, writable);
     event.data.u64 = token_of(id);
-    if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event) != 0) return system_error("cannot watch a descriptor", errno);
+    if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event) != 0)
+        return system_error("cannot watch a descriptor", errno);
     free_.pop_back();
     watches_[slot].handler = &handler;
     watches_[slot].fd = fd;
@@ -96,7 +98,8 @@ void EventLoop::wait(MonoTime deadline) noexcept {
     if (!timers_.empty()) deadline = std::min(deadline, timers_.begin()->first.when);
     const bool for_ever = deadline == MonoTime::max();
     const Nanoseconds left = for_ever ? Nanoseconds{} : std::max(deadline - mono_now(), Nanoseconds{});
-    const timespec limit{static_cast<std::time_t>(left.count() / 1'000'000'000), static_cast<long>(left.count() % 1'000'000'000)};
+    const timespec limit{static_cast<std::time_t>(left.count() / 1'000'000'000),
+                         static_cast<long>(left.count() % 1'000'000'000)};
     count_ = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, for_ever ? nullptr : &limit, nullptr);
     if (count_ >= 0 || errno != ENOSYS) return;
     constexpr std::int64_t longest_ms = 3'600'000;
@@ -129,7 +132,8 @@ bool EventLoop::dispatch(MonoTime now) {
             woken = ::read(wake_->get(), &times, sizeof times) == sizeof times || woken;
             continue;
         }
-        const Watch* watch = find({static_cast<std::uint32_t>(event.data.u64), static_cast<std::uint32_t>(event.data.u64 >> 32)});
+        const Watch* watch = find(
+            {static_cast<std::uint32_t>(event.data.u64), static_cast<std::uint32_t>(event.data.u64 >> 32)});
         if (watch == nullptr) continue;  // unwatched by an earlier callback of this turn
         watch->handler->on_io({(event.events & (EPOLLIN | EPOLLHUP | EPOLLRDHUP)) != 0, (event.events & EPOLLOUT) != 0,
                                (event.events & (EPOLLERR | EPOLLHUP)) != 0});

@@ -13,7 +13,7 @@
 namespace mavloom::net {
 
 static SetupError look_up_error(std::string_view host, int code) {
-    const SetupCode kind = code == EAI_AGAIN || code == EAI_FAIL ? SetupCode::unreachable
+    const SetupCode kind = code == EAI_AGAIN || code == EAI_FAIL      ? SetupCode::unreachable
                            : code == EAI_SYSTEM || code == EAI_MEMORY ? SetupCode::system
                                                                       : SetupCode::not_found;
     return {kind, code == EAI_SYSTEM ? errno : 0, fmt::format("cannot find host '{}': {}", host, gai_strerror(code))};
@@ -58,7 +58,9 @@ struct Resolver::State {
     static void answer_questions(const std::shared_ptr<State>& state);
 };
 
-Resolver::Resolver(std::function<void()> notify) : state_(std::make_shared<State>()) { state_->notify = std::move(notify); }
+Resolver::Resolver(std::function<void()> notify) : state_(std::make_shared<State>()) {
+    state_->notify = std::move(notify);
+}
 
 Resolver::~Resolver() {
     std::unique_lock lock(state_->mutex);
@@ -92,7 +94,8 @@ std::optional<Resolver::Done> Resolver::take() {
 std::optional<Resolver::Answer> Resolver::wait(std::uint64_t ticket, std::chrono::milliseconds limit) {
     std::unique_lock lock(state_->mutex);
     const auto mine = [&] {
-        return std::find_if(state_->answers.begin(), state_->answers.end(), [&](const Done& d) { return d.ticket == ticket; });
+        return std::find_if(state_->answers.begin(), state_->answers.end(),
+                            [&](const Done& d) { return d.ticket == ticket; });
     };
     if (!state_->changed.wait_for(lock, limit, [&] { return mine() != state_->answers.end(); })) return std::nullopt;
     const auto done = mine();

@@ -34,14 +34,16 @@ struct ReceiveBatch::Slots {
 };
 
 SetupResult<ReceiveBatch> ReceiveBatch::create() {
-    void* memory = mmap(nullptr, batch_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* memory = mmap(nullptr, batch_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1,
+                        0);
     if (memory == MAP_FAILED) return system_error("cannot get memory for received datagrams", errno);
     // Transparent huge pages would make each slot resident in full.
     madvise(memory, batch_bytes, MADV_NOHUGEPAGE);
     return ReceiveBatch(std::make_unique<Slots>(), static_cast<std::uint8_t*>(memory));
 }
 
-ReceiveBatch::ReceiveBatch(std::unique_ptr<Slots> headers, std::uint8_t* memory) noexcept : headers_(std::move(headers)), memory_(memory) {
+ReceiveBatch::ReceiveBatch(std::unique_ptr<Slots> headers, std::uint8_t* memory) noexcept
+    : headers_(std::move(headers)), memory_(memory) {
     for (std::size_t i = 0; i < slots; ++i) {
         headers_->iovecs[i] = {memory_ + i * slot_stride, slot_bytes};
         msghdr& header = headers_->messages[i].msg_hdr;
@@ -54,7 +56,9 @@ ReceiveBatch::ReceiveBatch(std::unique_ptr<Slots> headers, std::uint8_t* memory)
 }
 
 ReceiveBatch::ReceiveBatch(ReceiveBatch&& other) noexcept
-    : headers_(std::move(other.headers_)), memory_(std::exchange(other.memory_, nullptr)), count_(std::exchange(other.count_, 0)) {}
+    : headers_(std::move(other.headers_)),
+      memory_(std::exchange(other.memory_, nullptr)),
+      count_(std::exchange(other.count_, 0)) {}
 
 ReceiveBatch& ReceiveBatch::operator=(ReceiveBatch&& other) noexcept {
     std::swap(headers_, other.headers_);
@@ -88,7 +92,8 @@ static WallTime kernel_time(const msghdr& header) noexcept {
 Datagram ReceiveBatch::operator[](std::size_t index) const noexcept {
     assert(index < count_);
     const mmsghdr& message = headers_->messages[index];
-    return {{static_cast<const std::uint8_t*>(headers_->iovecs[index].iov_base), message.msg_len}, &headers_->from[index],
+    return {{static_cast<const std::uint8_t*>(headers_->iovecs[index].iov_base), message.msg_len},
+            &headers_->from[index],
             kernel_time(message.msg_hdr)};
 }
 
@@ -115,10 +120,12 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, options.v6_only ? 1 : 0);
     set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);
     if (options.report_refused) {
-        set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
+        set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR,
+                   1);
     }
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
-    if (::bind(fd, local.data(), local.size()) != 0) return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
+    if (::bind(fd, local.data(), local.size()) != 0)
+        return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
     auto bound = local_address(fd);
     if (!bound) return tl::unexpected(std::move(bound).error());
     socket.local_ = *bound;

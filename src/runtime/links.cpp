@@ -14,7 +14,8 @@ using namespace detail;
 
 class Links::Impl {
 public:
-    Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+    Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
+         net::ReceiveBatch batch)
         : core(table, std::move(classes), std::move(loop), std::move(batch)) {}
 
     [[nodiscard]] OpenEndpoint* find(EndpointId id) const noexcept {
@@ -39,14 +40,15 @@ static auto with_system_parts(Make&& make) -> SetupResult<std::unique_ptr<Links>
 
 SetupResult<std::unique_ptr<Links>> Links::create(const wire::MessageTable& table) {
     return with_system_parts([&](auto loop, auto batch) {
-        return std::unique_ptr<Links>(new Links(std::make_unique<Impl>(table, MessageClasses(table), std::move(loop), std::move(batch))));
+        return std::unique_ptr<Links>(
+            new Links(std::make_unique<Impl>(table, MessageClasses(table), std::move(loop), std::move(batch))));
     });
 }
 
 SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialect) {
     return with_system_parts([&](auto loop, auto batch) {
-        return std::unique_ptr<Links>(
-            new Links(std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop), std::move(batch))));
+        return std::unique_ptr<Links>(new Links(
+            std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop), std::move(batch))));
     });
 }
 
@@ -63,7 +65,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     if (auto checked = check_supported(endpoint); !checked) return tl::unexpected(std::move(checked).error());
     for (const auto& other : impl_->endpoints) {
         if (other && other->info.endpoint.label() == endpoint.label() && endpoint.address.port != 0) {
-            return setup_error(SetupCode::usage, fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
+            return setup_error(SetupCode::usage,
+                               fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
         }
     }
     const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};

@@ -39,7 +39,8 @@ void LinkTable::remove(LinkId id) noexcept {
     --size_;
 }
 
-Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
+           net::ReceiveBatch batch)
     : table_(table),
       classes_(std::move(classes)),
       loop_(std::move(loop)),
@@ -188,9 +189,11 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     }
     counters.frames_in.add();
     counters.bytes_in.add(event.frame.size());
-    if (event.info == nullptr) [[unlikely]] counters.unknown_ids.add();
+    if (event.info == nullptr) [[unlikely]]
+        counters.unknown_ids.add();
     const auto update = link.tracker.update(event.frame);
-    if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]] count_sequence(link, update);
+    if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
+        count_sequence(link, update);
     ++frames_this_turn_;
     handler_->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
 }
@@ -221,7 +224,8 @@ bool Core::send(Link& link, const wire::FrameView& frame) {
     const wire::FrameView outgoing = link.signature == nullptr ? frame : link.signature->sign(frame, table_, wall_now());
     const MessageClasses::Rule rule = classes_.of(outgoing.id());
     const auto pushed = link.queue.push(outgoing.bytes(), rule.block_class, MessageClasses::key(outgoing, rule), now_);
-    if (pushed.dropped != 0) [[unlikely]] link.counters.queue_bytes.add(pushed.dropped);
+    if (pushed.dropped != 0) [[unlikely]]
+        link.counters.queue_bytes.add(pushed.dropped);
     if (pushed.queued && !std::exchange(link.queued, true)) link.schedule();
     return pushed.queued;
 }
@@ -230,7 +234,8 @@ void Core::resolve(OpenEndpoint& endpoint, const HostPort& host) {
     questions_.emplace_back(resolver_.ask(host.host, host.port), &endpoint);
 }
 
-std::optional<net::Resolver::Answer> Core::resolve_now(const HostPort& host, std::chrono::milliseconds limit, OpenEndpoint& endpoint) {
+std::optional<net::Resolver::Answer> Core::resolve_now(const HostPort& host, std::chrono::milliseconds limit,
+                                                       OpenEndpoint& endpoint) {
     if (const auto numeric = net::Address::parse(host.host, host.port)) return std::vector<net::Address>{*numeric};
     const std::uint64_t ticket = resolver_.ask(host.host, host.port);
     auto answer = resolver_.wait(ticket, limit);
@@ -240,7 +245,8 @@ std::optional<net::Resolver::Answer> Core::resolve_now(const HostPort& host, std
 
 void Core::collect_answers() {
     while (auto done = resolver_.take()) {
-        const auto question = std::find_if(questions_.begin(), questions_.end(), [&](const auto& q) { return q.first == done->ticket; });
+        const auto question = std::find_if(questions_.begin(), questions_.end(),
+                                           [&](const auto& q) { return q.first == done->ticket; });
         if (question == questions_.end()) continue;
         OpenEndpoint* const endpoint = question->second;
         questions_.erase(question);

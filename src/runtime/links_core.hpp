@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all endpoints of one Links share: the loop, buffers, the table of links, the way of a frame from parser to handler and from `send` to a
-// queue. Private to module runtime; one owner thread.
+// What all endpoints of one Links share: the loop, buffers, the table of links, the way of a frame from parser to handler and from `send`
+// to a queue. Private to module runtime; one owner thread.
 #pragma once
 
 #include <algorithm>
@@ -63,12 +63,14 @@ struct Link {
 // sign= and verify= of one endpoint.
 class Signature {
 public:
-    [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options, EndpointId endpoint);
+    [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options,
+                                                                      EndpointId endpoint);
 
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1, or an id
-    // without definition).
-    [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table, WallTime now) noexcept;
+    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1,
+    // or an id without definition).
+    [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
+                                       WallTime now) noexcept;
 
 private:
     std::optional<wire::Verifier> verifier_;
@@ -135,7 +137,8 @@ public:
 
 class Core {
 public:
-    Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch);
+    Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
+         net::ReceiveBatch batch);
 
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
@@ -175,7 +178,8 @@ public:
 
     // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for.
     void resolve(OpenEndpoint& endpoint, const HostPort& host);
-    [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const HostPort& host, std::chrono::milliseconds limit, OpenEndpoint& endpoint);
+    [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const HostPort& host, std::chrono::milliseconds limit,
+                                                                   OpenEndpoint& endpoint);
     void forget(const OpenEndpoint& endpoint) noexcept;
 
     // A stream parser that holds bytes back gives its deadline here; `tick` is called once when it has passed.

@@ -9,27 +9,28 @@ namespace mavloom::runtime {
 
 // Class 0, beside the names' own meaning: what a person or a protocol waits for. Ids are MAVLink's, rising.
 static constexpr std::uint32_t most_important[] = {
-    0,                       // HEARTBEAT
-    5,   6,   7,             // CHANGE_OPERATOR_CONTROL and its ack, AUTH_KEY
-    11,                      // SET_MODE
-    19,  20,  21,  22,  23,  // PARAM_ACK_TRANSACTION, PARAM_REQUEST_READ, PARAM_REQUEST_LIST, PARAM_VALUE, PARAM_SET
-    37,  38,  39,  40,  41,  // MISSION_REQUEST_PARTIAL_LIST, _WRITE_PARTIAL_LIST, _ITEM, _REQUEST, _SET_CURRENT
-    43,  44,  45,  46,  47,  // MISSION_REQUEST_LIST, _COUNT, _CLEAR_ALL, _ITEM_REACHED, _ACK
-    50,  51,  53,            // PARAM_MAP_RC, MISSION_REQUEST_INT, MISSION_CHECKSUM
-    73,  75,  76,  77,  80,  // MISSION_ITEM_INT, COMMAND_INT, COMMAND_LONG, COMMAND_ACK, COMMAND_CANCEL
-    253,                     // STATUSTEXT
-    320, 321, 322, 323, 324, // PARAM_EXT_REQUEST_READ, _REQUEST_LIST, _VALUE, _SET, _ACK
-    60041,                   // PARAM_VALUE_ARRAY
+    0,                          // HEARTBEAT
+    5,     6,   7,              // CHANGE_OPERATOR_CONTROL and its ack, AUTH_KEY
+    11,                         // SET_MODE
+    20,    21,  22,  23,        // PARAM_REQUEST_READ, PARAM_REQUEST_LIST, PARAM_VALUE, PARAM_SET
+    37,    38,  39,  40,  41,   // MISSION_REQUEST_PARTIAL_LIST, _WRITE_PARTIAL_LIST, _ITEM, _REQUEST, _SET_CURRENT
+    43,    44,  45,  46,  47,   // MISSION_REQUEST_LIST, _COUNT, _CLEAR_ALL, _ITEM_REACHED, _ACK
+    50,    51,  53,             // PARAM_MAP_RC, MISSION_REQUEST_INT, MISSION_CHECKSUM
+    73,    75,  76,  77,  80,   // MISSION_ITEM_INT, COMMAND_INT, COMMAND_LONG, COMMAND_ACK, COMMAND_CANCEL
+    253,                        // STATUSTEXT
+    320,   321, 322, 323, 324,  // PARAM_EXT_REQUEST_READ, _REQUEST_LIST, _VALUE, _SET, _ACK
+    60041,                      // PARAM_VALUE_ARRAY
 };
 
-// Telemetry of which each one counts: pieces of a whole, one of many, answers, or several things told apart by a field that the definition does
-// not mark `instance`. docs/guide/queues.md has the names.
+// Telemetry of which each one counts: pieces of a whole, one of many, answers, or several things told apart by a field that the definition
+// does not mark `instance`. docs/guide/queues.md has the names.
 static constexpr std::uint32_t never_replaced[] = {
-    34,    35,    67,    100,   107,   112,   113,   114,   118,   120,   123,   126,   127,   128,   130,   131,   133,   134,
-    142,   148,   149,   166,   169,   170,   171,   172,   180,   184,   217,   219,   225,   233,   244,   246,   247,   248,
-    249,   256,   259,   260,   262,   263,   266,   267,   271,   275,   276,   283,   301,   311,   330,   331,   339,   340,
-    350,   385,   386,   387,   388,   396,   410,   411,   413,   414,   415,   435,   510,   515,   11001, 11003, 11005, 11034,
-    11036, 11037, 12900, 12901, 12902, 12903, 12904, 12905, 12915, 12918, 12919, 12920, 50002, 52601, 60040,
+    34,    35,    67,    100,   107,   112,   113,   114,   118,   120,   123,   126,   127,   128,
+    130,   131,   133,   134,   142,   148,   149,   169,   170,   171,   172,   180,   184,   217,
+    219,   225,   233,   244,   246,   247,   248,   249,   259,   260,   262,   263,   266,   267,
+    271,   275,   276,   283,   301,   311,   330,   331,   339,   340,   350,   385,   386,   387,
+    388,   396,   410,   411,   413,   414,   415,   435,   510,   515,   11001, 11003, 11005, 11034,
+    11036, 11037, 12900, 12901, 12902, 12903, 12904, 12905, 12915, 12918, 12919, 50002, 52601, 60040,
 };
 
 static_assert(std::is_sorted(std::begin(most_important), std::end(most_important)));
@@ -47,7 +48,8 @@ MessageClasses::MessageClasses(const wire::MessageTable& table) {
 
 MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
     for (const dialect::Message& message : dialect.messages()) {
-        const auto instance = std::find_if(message.fields.begin(), message.fields.end(), [](const auto& f) { return f.instance; });
+        const auto instance = std::find_if(message.fields.begin(), message.fields.end(),
+                                           [](const auto& f) { return f.instance; });
         set(message.wire, instance == message.fields.end() ? nullptr : &*instance, true);
     }
     std::sort(far_.begin(), far_.end(), [](const Far& a, const Far& b) { return a.id < b.id; });
@@ -74,7 +76,8 @@ void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* in
 }
 
 MessageClasses::Rule MessageClasses::find(MessageId id) const noexcept {
-    const auto at = std::lower_bound(far_.begin(), far_.end(), id.value, [](const Far& f, std::uint32_t v) { return f.id < v; });
+    const auto at = std::lower_bound(far_.begin(), far_.end(), id.value,
+                                     [](const Far& f, std::uint32_t v) { return f.id < v; });
     return at != far_.end() && at->id == id.value ? at->rule : Rule{};
 }
 

@@ -13,9 +13,15 @@ static tl::unexpected<SetupError> usage(const Endpoint& endpoint, std::string_vi
 
 SetupResult<void> check_supported(const Endpoint& endpoint) {
     switch (endpoint.scheme) {
-        case Scheme::udpin: case Scheme::udpout: case Scheme::tcpin: case Scheme::tcpout: break;
-        case Scheme::tlog: return usage(endpoint, "a recording is no link: it is read and written by listen, relay, record and replay");
-        default: return usage(endpoint, fmt::format("{}:// is not available in this version", scheme_name(endpoint.scheme)));
+        case Scheme::udpin:
+        case Scheme::udpout:
+        case Scheme::tcpin:
+        case Scheme::tcpout: break;
+        case Scheme::tlog:
+            return usage(endpoint,
+                         "a recording is no link: it is read and written by listen, relay, record and replay");
+        default:
+            return usage(endpoint, fmt::format("{}:// is not available in this version", scheme_name(endpoint.scheme)));
     }
     const EndpointOptions& o = endpoint.options;
     const std::pair<std::string_view, bool> not_yet[] = {
@@ -48,12 +54,17 @@ SetupResult<void> check_destination(const Endpoint& endpoint) {
     const auto address = net::Address::parse(host, port);
     if (!address) return {};
     if (address->is_any()) {
-        return usage(endpoint, fmt::format("{} is no destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}", host,
-                                           udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
-                                           address->is_v4() ? "127.0.0.1" : "[::1]", port));
+        return usage(
+            endpoint,
+            fmt::format(
+                "{} is no destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}",
+                host, udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
+                address->is_v4() ? "127.0.0.1" : "[::1]", port));
     }
-    if (address->is_multicast()) return usage(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
-    if (address->is_broadcast()) return usage(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
+    if (address->is_multicast())
+        return usage(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
+    if (address->is_broadcast())
+        return usage(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
     return {};
 }
 
@@ -61,7 +72,8 @@ SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint)
     const auto& bind = endpoint.options.bind;
     if (!bind) return std::nullopt;
     const auto address = net::Address::parse(bind->host, bind->port);
-    if (!address) return usage(endpoint, fmt::format("bind= takes an address of this machine in numbers, not '{}'", bind->host));
+    if (!address)
+        return usage(endpoint, fmt::format("bind= takes an address of this machine in numbers, not '{}'", bind->host));
     return address;
 }
 

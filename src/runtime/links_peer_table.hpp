@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Peers of one socket by their address: a hash table with open addressing that also remembers the last one found, since datagrams come in runs.
-// Look-ups allocate nothing. Private to module runtime; one owner thread.
+// Peers of one socket by their address: a hash table with open addressing that also remembers the last one found, since datagrams come in
+// runs. Look-ups allocate nothing. Private to module runtime; one owner thread.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ public:
     PeerTable() : slots_(16) {}
 
     [[nodiscard]] Peer* find(const net::Address& address) noexcept {
-        if (last_.peer != nullptr && last_.address == address) [[likely]] return last_.peer;
+        if (last_.peer != nullptr && last_.address == address) [[likely]]
+            return last_.peer;
         const Slot& slot = slots_[place_of(address)];
         if (slot.peer != nullptr) last_ = slot;
         return slot.peer;

@@ -29,7 +29,8 @@ bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
 }
 
 // The byte that makes this frame's checksum right: the dialect knows it, else it can be found from the checksum.
-static std::uint8_t crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra, const wire::MessageTable& table) noexcept {
+static std::uint8_t crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
+                                 const wire::MessageTable& table) noexcept {
     if (const wire::MessageInfo* info = table.find(frame.id())) return info->crc_extra;
     return static_cast<std::uint8_t>(std::max(wire::crc_extra_between(before_extra, frame.checksum()), 0));
 }
@@ -39,7 +40,8 @@ wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::Messag
     const std::size_t covered = frame.header_length() + frame.payload_length();
     const ByteView header_and_payload = frame.bytes().first(covered);
     std::copy(header_and_payload.begin(), header_and_payload.end(), buffer_.begin());
-    const std::uint8_t extra = crc_extra_of(frame, wire::crc_update(wire::crc_seed, header_and_payload.subspan(1)), table);
+    const std::uint8_t extra = crc_extra_of(frame, wire::crc_update(wire::crc_seed, header_and_payload.subspan(1)),
+                                            table);
     buffer_[2] |= wire::incompat_signed;
     const ByteView now_covered = ByteView(buffer_).subspan(1, covered - 1);
     store_le(buffer_.data() + covered, wire::crc_update(wire::crc_update(wire::crc_seed, now_covered), extra));

@@ -45,7 +45,8 @@ void TcpPeer::on_io(net::IoEvents events) {
 void TcpPeer::read() {
     const auto count = stream_.read(core_.stream_buffer());
     if (!count) {
-        if (count.error() != net::IoError::would_block) close(count.error() == net::IoError::closed ? "closed by the far side" : "failed");
+        if (count.error() != net::IoError::would_block)
+            close(count.error() == net::IoError::closed ? "closed by the far side" : "failed");
         return;
     }
     last_heard = core_.now();

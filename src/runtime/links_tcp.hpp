@@ -20,8 +20,8 @@ public:
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
 };
 
-// Reads once a turn and writes what is queued with one call a turn. What the kernel will not take waits in the queue: a slow far side is never
-// disconnected for being slow.
+// Reads once a turn and writes what is queued with one call a turn. What the kernel will not take waits in the queue: a slow far side is
+// never disconnected for being slow.
 class TcpPeer final : public Link, public Outlet, public net::IoHandler, public Core::Ticker {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)

@@ -19,7 +19,8 @@ class TcpIn;
 
 class Listening final : public net::IoHandler {
 public:
-    Listening(Core& core, TcpIn& owner, net::TcpListener listener) : core_(core), owner_(owner), listener_(std::move(listener)) {}
+    Listening(Core& core, TcpIn& owner, net::TcpListener listener)
+        : core_(core), owner_(owner), listener_(std::move(listener)) {}
     ~Listening() override { core_.loop().unwatch(watch_); }
     [[nodiscard]] SetupResult<void> start() {
         auto watch = core_.loop().watch(listener_.fd(), true, false, *this);
@@ -82,7 +83,8 @@ void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
 SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
     for (const net::Address& address : addresses) {
         const bool any_port = address.port() == 0 && info.local_port != 0;
-        auto listener = net::TcpListener::open(any_port ? address.with_port(info.local_port) : address, addresses.size() > 1);
+        auto listener = net::TcpListener::open(any_port ? address.with_port(info.local_port) : address,
+                                               addresses.size() > 1);
         if (!listener) return tl::unexpected(std::move(listener).error());
         info.local_port = listener->local().port();
         auto listening = std::make_unique<Listening>(core_, *this, std::move(*listener));
@@ -106,7 +108,8 @@ void TcpIn::accept_from(net::TcpListener& listener) {
             admit(std::move(*stream));
         } else {
             if (stream.error() == net::IoError::no_descriptors || stream.error() == net::IoError::no_buffers) pause();
-            if (stream.error() != net::IoError::closed) return;  // one that gave up while it waited says nothing about the next
+            if (stream.error() != net::IoError::closed)
+                return;  // one that gave up while it waited says nothing about the next
         }
     }
 }
@@ -115,7 +118,8 @@ void TcpIn::admit(net::TcpStream stream) {
     if (peers_.size() >= info.endpoint.options.max_peers) {
         counters.peers_refused.add();
         if (!std::exchange(told_full_, true)) {
-            core_.notice(info.id, fmt::format("{}: {} clients are the most (max_peers=); others are turned away", info.endpoint.label(), peers_.size()));
+            core_.notice(info.id, fmt::format("{}: {} clients are the most (max_peers=); others are turned away",
+                                              info.endpoint.label(), peers_.size()));
         }
         return;
     }
@@ -175,7 +179,8 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening) {
     auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
     if (!answer) return opened;
     if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
-    if (auto done = opened->open(**answer); !done) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    if (auto done = opened->open(**answer); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     return opened;
 }
 

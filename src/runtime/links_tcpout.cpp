@@ -36,7 +36,8 @@ public:
 
     // Resolves and connects in the background.
     void begin() {
-        if (auto answer = core_.resolve_now(info.endpoint.address, std::chrono::milliseconds(250), *this)) on_resolved(std::move(*answer));
+        if (auto answer = core_.resolve_now(info.endpoint.address, std::chrono::milliseconds(250), *this))
+            on_resolved(std::move(*answer));
     }
     // The same, but waits for the outcome.
     SetupResult<void> begin_and_wait();

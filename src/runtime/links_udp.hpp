@@ -16,7 +16,8 @@ namespace mavloom::runtime::detail {
 class UdpPort;
 
 struct UdpPeer final : Link {
-    UdpPeer(EndpointId owner, const net::BlockQueue::Limits& limits, const wire::MessageTable& table, UdpPort& p, const net::Address& a)
+    UdpPeer(EndpointId owner, const net::BlockQueue::Limits& limits, const wire::MessageTable& table, UdpPort& p,
+            const net::Address& a)
         : Link(owner, limits), port(&p), address(a), parser(table) {}
     void schedule() override;
 

@@ -6,7 +6,8 @@
 
 namespace mavloom::runtime::detail {
 
-// A datagram needs few pieces, for frames lie one behind the other; one of very many would be cut short here and is complete again after a submit.
+// A datagram needs few pieces, for frames lie one behind the other; one of very many would be cut short here and is complete again after a
+// submit.
 static constexpr std::size_t fewest_pieces = 64;
 // ICMP errors of earlier datagrams make a send fail without having been tried; one more of them may come in between.
 static constexpr int most_refusals = 3;
@@ -101,7 +102,8 @@ void UdpPort::flush(MonoTime) {
             const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
             if (gathered.blocks == 0) break;
             batch.add(&peer.address, gathered.pieces);
-            parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks), static_cast<std::uint32_t>(gathered.bytes)});
+            parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks),
+                              static_cast<std::uint32_t>(gathered.bytes)});
         }
     }
     if (!blocked_) submit();

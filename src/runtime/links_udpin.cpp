@@ -12,8 +12,8 @@ namespace mavloom::runtime::detail {
 namespace {
 
 constexpr std::chrono::seconds default_idle{60};
-// A peer that was heard more than once and was heard this lately does not give way to a newcomer: a flood of strangers cannot push out those
-// who send heartbeats (1 Hz).
+// A peer that was heard more than once and was heard this lately does not give way to a newcomer: a flood of strangers cannot push out
+// those who send heartbeats (1 Hz).
 constexpr std::chrono::seconds protected_for{2};
 
 class UdpIn final : public OpenEndpoint, public UdpOwner, public net::TimerHandler {
@@ -64,14 +64,16 @@ SetupResult<void> UdpIn::open(std::vector<net::Address> addresses) {
     for (const net::Address& address : addresses) {
         auto port = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);
         const bool any_port = address.port() == 0 && info.local_port != 0;
-        if (auto done = port->open(any_port ? address.with_port(info.local_port) : address, options); !done) return done;
+        if (auto done = port->open(any_port ? address.with_port(info.local_port) : address, options); !done)
+            return done;
         info.local_port = port->socket().local().port();
         info.rcvbuf_bytes = port->socket().receive_buffer_bytes();
         ports_.push_back(std::move(port));
     }
     const bool less = info.rcvbuf_bytes < options.receive_buffer_bytes;
-    core_.notice(info.id, fmt::format("{}: receive buffer {} bytes (asked {}){}", info.endpoint.label(), info.rcvbuf_bytes,
-                                      options.receive_buffer_bytes, less ? "; net.core.rmem_max sets the limit" : ""));
+    core_.notice(info.id,
+                 fmt::format("{}: receive buffer {} bytes (asked {}){}", info.endpoint.label(), info.rcvbuf_bytes,
+                             options.receive_buffer_bytes, less ? "; net.core.rmem_max sets the limit" : ""));
     return {};
 }
 
@@ -115,7 +117,8 @@ UdpPeer* UdpIn::newcomer(UdpPort& port, const net::Datagram& datagram) {
         counters.peers_refused.add();
         return nullptr;
     }
-    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(), port, *datagram.from);
+    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(), port,
+                                          *datagram.from);
     peer->name = fmt::format("{}#{}", info.endpoint.label(), datagram.from->text());
     peer->signature = signature.get();
     peer->last_heard = core_.now();
@@ -130,12 +133,16 @@ UdpPeer* UdpIn::newcomer(UdpPort& port, const net::Datagram& datagram) {
 // The longest idle goes first: of those heard once, else of all that are not protected.
 bool UdpIn::make_room() {
     if (peers_.size() < info.endpoint.options.max_peers) return true;
-    const auto rank = [](const std::unique_ptr<UdpPeer>& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };
-    const auto first = std::min_element(peers_.begin(), peers_.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    const auto rank = [](const std::unique_ptr<UdpPeer>& peer) {
+        return std::pair(peer->datagrams > 1, peer->last_heard);
+    };
+    const auto first = std::min_element(peers_.begin(), peers_.end(),
+                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     if (first == peers_.end()) return false;
     if ((*first)->datagrams > 1 && core_.now() - (*first)->last_heard < protected_for) return false;
     counters.peers_evicted.add();
-    drop(static_cast<std::size_t>(first - peers_.begin()), "more peers than max_peers, and this one was silent for longest");
+    drop(static_cast<std::size_t>(first - peers_.begin()),
+         "more peers than max_peers, and this one was silent for longest");
     return true;
 }
 
@@ -171,7 +178,8 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening) {
     auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
     if (!answer) return opened;
     if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
-    if (auto done = opened->open(std::move(**answer)); !done) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    if (auto done = opened->open(std::move(**answer)); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     return opened;
 }
 

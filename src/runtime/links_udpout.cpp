@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// udpout: one far side, one link. The socket is not connected, so that datagrams from elsewhere can be counted; closed ports are learnt of by ICMP.
+// udpout: one far side, one link. The socket is not connected, so that datagrams from elsewhere can be counted; closed ports are learnt of
+// by ICMP.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +68,8 @@ SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
     addresses_ = std::move(*answer);
     if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
     if (addresses_.empty()) {
-        return setup_error(SetupCode::usage, fmt::format("'{}' has no address of the family of bind={}", info.endpoint.address.host, local_->text()));
+        return setup_error(SetupCode::usage, fmt::format("'{}' has no address of the family of bind={}",
+                                                         info.endpoint.address.host, local_->text()));
     }
     current_ = 0;
     if (auto done = aim_at(addresses_[0]); !done) return done;
@@ -127,7 +129,8 @@ void UdpOut::on_send_error(UdpPort&, net::IoError error) {
     if (!peer_) return;
     if (!std::exchange(told_failure_, true)) {
         core_.notice(info.id, fmt::format("{}: {} {}; sending goes on", info.endpoint.label(), peer_->address.text(),
-                                          error == net::IoError::refused ? "refuses (nobody listens there yet)" : "cannot be reached"));
+                                          error == net::IoError::refused ? "refuses (nobody listens there yet)"
+                                                                         : "cannot be reached"));
     }
     if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Backoff::longest) backoff_.reset();
     const bool choice = is_name_ || addresses_.size() > 1;
@@ -168,13 +171,15 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
     auto answer = core.resolve_now(endpoint.address, limit, *opened);
     if (!answer) {
         if (!required) return opened;
-        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s", endpoint.label(), endpoint.address.host));
+        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
+                                                               endpoint.label(), endpoint.address.host));
     }
     if (!*answer && !required) {
         opened->on_resolved(std::move(*answer));
         return opened;
     }
-    if (auto done = opened->start(std::move(*answer)); !done) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    if (auto done = opened->start(std::move(*answer)); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     return opened;
 }
 

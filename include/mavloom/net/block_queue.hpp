@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A queue of whole blocks on their way out, bounded by bytes and by age. Until a bound is reached it is first in, first out, and nothing is
-// lost. At the bound whole blocks go, the least important class first (the highest number): of the last class first those that a newer block
-// with the same key has superseded, then the oldest; an arriving block never displaces a more important one. Key 0 is never superseded.
-// A block of which a part is with the kernel already is never dropped.
+// A queue of whole blocks on their way out, bounded by bytes and by age. Until a bound is reached it is first in, first out, and nothing
+// is lost. At the bound whole blocks go, the least important class first (the highest number): of the last class first those that a newer
+// block with the same key has superseded, then the oldest; an arriving block never displaces a more important one. Key 0 is never
+// superseded. A block of which a part is with the kernel already is never dropped.
 //
 // Blocks lie one behind the other in one piece of memory, so that many leave as one. It grows with what is queued (at most twice the bound)
 // and is given back after a jam; in steady state nothing allocates. Not thread-safe. DESIGN.md rule 2; docs/guide/queues.md.
@@ -28,7 +28,8 @@ public:
 
     struct Limits {
         std::size_t max_bytes = std::size_t{1} << 20;
-        std::array<Nanoseconds, classes> max_age{std::chrono::seconds(10), std::chrono::seconds(10), std::chrono::seconds(1)};
+        std::array<Nanoseconds, classes> max_age{std::chrono::seconds(10), std::chrono::seconds(10),
+                                                 std::chrono::seconds(1)};
     };
     struct Pushed {
         bool queued = false;
@@ -55,14 +56,14 @@ public:
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
 
-    // Datagrams: whole blocks from `from` on, together at most `max_bytes` (the first always), as few pieces as they lie in. Moves `from` behind
-    // the last. No blocks: the end. What was sent is then taken off by `pop`.
+    // Datagrams: whole blocks from `from` on, together at most `max_bytes` (the first always), as few pieces as they lie in. Moves `from`
+    // behind the last. No blocks: the end. What was sent is then taken off by `pop`.
     [[nodiscard]] Position front() const noexcept { return {head_}; }
     [[nodiscard]] Gathered gather(Position& from, std::size_t max_bytes, std::span<iovec> room) const noexcept;
     void pop(Position until) noexcept;
 
-    // Streams: everything from the first unsent byte on, as far as `room` goes; `consume` takes off what the kernel took and returns the blocks
-    // that are thereby whole. `rewind` makes the next stream begin with the whole block.
+    // Streams: everything from the first unsent byte on, as far as `room` goes; `consume` takes off what the kernel took and returns the
+    // blocks that are thereby whole. `rewind` makes the next stream begin with the whole block.
     [[nodiscard]] std::size_t pieces(std::span<iovec> room) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
     void rewind() noexcept { begun_ = 0; }
@@ -107,8 +108,8 @@ private:
     std::array<std::size_t, classes> class_bytes_{};
     std::array<std::size_t, classes> oldest_{};  // where to look for the oldest of each class: none lies before
 
-    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty: the newest block of each key, and those that
-    // have a newer one, in the order in which they were superseded.
+    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty: the newest block of each key,
+    // and those that have a newer one, in the order in which they were superseded.
     bool jammed_ = false;
     std::vector<Newest> newest_;
     std::size_t keys_ = 0;

@@ -54,7 +54,8 @@ public:
     EventLoop& operator=(const EventLoop&) = delete;
     ~EventLoop();
 
-    // Level-triggered. `handler` must stay until `unwatch`, which may be called inside any callback: what is pending for it is not delivered then.
+    // Level-triggered. `handler` must stay until `unwatch`, which may be called inside any callback: what is pending for it is not
+    // delivered then.
     [[nodiscard]] SetupResult<WatchId> watch(int fd, bool readable, bool writable, IoHandler& handler);
     void change(WatchId id, bool readable, bool writable) noexcept;
     void unwatch(WatchId& id) noexcept;

@@ -10,12 +10,12 @@
 namespace mavloom::net {
 
 enum class IoError : std::uint8_t {
-    would_block,   // nothing to read, or no room to write, now
-    refused,       // an earlier datagram met a closed port; the call did nothing and may be repeated
-    unreachable,   // no route, or the host does not answer
-    no_buffers,    // the kernel is short of memory for the moment
-    too_long,      // the datagram is longer than the path takes
-    closed,        // the far side ended the stream
+    would_block,  // nothing to read, or no room to write, now
+    refused,      // an earlier datagram met a closed port; the call did nothing and may be repeated
+    unreachable,  // no route, or the host does not answer
+    no_buffers,   // the kernel is short of memory for the moment
+    too_long,     // the datagram is longer than the path takes
+    closed,       // the far side ended the stream
     no_descriptors,
     other,
 };

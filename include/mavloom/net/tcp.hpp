@@ -23,7 +23,8 @@ public:
     TcpStream() noexcept = default;
 
     // Begins to connect, from `local` where given; when the descriptor becomes writable, `finish_connect` tells the outcome.
-    [[nodiscard]] static SetupResult<TcpStream> start_connect(const Address& remote, const std::optional<Address>& local = std::nullopt);
+    [[nodiscard]] static SetupResult<TcpStream> start_connect(const Address& remote,
+                                                              const std::optional<Address>& local = std::nullopt);
     [[nodiscard]] SetupResult<void> finish_connect();
     // For callers that may wait: true when `finish_connect` has an outcome within `limit`.
     [[nodiscard]] bool wait_connected(std::chrono::milliseconds limit) const noexcept;

@@ -78,7 +78,7 @@ private:
 
 struct UdpOptions {
     std::uint64_t receive_buffer_bytes = 32u << 20;
-    bool v6_only = false;        // else a socket on :: also hears IPv4
+    bool v6_only = false;         // else a socket on :: also hears IPv4
     bool report_refused = false;  // learn of closed ports (ICMP) also without connecting: sends then fail once with `refused`
 };
 

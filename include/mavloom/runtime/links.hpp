@@ -36,20 +36,20 @@ using EndpointId = Id<struct EndpointTag, std::uint32_t>;
 struct LinkCounters {
     Counter frames_in, bytes_in, frames_out, bytes_out;
     Counter crc_error, junk_bytes, unknown_flags, implausible_unknown, unknown_ids;
-    Counter bad_signature;   // verify= is set and the signature does not agree, or there is none
-    Counter queue_bytes, queue_age;  // whole frames dropped on the way out
+    Counter bad_signature;                  // verify= is set and the signature does not agree, or there is none
+    Counter queue_bytes, queue_age;         // whole frames dropped on the way out
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
     Counter filtered, rate_limited;
 };
 
 // What belongs to a socket rather than to one of its peers.
 struct EndpointCounters {
-    Counter kernel_drop;      // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
-    Counter wrong_peer;       // udpout: datagrams from another address
-    Counter stray_bytes;      // bytes of strangers whose datagrams held no valid frame
-    Counter peers_refused;    // over max_peers, and none of the others may go (docs/guide/queues.md)
-    Counter peers_evicted;    // the longest idle, gone for a newcomer
-    Counter send_errors;      // datagrams that met a closed port (ICMP said so) or that the kernel refused
+    Counter kernel_drop;    // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
+    Counter wrong_peer;     // udpout: datagrams from another address
+    Counter stray_bytes;    // bytes of strangers whose datagrams held no valid frame
+    Counter peers_refused;  // over max_peers, and none of the others may go (docs/guide/queues.md)
+    Counter peers_evicted;  // the longest idle, gone for a newcomer
+    Counter send_errors;    // datagrams that met a closed port (ICMP said so) or that the kernel refused
     Counter reconnects;
 };
 
@@ -58,7 +58,7 @@ struct RxFrame {
     const wire::MessageInfo* info = nullptr;  // null: id without definition (accepted by routing.md 5.4)
     LinkId link;
     EndpointId endpoint;
-    WallTime time{};                          // the kernel's receive time; a recording's own time for tlog sources
+    WallTime time{};                           // the kernel's receive time; a recording's own time for tlog sources
     wire::SequenceTracker::Update sequence{};  // what it says of the link's loss
 };
 
@@ -77,7 +77,7 @@ public:
 struct LinkInfo {
     LinkId id;
     EndpointId endpoint;
-    std::string name;         // unique: the endpoint's label, with "#HOST:PORT" of the peer where there can be several
+    std::string name;  // unique: the endpoint's label, with "#HOST:PORT" of the peer where there can be several
     bool up = false;
     const LinkCounters* counters = nullptr;
 };
@@ -85,15 +85,16 @@ struct LinkInfo {
 struct EndpointInfo {
     EndpointId id;
     Endpoint endpoint;
-    std::uint16_t local_port = 0;     // the bound port (port 0 was asked for: the one that was given)
-    std::uint64_t rcvbuf_bytes = 0;   // what the kernel gave
-    bool finished = false;            // a tlog source that was read to its end
+    std::uint16_t local_port = 0;    // the bound port (port 0 was asked for: the one that was given)
+    std::uint64_t rcvbuf_bytes = 0;  // what the kernel gave
+    bool finished = false;           // a tlog source that was read to its end
     const EndpointCounters* counters = nullptr;
 };
 
 class Links {
 public:
-    // `table` must outlive the object. A full queue then drops telemetry oldest first; with a dialect it knows which newer value replaces which.
+    // `table` must outlive the object. A full queue then drops telemetry oldest first; with a dialect it knows which newer value replaces
+    // which.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const wire::MessageTable& table);
     // The same with the dialect's table, which must outlive the object, and its instance fields (docs/guide/queues.md).
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const dialect::Dialect& dialect);

@@ -152,9 +152,10 @@ RC_GTEST_PROP(BlockQueue, DoesWhatASimpleListDoes, ()) {
         now += std::chrono::milliseconds(*rc::gen::inRange(0, 4));
         const int action = *rc::gen::inRange(0, 10);
         if (action < 7) {
-            Model::Block block{std::vector<std::uint8_t>(*rc::gen::inRange<std::size_t>(1, 60), static_cast<std::uint8_t>(step)),
-                               *rc::gen::inRange<std::uint8_t>(0, 3), *rc::gen::inRange<std::uint64_t>(0, 4), now,
-                               static_cast<std::size_t>(step)};
+            Model::Block block{
+                std::vector<std::uint8_t>(*rc::gen::inRange<std::size_t>(1, 60), static_cast<std::uint8_t>(step)),
+                *rc::gen::inRange<std::uint8_t>(0, 3), *rc::gen::inRange<std::uint64_t>(0, 4), now,
+                static_cast<std::size_t>(step)};
             const auto pushed = queue.push(block.bytes, block.block_class, block.key, now);
             RC_ASSERT(pushed.dropped == model.push(std::move(block)));
         } else if (action == 7) {

@@ -10,7 +10,8 @@ TEST(Address, ReadsNumbersOnly) {
     EXPECT_EQ(Address::parse("127.0.0.1", 14550)->text(), "127.0.0.1:14550");
     EXPECT_EQ(Address::parse("::1", 5760)->text(), "[::1]:5760");
     EXPECT_EQ(Address::parse("2001:db8:0:0::7", 1)->text(), "[2001:db8::7]:1");
-    for (const auto* text : {"", "localhost", "127.0.0", "127.0.0.1 ", "256.1.1.1", "[::1]", "::1%", "fe80::1%no_such_interface", ":::"}) {
+    for (const auto* text :
+         {"", "localhost", "127.0.0", "127.0.0.1 ", "256.1.1.1", "[::1]", "::1%", "fe80::1%no_such_interface", ":::"}) {
         EXPECT_FALSE(Address::parse(text, 1)) << text;
     }
 }

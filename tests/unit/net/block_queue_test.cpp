@@ -21,7 +21,8 @@ BlockQueue queue_of(std::size_t max_bytes) {
     return BlockQueue(limits);
 }
 
-BlockQueue::Pushed push(BlockQueue& queue, std::string_view text, std::uint8_t block_class = 2, std::uint64_t key = 0, MonoTime now = start) {
+BlockQueue::Pushed push(BlockQueue& queue, std::string_view text, std::uint8_t block_class = 2, std::uint64_t key = 0,
+                        MonoTime now = start) {
     return queue.push({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, block_class, key, now);
 }
 
@@ -170,7 +171,8 @@ TEST(BlockQueue, GathersDatagramsOfWholeBlocks) {
     got = queue.gather(position, 10, room);
     EXPECT_EQ(text_of(std::span(room).first(got.pieces)), "cccc");
     got = queue.gather(position, 10, room);
-    EXPECT_EQ(text_of(std::span(room).first(got.pieces)), "dddddddddddd") << "one that is too long for the bound goes alone";
+    EXPECT_EQ(text_of(std::span(room).first(got.pieces)), "dddddddddddd")
+        << "one that is too long for the bound goes alone";
     queue.pop(position);
     EXPECT_TRUE(queue.empty());
     EXPECT_EQ(queue.gather(position, 10, room).blocks, 0u);

@@ -28,12 +28,12 @@ using Bytes = std::vector<std::uint8_t>;
 // Ids, checksum seeds and lengths as common.xml gives them.
 inline const wire::MessageTable& table() {
     static constexpr wire::MessageInfo messages[] = {
-        {MessageId{0}, 50, 9, 9},                                   // HEARTBEAT
-        {MessageId{4}, 237, 14, 14, 12, 13},                        // PING
-        {MessageId{30}, 39, 28, 28},                                // ATTITUDE
-        {MessageId{76}, 152, 33, 33, 30, 31},                       // COMMAND_LONG
-        {MessageId{131}, 223, 255, 255},                            // ENCAPSULATED_DATA
-        {MessageId{253}, 83, 51, 54},                               // STATUSTEXT
+        {MessageId{0}, 50, 9, 9},              // HEARTBEAT
+        {MessageId{4}, 237, 14, 14, 12, 13},   // PING
+        {MessageId{30}, 39, 28, 28},           // ATTITUDE
+        {MessageId{76}, 152, 33, 33, 30, 31},  // COMMAND_LONG
+        {MessageId{131}, 223, 255, 255},       // ENCAPSULATED_DATA
+        {MessageId{253}, 83, 51, 54},          // STATUSTEXT
     };
     static const wire::MessageTable it{messages};
     return it;
@@ -43,7 +43,8 @@ inline Bytes frame_bytes(std::uint32_t id, std::uint8_t sequence, Bytes payload 
     const wire::MessageInfo& info = *table().find(MessageId{id});
     payload.resize(info.max_length, 0x5a);
     wire::FrameBuffer buffer;
-    const auto frame = wire::write_frame(buffer, {wire::Version::v2, sequence, {SystemId{system}, ComponentId{1}}}, info, payload);
+    const auto frame = wire::write_frame(buffer, {wire::Version::v2, sequence, {SystemId{system}, ComponentId{1}}},
+                                         info, payload);
     return {frame.bytes().begin(), frame.bytes().end()};
 }
 inline Bytes heartbeat(std::uint8_t sequence, std::uint8_t system = 1) { return frame_bytes(0, sequence, {}, system); }
@@ -165,7 +166,9 @@ public:
         EXPECT_EQ(::sendto(fd_, bytes.data(), bytes.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to),
                   static_cast<ssize_t>(bytes.size()));
     }
-    void write(const Bytes& bytes) const { EXPECT_EQ(::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size())); }
+    void write(const Bytes& bytes) const {
+        EXPECT_EQ(::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+    }
     // Empty when there is nothing now (or the stream has ended).
     [[nodiscard]] Bytes read() const {
         Bytes bytes(65536);

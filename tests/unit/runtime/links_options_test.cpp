@@ -52,7 +52,8 @@ TEST(LinksOptions, WhatIsNoDestinationIsRefusedWithTheSpellingToType) {
     EXPECT_EQ(refused.error().code, SetupCode::usage);
     EXPECT_THAT(refused.error().text, AllOf(HasSubstr("udpin://0.0.0.0:14550"), HasSubstr("udpout://127.0.0.1:14550")));
     endpoint.address = {"::", 14550};
-    EXPECT_THAT(node.links->add(endpoint).error().text, AllOf(HasSubstr("udpin://[::]:14550"), HasSubstr("udpout://[::1]:14550")));
+    EXPECT_THAT(node.links->add(endpoint).error().text,
+                AllOf(HasSubstr("udpin://[::]:14550"), HasSubstr("udpout://[::1]:14550")));
     endpoint.address = {"127.0.0.1", 0};
     EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("port 0 is no destination"));
     endpoint.address = {"239.1.2.3", 14550};
@@ -83,12 +84,11 @@ TEST(LinksOptions, BindFixesTheLocalSide) {
     Node node;
     const auto far = PlainSocket::udp();
     std::uint16_t port;
-    {
-        port = PlainSocket::udp().port();
-    }
+    { port = PlainSocket::udp().port(); }
     const auto out = node.add(fmt::format("udpout://127.0.0.1:{}?bind=127.0.0.1:{}", far.port(), port));
     EXPECT_EQ(node.port(out), port);
-    EXPECT_EQ(node.refused(fmt::format("udpout://127.0.0.1:{}?bind=127.0.0.1:{}", far.port() + 1, port)).code, SetupCode::in_use);
+    EXPECT_EQ(node.refused(fmt::format("udpout://127.0.0.1:{}?bind=127.0.0.1:{}", far.port() + 1, port)).code,
+              SetupCode::in_use);
 }
 
 class LinksSigning : public ::testing::Test {

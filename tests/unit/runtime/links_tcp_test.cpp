@@ -76,7 +76,8 @@ TEST_F(LinksTcp, CountersAreThereWhileALinkGoesDown) {
         client.write(heartbeat(1) + heartbeat(2));
     }
     const MonoTime deadline = mono_now() + std::chrono::seconds(10);
-    while (last.frames_in == 0 && mono_now() < deadline) node.links->turn(last, mono_now() + std::chrono::milliseconds(1));
+    while (last.frames_in == 0 && mono_now() < deadline)
+        node.links->turn(last, mono_now() + std::chrono::milliseconds(1));
     EXPECT_EQ(last.frames_in, 2u);
 }
 
@@ -100,7 +101,8 @@ TEST_F(LinksTcp, ASlowClientLosesWholeFramesOnlyAndTheOthersNone) {
     EXPECT_LE(node.links->queued_bytes(in), 1u << 20);
     const auto links = node.links->links();
     ASSERT_THAT(links, SizeIs(2)) << "a slow client is never disconnected";
-    const auto& slow_counters = links[0].name.ends_with(std::to_string(slow.port())) ? *links[0].counters : *links[1].counters;
+    const auto& slow_counters = links[0].name.ends_with(std::to_string(slow.port())) ? *links[0].counters
+                                                                                     : *links[1].counters;
     EXPECT_GT(slow_counters.queue_bytes.value(), 0u);
 
     ASSERT_TRUE(until(
@@ -111,11 +113,13 @@ TEST_F(LinksTcp, ASlowClientLosesWholeFramesOnlyAndTheOthersNone) {
         node));
     wire::StreamParser parser(table());
     std::size_t frames = 0, bad = 0;
-    parser.feed(got_slow, MonoTime{}, [&](const wire::ParseEvent& e) { ++(e.kind == wire::ParseEvent::Kind::frame ? frames : bad); });
+    parser.feed(got_slow, MonoTime{},
+                [&](const wire::ParseEvent& e) { ++(e.kind == wire::ParseEvent::Kind::frame ? frames : bad); });
     EXPECT_EQ(bad, 0u);
     EXPECT_EQ(parser.pending_bytes(), 0u);
     EXPECT_EQ(frames, slow_counters.frames_out.value());
-    EXPECT_EQ(frames + slow_counters.queue_bytes.value() + slow_counters.queue_age.value(), static_cast<std::size_t>(count));
+    EXPECT_EQ(frames + slow_counters.queue_bytes.value() + slow_counters.queue_age.value(),
+              static_cast<std::size_t>(count));
 }
 
 TEST_F(LinksTcp, WhatAStalledClientCannotTakeAges) {
@@ -150,10 +154,12 @@ TEST(LinksTcpOut, WaitsForAListenerThatComesLater) {
     Node caller, listener;
     const auto out = caller.add(fmt::format("tcpout://127.0.0.1:{}", port));
     ASSERT_TRUE(until([&] { return !caller.recorder.notices.empty(); }, caller));
-    EXPECT_THAT(caller.recorder.notices[0], HasSubstr(fmt::format("127.0.0.1:{}: Connection refused; trying again", port)));
+    EXPECT_THAT(caller.recorder.notices[0],
+                HasSubstr(fmt::format("127.0.0.1:{}: Connection refused; trying again", port)));
     EXPECT_EQ(caller.links->send(out, view(heartbeat(0))), 0u);
     const auto in = listener.add(fmt::format("tcpin://127.0.0.1:{}", port));
-    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 1 && listener.recorder.ups.size() == 1; }, caller, listener));
+    ASSERT_TRUE(
+        until([&] { return caller.recorder.ups.size() == 1 && listener.recorder.ups.size() == 1; }, caller, listener));
     EXPECT_THAT(caller.recorder.notices, SizeIs(1)) << "once, not at each attempt";
     EXPECT_EQ(listener.links->send(in, view(heartbeat(1))), 1u);
     ASSERT_TRUE(until([&] { return caller.recorder.frames.size() == 1; }, caller, listener));

@@ -46,7 +46,8 @@ TEST_P(LinksTransport, CarriesFramesBothWaysByteForByte) {
     marry();
     Bytes sent;
     for (int i = 1; i <= 200; ++i) {
-        const Bytes frame = i % 3 == 0 ? frame_bytes(131, static_cast<std::uint8_t>(i)) : attitude(static_cast<std::uint8_t>(i));
+        const Bytes frame = i % 3 == 0 ? frame_bytes(131, static_cast<std::uint8_t>(i))
+                                       : attitude(static_cast<std::uint8_t>(i));
         ASSERT_EQ(far.links->send(out, view(frame)), 1u);
         sent = std::move(sent) + frame;
     }
@@ -172,7 +173,9 @@ INSTANTIATE_TEST_SUITE_P(Loopback, LinksTransport,
                          [](const auto& made) {
                              const std::string host = made.param.host;
                              return fmt::format("{}To{}", made.param.calling,
-                                                host == "[::1]" ? "Ipv6" : host == "localhost" ? "Name" : "Ipv4");
+                                                host == "[::1]"       ? "Ipv6"
+                                                : host == "localhost" ? "Name"
+                                                                      : "Ipv4");
                          });
 
 }  // namespace

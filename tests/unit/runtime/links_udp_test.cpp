@@ -32,8 +32,9 @@ TEST(LinksUdp, EveryPeerThatSendsAFrameIsALinkAndGetsItsAnswer) {
     EXPECT_EQ(got_a, heartbeat(1));
     EXPECT_EQ(got_b, heartbeat(2));
     ASSERT_THAT(node.recorder.ups, SizeIs(2));
-    EXPECT_THAT(node.recorder.ups, Contains(::testing::Field(&std::pair<LinkId, std::string>::second,
-                                                             fmt::format("udpin://127.0.0.1:0#127.0.0.1:{}", a.port()))));
+    EXPECT_THAT(node.recorder.ups,
+                Contains(::testing::Field(&std::pair<LinkId, std::string>::second,
+                                          fmt::format("udpin://127.0.0.1:0#127.0.0.1:{}", a.port()))));
 }
 
 TEST(LinksUdp, ReceiveTimesAreTheKernels) {
@@ -174,7 +175,11 @@ TEST(LinksUdp, KernelDropsAreCountedAlsoBehindTheLastDatagram) {
     const auto peer = PlainSocket::udp();
     constexpr int count = 500;
     for (int i = 0; i < count; ++i) peer.send_to(node.port(in), attitude(static_cast<std::uint8_t>(i)));
-    ASSERT_TRUE(until([&, last = std::size_t{0}]() mutable { return std::exchange(last, node.recorder.frames.size()) == node.recorder.frames.size() && last > 0; }, node));
+    ASSERT_TRUE(until(
+        [&, last = std::size_t{0}]() mutable {
+            return std::exchange(last, node.recorder.frames.size()) == node.recorder.frames.size() && last > 0;
+        },
+        node));
     node.links->refresh_kernel_drops();
     node.links->refresh_kernel_drops();
     EXPECT_EQ(node.info(in).counters->kernel_drop.value(), count - node.recorder.frames.size());
@@ -186,21 +191,23 @@ TEST(LinksUdp, TheReceiveBufferObtainedIsTold) {
     const auto in = node.add("udpin://127.0.0.1:0?rcvbuf=100000");
     node.poll();
     EXPECT_GE(node.info(in).rcvbuf_bytes, 100'000u);
-    EXPECT_THAT(node.recorder.notices, Contains(HasSubstr(fmt::format("receive buffer {} bytes (asked 100000)", node.info(in).rcvbuf_bytes))));
+    EXPECT_THAT(node.recorder.notices,
+                Contains(HasSubstr(fmt::format("receive buffer {} bytes (asked 100000)", node.info(in).rcvbuf_bytes))));
 }
 
 TEST(LinksUdp, AClosedFarSideIsNotFatal) {
     Node node;
     std::uint16_t port;
-    {
-        port = PlainSocket::udp().port();
-    }
+    { port = PlainSocket::udp().port(); }
     const auto out = node.add(to("udpout", port));
-    ASSERT_TRUE(until([&] { return node.links->send(out, view(heartbeat(0))), node.info(out).counters->send_errors.value() > 3; }, node));
+    ASSERT_TRUE(until(
+        [&] { return node.links->send(out, view(heartbeat(0))), node.info(out).counters->send_errors.value() > 3; },
+        node));
     EXPECT_THAT(node.recorder.notices, Contains(HasSubstr("refuses")));
     Node late;
     const auto in = late.add(to("udpin", port));
-    ASSERT_TRUE(until([&] { return node.links->send(out, view(heartbeat(0))), !late.recorder.frames.empty(); }, node, late));
+    ASSERT_TRUE(
+        until([&] { return node.links->send(out, view(heartbeat(0))), !late.recorder.frames.empty(); }, node, late));
     EXPECT_THAT(late.links->links(), SizeIs(1));
     EXPECT_EQ(late.links->send(in, view(heartbeat(1))), 1u);
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node, late));
@@ -213,7 +220,8 @@ TEST(LinksUdp, CallingANameTriesItsNextAddress) {
     Node listener, caller;
     const auto in = listener.add("udpin://[::1]:0");
     const auto out = caller.add(fmt::format("udpout://localhost:{}", listener.port(in)));
-    ASSERT_TRUE(until([&] { return caller.links->send(out, view(heartbeat(0))), !listener.recorder.frames.empty(); }, listener, caller));
+    ASSERT_TRUE(until([&] { return caller.links->send(out, view(heartbeat(0))), !listener.recorder.frames.empty(); },
+                      listener, caller));
 }
 
 TEST(LinksUdp, ListeningOnANameBindsAllItsAddresses) {
