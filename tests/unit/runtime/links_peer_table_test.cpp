@@ -30,7 +30,7 @@ TEST(PeerTable, FindsWhatAMapFinds) {
     PeerTable<int> table;
     std::map<unsigned, int*> expected;
     for (int step = 0; step < 30'000; ++step) {
-        const unsigned number = random() % 1000;
+        const auto number = static_cast<unsigned>(random() % 1000);
         if (!expected.contains(number) && expected.size() < 300) {
             table.add(address_of(number), peers[number]);
             expected[number] = &peers[number];
@@ -38,7 +38,7 @@ TEST(PeerTable, FindsWhatAMapFinds) {
             table.remove(address_of(number));
             expected.erase(number);
         }
-        const unsigned asked = random() % 1000;
+        const auto asked = static_cast<unsigned>(random() % 1000);
         ASSERT_EQ(table.find(address_of(asked)), expected.contains(asked) ? expected[asked] : nullptr) << asked;
         ASSERT_EQ(table.size(), expected.size());
     }
