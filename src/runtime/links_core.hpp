@@ -67,8 +67,7 @@ public:
                                                                       EndpointId endpoint);
 
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1,
-    // or an id without definition).
+    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1).
     [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
                                        WallTime now) noexcept;
 
