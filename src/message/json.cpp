@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
-#include "message/cursor.hpp"
+#include "message/number.hpp"
 #include "message/utf8.hpp"
 #include "message/visit.hpp"
 
@@ -49,161 +52,277 @@ char* write_character(char* at, char32_t c) noexcept {
     return c == '"' || c == '\\' || is_control(c) ? write_escaped(at, c) : write_utf8(at, c);
 }
 
-void put_string(Cursor& out, std::string_view bytes) {
-    constexpr std::size_t longest = 6;  // \u001b for one byte
-    out.reserve(bytes.size() * longest + 2 + sizeof(std::uint64_t));
-    char* at = out.at();
-    *at++ = '"';
+// Writes `bytes` and gives the end, or null where a byte needs more than copying. Eight at a time; the last eight overlap.
+char* copy_plain(char* at, std::string_view bytes) noexcept {
+    constexpr std::size_t word = sizeof(std::uint64_t);
+    if (bytes.size() < word) {
+        for (const char c : bytes) {
+            if (!is_plain(c)) return nullptr;
+            *at++ = c;
+        }
+        return at;
+    }
+    for (std::size_t i = 0;; i += word) {
+        i = std::min(i, bytes.size() - word);
+        if (!all_plain(bytes.data() + i)) return nullptr;
+        std::memcpy(at + i, bytes.data() + i, word);
+        if (i + word == bytes.size()) return at + bytes.size();
+    }
+}
+
+char* write_characters(char* at, std::string_view bytes) noexcept {
     while (!bytes.empty()) {
-        if (bytes.size() >= 8 && all_plain(bytes.data())) {
-            std::memcpy(at, bytes.data(), 8);
-            at += 8;
-            bytes.remove_prefix(8);
-            continue;
-        }
-        if (is_plain(bytes.front())) {
-            *at++ = bytes.front();
-            bytes.remove_prefix(1);
-            continue;
-        }
         const auto c = decode_utf8(bytes);
         at = write_character(at, c.value);
         bytes.remove_prefix(c.length);
     }
+    return at;
+}
+
+char* write_string(char* at, std::string_view bytes) noexcept {
     *at++ = '"';
-    out.set(at);
+    char* end = copy_plain(at, bytes);
+    at = end != nullptr ? end : write_characters(at, bytes);
+    *at++ = '"';
+    return at;
+}
+
+// Keys and other text of ours: short, and of no length that could be known ahead.
+char* write_text(char* at, std::string_view text) noexcept {
+    std::memcpy(at, text.data(), text.size());
+    return at + text.size();
+}
+template <std::size_t size>
+char* write_literal(char* at, const char (&text)[size]) noexcept {
+    std::memcpy(at, text, size - 1);
+    return at + size - 1;
 }
 
 // ---- values
 
 template <class Float>
-void put_float(Cursor& out, Float value) {
-    if (std::isfinite(value)) [[likely]]
-        return out.set(write_float(out.at(), value));
-    out.put_unchecked(std::isnan(value) ? "\"NaN\"" : value > 0 ? "\"Infinity\"" : "\"-Infinity\"");
+char* write_special(char* at, Float value) noexcept {
+    return write_text(at, std::isnan(value) ? "\"NaN\"" : value > 0 ? "\"Infinity\"" : "\"-Infinity\"");
 }
 
-template <class Integer>
-void put_integer(Cursor& out, Integer value) {
-    const bool negative = value < 0;
-    const auto magnitude = negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
-    const bool quoted = sizeof value == 8 && magnitude > largest_exact;
-    if (quoted) out.put_unchecked('"');
-    if (negative) out.put_unchecked('-');
-    out.set(write_unsigned(out.at(), magnitude));
-    if (quoted) out.put_unchecked('"');
+char* write_quoted(char* at, bool negative, std::uint64_t magnitude) noexcept {
+    *at++ = '"';
+    if (negative) *at++ = '-';
+    at = write_unsigned(at, magnitude);
+    *at++ = '"';
+    return at;
 }
 
-// The caller has reserved the room.
 template <class T>
-void put_value(Cursor& out, T value) {
+char* write_value(char* at, T value) noexcept {
     if constexpr (std::is_floating_point_v<T>) {
-        put_float(out, value);
+        return std::isfinite(value) ? write_float(at, value) : write_special(at, value);
+    } else if constexpr (sizeof(T) == 8) {
+        const bool negative = value < 0;
+        const auto magnitude = negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+        if (magnitude > largest_exact) return write_quoted(at, negative, magnitude);
+        return write_integer(at, static_cast<std::int64_t>(value));
+    } else if constexpr (std::is_signed_v<T>) {
+        return write_integer(at, value);
     } else {
-        put_integer(out, value);
+        return write_unsigned(at, value);
     }
 }
-
-constexpr std::size_t value_room = number_room + 3;  // and quotes, and a comma
 
 template <class T>
-void put_elements(Cursor& out, const MessageView& view, const dialect::Field& field) {
-    out.reserve(field.array_length * value_room + 2);
-    out.put_unchecked('[');
+char* write_field(char* at, const MessageView& view, const dialect::Field& field) noexcept {
+    if (!field.is_array()) [[likely]]
+        return write_value(at, view.get<T>(field));
+    *at++ = '[';
     for (std::size_t i = 0; i < field.array_length; ++i) {
-        if (i > 0) out.put_unchecked(',');
-        put_value(out, view.get<T>(field, i));
+        at = write_value(at, view.get<T>(field, i));
+        *at++ = ',';
     }
-    out.put_unchecked(']');
+    at[-1] = ']';
+    return at;
 }
 
-void put_characters(Cursor& out, const MessageView& view, const dialect::Field& field) {
-    if (field.is_array()) return put_string(out, view.text(field));
+char* write_characters_of(char* at, const MessageView& view, const dialect::Field& field) noexcept {
+    if (field.is_array()) return write_string(at, view.text(field));
     const auto character = view.get<char>(field);
-    put_string(out, {&character, character == 0 ? 0u : 1u});
+    return write_string(at, {&character, character == 0 ? 0u : 1u});
 }
 
-void put_field_value(Cursor& out, const MessageView& view, const dialect::Field& field) {
-    if (field.type == dialect::FieldType::char8) return put_characters(out, view, field);
-    visit_type(field.type, [&](auto tag) {
-        using T = decltype(tag);
-        if (field.is_array()) {
-            put_elements<T>(out, view, field);
-        } else {
-            put_value(out, view.get<T>(field));
-        }
-    });
+char* write_field_value(char* at, const MessageView& view, const dialect::Field& field) noexcept {
+    if (field.type == dialect::FieldType::char8) return write_characters_of(at, view, field);
+    return visit_type(field.type, [&](auto tag) { return write_field<decltype(tag)>(at, view, field); });
 }
 
-void put_fields(Cursor& out, const dialect::Message& message, ByteView payload) {
-    const MessageView view(message, payload);
-    bool first = true;
-    for (const auto& field : message.fields) {
-        out.reserve(field.name.size() + 4 + value_room);
-        if (!first) out.put_unchecked(',');
-        first = false;
-        out.put_unchecked('"');
-        out.put_unchecked(field.name);
-        out.put_unchecked("\":");
-        put_field_value(out, view, field);
-    }
+char* write_key(char* at, std::string_view name) noexcept {
+    *at++ = '"';
+    at = write_text(at, name);
+    return write_literal(at, "\":");
 }
+
+// ---- how much room a message needs: reserved once, so that nothing below has to look
+
+constexpr std::size_t longest_escape = 6;    // \u001b, for one byte
+constexpr std::size_t longest_element = 26;  // "-2.2250738585072014e-308" and a comma; an integer in quotes is shorter
+
+std::size_t room_of(const dialect::Message& message) noexcept {
+    std::size_t room = number_room;
+    for (const auto& field : message.fields)
+        room += field.name.size() + 6 +
+                (field.type == dialect::FieldType::char8 ? longest_escape : longest_element) * field.count();
+    return room;
+}
+
+// A buffer's memory behind what it holds, with room for `bytes`.
+char* room_in(TextBuffer& buffer, std::size_t bytes) {
+    if (buffer.capacity() - buffer.size() < bytes) buffer.reserve(buffer.size() + bytes);
+    return buffer.data() + buffer.size();
+}
+
+void commit(TextBuffer& buffer, const char* end) { buffer.resize(static_cast<std::size_t>(end - buffer.data())); }
 
 // ---- the object
 
-void put_key(Cursor& out, std::string_view key_with_punctuation, std::uint64_t value) {
-    out.put_unchecked(key_with_punctuation);
-    out.set(write_unsigned(out.at(), value));
-}
+constexpr std::size_t header_room = 160 + 6 * number_room;  // all but the link's name, the message's name and its fields
 
-void put_header(Cursor& out, const Received& received) {
-    out.reserve(64 + number_room);
-    out.put_unchecked("{\"time_us\":");
-    out.set(write_integer(out.at(), unix_us(received.time)));
-    out.put_unchecked(",\"link\":");
-    put_string(out, received.link);
-    out.reserve(64 + 4 * number_room);
-    put_key(out, ",\"sys\":", received.frame.system().value);
-    put_key(out, ",\"comp\":", received.frame.component().value);
-    put_key(out, ",\"seq\":", received.frame.sequence());
-    put_key(out, ",\"id\":", received.frame.id().value);
-}
-
-void put_name(Cursor& out, const Received& received) {
-    const auto* message = received.message;
-    out.reserve(64 + (message != nullptr ? message->name.size() : 0));
-    if (message != nullptr) {
-        out.put_unchecked(",\"name\":\"");
-        out.put_unchecked(message->name);
-        out.put_unchecked('"');
-    } else {
-        out.put_unchecked(",\"name\":null");
+char* write_fields(char* at, const dialect::Message& message, ByteView payload) noexcept {
+    const MessageView view(message, payload);
+    for (const auto& field : message.fields) {
+        at = write_key(at, field.name);
+        at = write_field_value(at, view, field);
+        *at++ = ',';
     }
-    out.put_unchecked(received.frame.is_v2() ? ",\"v\":2" : ",\"v\":1");
-    out.put_unchecked(received.frame.is_signed() ? ",\"signed\":true" : ",\"signed\":false");
+    return message.fields.empty() ? at : at - 1;
 }
 
-void put_payload_hex(Cursor& out, ByteView payload) {
-    out.put(",\"payload_hex\":\"");
-    for (const auto byte : payload) out.put_hex_byte(byte);
-    out.put("\"}\n");
+// Up to the sequence number.
+char* write_header(char* at, const Received& received) noexcept {
+    at = write_literal(at, "{\"time_us\":");
+    at = write_integer(at, unix_us(received.time));
+    at = write_literal(at, ",\"link\":");
+    at = write_string(at, received.link);
+    at = write_literal(at, ",\"sys\":");
+    at = write_unsigned(at, received.frame.system().value);
+    at = write_literal(at, ",\"comp\":");
+    at = write_unsigned(at, received.frame.component().value);
+    at = write_literal(at, ",\"seq\":");
+    return write_unsigned(at, received.frame.sequence());
+}
+
+char* write_id_and_name(char* at, MessageId id, const dialect::Message* message) noexcept {
+    at = write_literal(at, ",\"id\":");
+    at = write_unsigned(at, id.value);
+    if (message == nullptr) return write_literal(at, ",\"name\":null");
+    at = write_literal(at, ",\"name\":\"");
+    at = write_text(at, message->name);
+    *at++ = '"';
+    return at;
+}
+
+char* write_version(char* at, const wire::FrameView& frame) noexcept {
+    at = write_literal(at, ",\"v\":2,\"signed\":false");
+    if (frame.is_v2() && !frame.is_signed()) [[likely]]
+        return at;
+    at -= std::string_view("2,\"signed\":false").size();
+    *at++ = frame.is_v2() ? '2' : '1';
+    return frame.is_signed() ? write_literal(at, ",\"signed\":true") : write_literal(at, ",\"signed\":false");
+}
+
+char* write_payload_hex(char* at, ByteView payload) noexcept {
+    constexpr std::string_view hex = "0123456789abcdef";
+    at = write_literal(at, ",\"payload_hex\":\"");
+    for (const auto byte : payload) {
+        *at++ = hex[byte >> 4];
+        *at++ = hex[byte & 0xf];
+    }
+    return write_literal(at, "\"}\n");
+}
+
+void append_unknown(TextBuffer& buffer, const Received& received) {
+    const auto payload = received.frame.payload();
+    char* at = room_in(buffer, header_room + longest_escape * received.link.size() + 2 * payload.size());
+    at = write_header(at, received);
+    at = write_id_and_name(at, received.frame.id(), nullptr);
+    at = write_version(at, received.frame);
+    commit(buffer, write_payload_hex(at, payload));
 }
 
 }  // namespace
 
 void append_json_fields(TextBuffer& buffer, const dialect::Message& message, ByteView payload) {
-    Cursor out(buffer);
-    put_fields(out, message, payload);
+    char* at = room_in(buffer, room_of(message));
+    commit(buffer, write_fields(at, message, payload));
 }
 
 void append_json(TextBuffer& buffer, const Received& received) {
-    Cursor out(buffer);
-    put_header(out, received);
-    put_name(out, received);
-    if (received.message == nullptr) return put_payload_hex(out, received.frame.payload());
-    out.put(",\"fields\":{");
-    put_fields(out, *received.message, received.frame.payload());
-    out.put("}}\n");
+    if (received.message == nullptr) return append_unknown(buffer, received);
+    const auto& message = *received.message;
+    char* at = room_in(buffer,
+                       header_room + longest_escape * received.link.size() + message.name.size() + room_of(message));
+    at = write_header(at, received);
+    at = write_id_and_name(at, received.frame.id(), &message);
+    at = write_version(at, received.frame);
+    at = write_literal(at, ",\"fields\":{");
+    at = write_fields(at, message, received.frame.payload());
+    commit(buffer, write_literal(at, "}}\n"));
+}
+
+// ---- with keys made ahead
+
+namespace {
+
+JsonFormatter::Key key_of(const dialect::Field& field) noexcept {
+    JsonFormatter::Key key;
+    const auto length = field.name.size() + 3;
+    if (length > key.text.size()) return key;
+    write_key(key.text.data(), field.name);
+    key.length = static_cast<std::uint8_t>(length);
+    return key;
+}
+
+std::string id_and_name_of(const dialect::Message& message) {
+    std::string text(header_room + message.name.size(), '\0');
+    text.resize(static_cast<std::size_t>(write_id_and_name(text.data(), message.id(), &message) - text.data()));
+    return text;
+}
+
+}  // namespace
+
+JsonFormatter::JsonFormatter(const dialect::Dialect& dialect) : messages_(dialect.messages()) {
+    prepared_.reserve(messages_.size());
+    for (const auto& message : messages_) {
+        auto id_and_name = id_and_name_of(message);
+        const auto room = header_room + id_and_name.size() + room_of(message) + sizeof(Key);
+        prepared_.push_back({std::move(id_and_name), keys_.size(), room});
+        for (const auto& field : message.fields) keys_.push_back(key_of(field));
+    }
+}
+
+const JsonFormatter::Prepared* JsonFormatter::find(const dialect::Message* message) const noexcept {
+    const std::less<> before;
+    if (message == nullptr || before(message, messages_.data()) || !before(message, messages_.data() + messages_.size()))
+        return nullptr;
+    return &prepared_[static_cast<std::size_t>(message - messages_.data())];
+}
+
+void JsonFormatter::append(TextBuffer& buffer, const Received& received) const {
+    const auto* prepared = find(received.message);
+    if (prepared == nullptr) return append_json(buffer, received);
+    char* at = room_in(buffer, prepared->room + longest_escape * received.link.size());
+    at = write_header(at, received);
+    at = write_text(at, prepared->id_and_name);
+    at = write_version(at, received.frame);
+    at = write_literal(at, ",\"fields\":{");
+    const MessageView view(*received.message, received.frame.payload());
+    const auto* key = keys_.data() + prepared->first_key;
+    for (const auto& field : received.message->fields) {
+        std::memcpy(at, key, sizeof *key);  // more than its text, which is cheaper than as much as its text
+        at = key->length != 0 ? at + key->length : write_key(at, field.name);
+        ++key;
+        at = write_field_value(at, view, field);
+        *at++ = ',';
+    }
+    if (!received.message->fields.empty()) --at;
+    commit(buffer, write_literal(at, "}}\n"));
 }
 
 }  // namespace mavloom::message

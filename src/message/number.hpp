@@ -38,6 +38,10 @@ constexpr unsigned leading_zeros(std::uint64_t digits) noexcept {
 }
 
 inline char* write_below_limit(char* at, std::uint32_t value) noexcept {
+    if (value < 10) {  // most ids, states and counts
+        *at = static_cast<char>('0' + value);
+        return at + 1;
+    }
     const auto digits = eight_digits(value);
     const auto zeros = leading_zeros(digits);
     store_le(at, (digits + ascii_zeros) >> (8 * zeros));

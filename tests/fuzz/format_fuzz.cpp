@@ -40,7 +40,9 @@ std::size_t columns_of(std::string_view row) {
 }
 
 void check_json(const message::Received& received) {
+    static const message::JsonFormatter formatter(dialect::default_dialect());
     const auto line = printed([&](auto& out) { message::append_json(out, received); });
+    require(line == printed([&](auto& out) { formatter.append(out, received); }));
     require(std::count(line.begin(), line.end(), '\n') == 1 && line.back() == '\n');
     const auto object = nlohmann::json::parse(line, nullptr, false);
     require(object.is_object() && object.at("id") == received.frame.id().value);

@@ -133,6 +133,7 @@ std::string_view verdict_of(const wire::FrameView& frame, const json& request) {
 
 json decode(const json& request) {
     const auto& dialect = dialect::default_dialect();
+    static const message::JsonFormatter formatter(dialect);
     const auto bytes = test::hex(request.at("frame").get<std::string>());
     json answer;
     wire::DatagramParser parser(dialect.wire_table());
@@ -144,7 +145,7 @@ json decode(const json& request) {
         const auto* message = dialect.find(event.frame.id());
         const message::Received received{wall_from_us(1), "peer", event.frame, message};
         message::TextBuffer line, text;
-        message::append_json(line, received);
+        formatter.append(line, received);
         message::append_text(text, received, dialect);
         answer["line"] = fmt::to_string(line);
         answer["text"] = fmt::to_string(text);

@@ -6,7 +6,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/dialect/dialect.hpp"
@@ -19,13 +25,40 @@ using TextBuffer = fmt::basic_memory_buffer<char, 4096>;
 // A frame together with what its reader knows of it.
 struct Received {
     WallTime time{};
-    std::string_view link;                       // the link's name
+    std::string_view link;  // the link's name
     wire::FrameView frame;
-    const dialect::Message* message = nullptr;   // null: no definition; printed with "name":null and "payload_hex"
+    const dialect::Message* message = nullptr;  // null: no definition; printed with "name":null and "payload_hex"
 };
 
 // {"time_us":…,"link":"…","sys":1,"comp":1,"seq":7,"id":30,"name":"ATTITUDE","v":2,"signed":false,"fields":{…}} and a newline.
 void append_json(TextBuffer& out, const Received& received);
+
+// The same object, a sixth faster: the keys of every message of a dialect are made ahead. For programs that print many messages.
+// Allocates when built, then like append_json. The dialect's records must outlive it; immutable, safe from any thread.
+class JsonFormatter {
+public:
+    explicit JsonFormatter(const dialect::Dialect& dialect);
+    // A message of another dialect is printed too, by append_json.
+    void append(TextBuffer& out, const Received& received) const;
+
+    struct Key {  // `"roll":`
+        static constexpr std::size_t size = 32;
+        std::array<char, size - 1> text{};
+        std::uint8_t length = 0;  // 0: longer than fits here
+    };
+
+private:
+    struct Prepared {
+        std::string id_and_name;  // `,"id":30,"name":"ATTITUDE"`
+        std::size_t first_key;
+        std::size_t room;  // the most bytes that its line takes, without the link's name
+    };
+    [[nodiscard]] const Prepared* find(const dialect::Message* message) const noexcept;
+
+    std::span<const dialect::Message> messages_;
+    std::vector<Prepared> prepared_;  // by message
+    std::vector<Key> keys_;           // by message and field
+};
 
 // "12:34:56.789012 link 1/1 ATTITUDE  roll=0.01 rad …" and a newline: units and enum names (flags as A|B) where they help; MAV_CMD
 // parameters of COMMAND_LONG, COMMAND_INT and MISSION_ITEM_INT by their labels. `dialect` finds the enums of commands.

@@ -13,7 +13,9 @@ using namespace mavloom::testing;  // NOLINT: the sample definitions
 TEST(Formatter, AllocatesNothingForAMessage) {
     const std::vector<std::uint8_t> payload(255, 0xfe);
     const auto& dialect = sample_dialect();
+    const JsonFormatter formatter(dialect);
     TextBuffer out;
+    out.reserve(64 * 1024);
     for (const auto& message : messages) {
         const SampleFrame frame(message, ByteView(payload).first(message.wire.max_length));
         const auto received = frame.received("a name that is longer than the small string of any library");
@@ -21,6 +23,7 @@ TEST(Formatter, AllocatesNothingForAMessage) {
         for (int i = 0; i < 3; ++i) {
             out.clear();
             append_json(out, received);
+            formatter.append(out, received);
             append_text(out, received, dialect);
             append_csv_header(out, message);
             append_csv_row(out, received);

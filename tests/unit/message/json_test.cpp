@@ -115,6 +115,44 @@ TEST(Json, EveryByteGivesValidJson) {
     }
 }
 
+// The formatter with keys made ahead prints what append_json prints; here over all kinds of message, and one of another dialect.
+TEST(JsonFormatter, PrintsTheSameObject) {
+    const JsonFormatter sut(sample_dialect());
+    std::vector<Message> definitions(std::begin(messages), std::end(messages));
+    definitions.push_back(heartbeat);  // a copy: not a record of the dialect
+    for (const auto& definition : definitions) {
+        for (const int byte : {0x00, 0x41, 0x7f, 0xff}) {
+            const SampleFrame frame(
+                definition, std::vector<std::uint8_t>(definition.wire.max_length, static_cast<std::uint8_t>(byte)));
+            TextBuffer out;
+            sut.append(out, frame.received("a \"link\""));
+            EXPECT_EQ(fmt::to_string(out), json_of(frame.received("a \"link\""))) << definition.name;
+        }
+    }
+}
+
+TEST(JsonFormatter, PrintsUnknownIdsAndLongNames) {
+    static constexpr std::string_view long_name = "a_field_with_a_name_of_more_than_thirty_characters";
+    const Field fields[] = {
+        heartbeat_fields[0],
+        {.name = long_name, .type = FieldType::u8, .array_length = 0, .offset = 5, .units = {}, .invalid = {}}};
+    const Message definitions[] = {
+        {.name = "LONG", .wire = {MessageId{1}, 1, 9, 9}, .fields = fields, .origin = {}, .deprecated = {}}};
+    const dialect::Dialect dialect("long", definitions, enums);
+    const JsonFormatter sut(dialect);
+    const SampleFrame frame(definitions[0], std::vector<std::uint8_t>(9, 3));
+
+    TextBuffer known, unknown;
+    sut.append(known, frame.received());
+    auto received = frame.received();
+    received.message = nullptr;
+    sut.append(unknown, received);
+
+    EXPECT_NE(fmt::to_string(known).find(fmt::format(R"("fields":{{"type":3,"{}":3}}}})", long_name)),
+              std::string::npos);
+    EXPECT_EQ(fmt::to_string(unknown), json_of(received));
+}
+
 TEST(Json, AppendsBehindWhatTheBufferHolds) {
     TextBuffer out;
     out.append(std::string_view("before "));

@@ -87,8 +87,12 @@ TEST(Number, FloatsReadBackAsThemselves) {
         const auto bits = random();
         const auto wide = std::bit_cast<double>(bits);
         const auto narrow = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-        if (std::isfinite(wide)) { ASSERT_EQ(std::strtod(f64(wide).c_str(), nullptr), wide); }
-        if (std::isfinite(narrow)) { ASSERT_EQ(std::strtof(f32(narrow).c_str(), nullptr), narrow); }
+        if (std::isfinite(wide)) {
+            ASSERT_EQ(std::strtod(f64(wide).c_str(), nullptr), wide);
+        }
+        if (std::isfinite(narrow)) {
+            ASSERT_EQ(std::strtof(f32(narrow).c_str(), nullptr), narrow);
+        }
     }
 }
 
