@@ -124,7 +124,7 @@ void TcpIn::admit(net::TcpStream stream) {
         return;
     }
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
-    peer->name = fmt::format("{}#{}", info.endpoint.label(), stream.remote().text());
+    peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->signature = signature.get();
     if (!peer->attach(std::move(stream))) return;
     core_.add_link(*peer);

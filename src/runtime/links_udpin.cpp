@@ -119,7 +119,7 @@ UdpPeer* UdpIn::newcomer(UdpPort& port, const net::Datagram& datagram) {
     }
     auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(), port,
                                           *datagram.from);
-    peer->name = fmt::format("{}#{}", info.endpoint.label(), datagram.from->text());
+    peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->signature = signature.get();
     peer->last_heard = core_.now();
     core_.add_link(*peer);

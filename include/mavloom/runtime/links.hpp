@@ -87,8 +87,14 @@ struct EndpointInfo {
     Endpoint endpoint;
     std::uint16_t local_port = 0;    // the bound port (port 0 was asked for: the one that was given)
     std::uint64_t rcvbuf_bytes = 0;  // what the kernel gave
-    bool finished = false;           // a tlog source that was read to its end
     const EndpointCounters* counters = nullptr;
+
+    // The endpoint's label, with the given port where port 0 was asked for.
+    [[nodiscard]] std::string label() const {
+        Endpoint given = endpoint;
+        if (given.address.port == 0) given.address.port = local_port;
+        return given.label();
+    }
 };
 
 class Links {

@@ -34,7 +34,7 @@ TEST(LinksUdp, EveryPeerThatSendsAFrameIsALinkAndGetsItsAnswer) {
     ASSERT_THAT(node.recorder.ups, SizeIs(2));
     EXPECT_THAT(node.recorder.ups,
                 Contains(::testing::Field(&std::pair<LinkId, std::string>::second,
-                                          fmt::format("udpin://127.0.0.1:0#127.0.0.1:{}", a.port()))));
+                                          fmt::format("udpin://127.0.0.1:{}#127.0.0.1:{}", node.port(in), a.port()))));
 }
 
 TEST(LinksUdp, ReceiveTimesAreTheKernels) {
