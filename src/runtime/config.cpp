@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include "mavloom/base/suggest.hpp"
 #include "runtime/config_keys.hpp"
