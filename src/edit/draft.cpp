@@ -58,7 +58,8 @@ std::optional<Draft> Draft::of(const wire::FrameView& frame, const dialect::Mess
         draft.decoded_ = payload.size() <= message->wire.max_length;
     }
     // A version 1 payload with extension fields is not what the specification wants, but nothing of it must be lost.
-    if (frame.version() == wire::Version::v1) draft.info_.min_length = std::max(draft.info_.min_length, frame.payload_length());
+    if (frame.version() == wire::Version::v1)
+        draft.info_.min_length = std::max(draft.info_.min_length, frame.payload_length());
     if (draft.decoded_) {
         const MessageView view(*message, payload);
         MessageBuilder builder(*message);
