@@ -34,8 +34,9 @@ constexpr std::string_view macros[] = {"assert", "errno",   "stdin",  "stdout", 
                                        "minor",  "makedev", "NAN",    "INFINITY", "NULL",     "EOF",
                                        "linux",  "unix",    "DOMAIN", "OVERFLOW", "UNDERFLOW"};
 
-constexpr std::string_view struct_members[] = {"id",         "name",   "crc_extra", "min_length",
-                                               "max_length", "decode", "encode"};
+// What the generated struct itself calls something: its members, the parameter of `encode`, the namespaces it names.
+constexpr std::string_view struct_names[] = {"id",     "name",   "crc_extra", "min_length", "max_length",
+                                             "decode", "encode", "out",       "mavloom",    "std"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -94,7 +95,7 @@ std::string safe_enumerator(std::string_view name) {
 
 std::string safe_member(std::string_view name, std::string_view struct_name) {
     auto out = safe_enumerator(name);
-    const bool collides = out == struct_name || std::ranges::find(struct_members, out) != std::end(struct_members);
+    const bool collides = out == struct_name || std::ranges::find(struct_names, out) != std::end(struct_names);
     return collides ? out + '_' : out;
 }
 

@@ -8,6 +8,7 @@
 #include "mavloom/wire/frame_writer.hpp"
 #include "shop/msg/dialect.hpp"
 #include "shop/msg/enums/shelf_state.hpp"
+#include "shop/msg/shelf_names.hpp"
 #include "shop/msg/shelf_status.hpp"
 
 using shop::msg::ShelfStatus;
@@ -15,7 +16,22 @@ using shop::msg::ShelfStatus;
 constexpr std::uint8_t frame[] = {0xfd, 0x07, 0x00, 0x00, 0x07, 0x2a, 0x01, 0xcb, 0xc3, 0x00,
                                   0x00, 0x00, 0x20, 0x40, 0x01, 0x02, 0x03, 0xd1, 0xa9};
 
+// Every member is itself, whatever its name means inside the struct.
+bool names_are_members() {
+    shop::msg::ShelfNames names;
+    names.out_ = 1;
+    names.payload = 2;
+    names.message = 3;
+    names.std_ = 4;
+    names.max_length_ = {5, 6, 7};
+    std::array<std::uint8_t, shop::msg::ShelfNames::max_length> payload;
+    names.encode(payload);
+    const std::array<std::uint8_t, 11> expected{1, 2, 0, 3, 4, 0, 0, 0, 5, 6, 7};  // all one byte wide: the order of the definition
+    return payload == expected && shop::msg::ShelfNames::decode(payload) == names;
+}
+
 int main() {
+    if (!names_are_members()) return 2;
     const auto& dialect = shop::msg::dialect();
     bool same = false;
 
