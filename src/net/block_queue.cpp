@@ -262,4 +262,11 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
     return whole;
 }
 
+// The head may be dropped again, and `oldest` had passed it by.
+void BlockQueue::rewind() noexcept {
+    if (begun_ == 0) return;
+    begun_ = 0;
+    oldest_[entries_[head_].block_class] = head_;
+}
+
 }  // namespace mavloom::net

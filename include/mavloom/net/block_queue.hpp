@@ -66,7 +66,7 @@ public:
     // blocks that are thereby whole. `rewind` makes the next stream begin with the whole block.
     [[nodiscard]] std::size_t pieces(std::span<iovec> room) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
-    void rewind() noexcept { begun_ = 0; }
+    void rewind() noexcept;
 
 private:
     struct Entry {

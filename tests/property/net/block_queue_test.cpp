@@ -150,7 +150,7 @@ RC_GTEST_PROP(BlockQueue, DoesWhatASimpleListDoes, ()) {
     const int steps = *rc::gen::inRange(1, 300);
     for (int step = 0; step < steps; ++step) {
         now += std::chrono::milliseconds(*rc::gen::inRange(0, 4));
-        const int action = *rc::gen::inRange(0, 10);
+        const int action = *rc::gen::inRange(0, 11);
         if (action < 7) {
             Model::Block block{
                 std::vector<std::uint8_t>(*rc::gen::inRange<std::size_t>(1, 60), static_cast<std::uint8_t>(step)),
@@ -160,6 +160,9 @@ RC_GTEST_PROP(BlockQueue, DoesWhatASimpleListDoes, ()) {
             RC_ASSERT(pushed.dropped == model.push(std::move(block)));
         } else if (action == 7) {
             RC_ASSERT(queue.expire(now) == model.expire(now, limits));
+        } else if (action == 8) {
+            queue.rewind();
+            model.begun = 0;
         } else if (!queue.empty()) {
             const std::size_t count = *rc::gen::inRange<std::size_t>(0, content(queue).size() + 1);
             (void)queue.consume(count);

@@ -190,5 +190,31 @@ TEST(BlockQueue, StaysWithinItsBoundOverALongJam) {
     EXPECT_THAT(content(queue), ::testing::StartsWith("commands stay"));
 }
 
+TEST(BlockQueue, ARewoundBlockMayExpire) {
+    BlockQueue queue = queue_of(100);
+    push(queue, "begun", 0);
+    push(queue, "next", 0, 0, start + seconds(9));
+    EXPECT_EQ(queue.consume(2), 0u);
+    EXPECT_EQ(queue.expire(start + seconds(11)), 0u) << "a part is with the kernel";
+    queue.rewind();
+    EXPECT_EQ(queue.expire(start + seconds(11)), 1u);
+    EXPECT_EQ(content(queue), "next");
+}
+
+TEST(BlockQueue, ARewoundBlockMakesRoom) {
+    BlockQueue queue = queue_of(8);
+    push(queue, "aaaa");
+    push(queue, "bbbb");
+    EXPECT_EQ(queue.consume(1), 0u);
+    EXPECT_EQ(push(queue, "cccccccc").dropped, 1u);
+    EXPECT_EQ(push(queue, "dddd").dropped, 1u);
+    EXPECT_EQ(content(queue), "aaadddd");
+    queue.rewind();
+    const auto pushed = push(queue, "eeeeeeee");
+    EXPECT_TRUE(pushed.queued);
+    EXPECT_EQ(pushed.dropped, 2u);
+    EXPECT_EQ(content(queue), "eeeeeeee");
+}
+
 }  // namespace
 }  // namespace mavloom::net
