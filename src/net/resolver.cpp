@@ -119,7 +119,9 @@ void Resolver::State::answer_questions(const std::shared_ptr<State>& state) {
         if (state->stopping) return;
         state->answers.push_back({question.ticket, std::move(answer)});
         state->changed.notify_all();
+        lock.unlock();
         state->notify();
+        lock.lock();
     }
 }
 

@@ -29,9 +29,8 @@ public:
         Answer answer;
     };
 
-    // `notify` is called on the helper thread when an answer is ready; it must only wake somebody (EventLoop::wake). It may be called once
-    // more after the destructor returned, when a look-up is then still under way: it must not refer to this object's owner except through
-    // something that it keeps alive.
+    // `notify` is called on the helper thread, without a lock held, when an answer is ready; the destructor waits until it has returned, and
+    // it is not called afterwards. But where a look-up is then still under way it is kept, and destroyed on the helper thread at its end.
     explicit Resolver(std::function<void()> notify);
     Resolver(const Resolver&) = delete;
     Resolver& operator=(const Resolver&) = delete;

@@ -39,6 +39,15 @@ TEST(Resolver, AnswersOnAnotherThreadAndNotifies) {
     while (notified != 2) std::this_thread::yield();
 }
 
+TEST(Resolver, NotifyMayCollectTheAnswer) {
+    std::atomic<Resolver*> self{nullptr};
+    std::atomic<int> collected{0};
+    Resolver resolver([&] { collected += self.load()->take() ? 1 : 0; });
+    self = &resolver;
+    (void)resolver.ask("127.0.0.1", 1);
+    while (collected != 1) std::this_thread::yield();
+}
+
 TEST(Resolver, GivesUpWaitingAtTheLimit) {
     Resolver resolver([] {});
     EXPECT_FALSE(resolver.wait(77, std::chrono::milliseconds(1)));
