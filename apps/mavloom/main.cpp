@@ -114,7 +114,9 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
     for (const auto& file : common.dialect_files) {
         auto more = dialect::Dialect::load(file);
         if (!more) return tl::unexpected(of_input_file(std::move(more.error())));
-        all = all.with(*more);
+        auto both = all.with(*more);
+        if (!both) return tl::unexpected(std::move(both.error()));
+        all = std::move(*both);
     }
     return all;
 }

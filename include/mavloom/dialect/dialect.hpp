@@ -124,7 +124,8 @@ public:
     [[nodiscard]] SetupResult<FieldHandle> field(std::string_view message_dot_field) const;
 
     // This dialect with `other` added; a message or enum entry of `other` replaces one of the same id or value here (`--dialect FILE`).
-    [[nodiscard]] Dialect with(const Dialect& other) const;
+    // Too many messages together are an error (`bad_input`).
+    [[nodiscard]] SetupResult<Dialect> with(const Dialect& other) const;
 
 private:
     struct Index;    // hash tables by id and by name, and the wire table

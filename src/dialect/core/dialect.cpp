@@ -143,7 +143,8 @@ Message rebound(Records& records, Message message) {
 
 }  // namespace
 
-Dialect Dialect::with(const Dialect& other) const {
+SetupResult<Dialect> Dialect::with(const Dialect& other) const {
+    constexpr std::size_t most_messages = 60'000;  // the wire table counts in 16 bits
     auto storage = std::make_shared<Storage>();
     storage->kept_alive = {storage_, other.storage_};
     merge_enums(*storage, enums_, other.enums_);
@@ -151,6 +152,9 @@ Dialect Dialect::with(const Dialect& other) const {
     for (const auto& message : messages_)
         if (other.find(message.name) == nullptr) by_id.emplace(message.id().value, &message);
     for (const auto& message : other.messages_) by_id.insert_or_assign(message.id().value, &message);
+    if (by_id.size() > most_messages)
+        return setup_error(SetupCode::bad_input, fmt::format("{} with {} has {} messages; expected at most {}", name_,
+                                                             other.name_, by_id.size(), most_messages));
     for (const auto& [id, message] : by_id) storage->messages.push_back(rebound(*storage, *message));
     const auto name = storage->intern(fmt::format("{}+{}", name_, other.name_));
     return Dialect(name, std::move(storage));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the XML reader understands. Expected layouts are worked out by hand from the MAVLink guide's rules.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -233,7 +235,7 @@ TEST(Dialect, WithAnotherReplacesByIdNameAndEntryValue) {
         R"(<mavlink><enums><enum name="E" bitmask="true"><entry value="1" name="NEW"/><entry value="9" name="MOVED"/></enum></enums>
         <messages><message id="1" name="Q"><field type="float" name="y"/></message>
         <message id="9" name="N"><field type="double" name="z"/></message></messages></mavlink>)");
-    const auto merged = folder.load("a.xml")->with(*folder.load("b.xml"));  // both sources are gone
+    const auto merged = *folder.load("a.xml")->with(*folder.load("b.xml"));  // both sources are gone
     EXPECT_EQ(merged.name(), "a+b");
     ASSERT_EQ(merged.messages().size(), 3u);
     EXPECT_EQ(merged.find("M"), nullptr);
@@ -253,11 +255,28 @@ TEST(Dialect, WithAnotherReplacesByIdNameAndEntryValue) {
 TEST(Dialect, WithAnotherKeepsTheBuiltInRest) {
     const XmlFolder folder;
     folder.write("mine.xml", messages(R"(<message id="60999" name="MINE"><field type="float" name="x"/></message>)"));
-    const auto merged = default_dialect().with(*folder.load("mine.xml"));
+    const auto merged = *default_dialect().with(*folder.load("mine.xml"));
     EXPECT_EQ(merged.messages().size(), default_dialect().messages().size() + 1);
     EXPECT_NE(merged.find("MINE"), nullptr);
     EXPECT_NE(merged.find("ATTITUDE"), nullptr);
     EXPECT_EQ(merged.find("HEARTBEAT")->find("type")->enumeration, merged.find_enum("MAV_TYPE"));
+}
+
+// Each file may have 20,000 messages; four of them passed what the wire table can count.
+TEST(Dialect, WithMoreMessagesThanTheTableCountsIsAnError) {
+    const XmlFolder folder;
+    constexpr unsigned each = 20'000;
+    auto merged = SetupResult<Dialect>(default_dialect());
+    for (unsigned file = 0; file < 4 && merged; ++file) {
+        std::string text;
+        for (unsigned i = file * each; i < (file + 1) * each; ++i)
+            text += fmt::format(R"(<message id="{0}" name="M{0}"><field type="float" name="x"/></message>)", 100'000 + i);
+        folder.write("many.xml", messages(text));
+        merged = merged->with(*folder.load("many.xml"));
+    }
+    ASSERT_FALSE(merged.has_value());
+    EXPECT_EQ(merged.error().code, SetupCode::bad_input);
+    EXPECT_THAT(merged.error().text, testing::HasSubstr("expected at most 60000"));
 }
 
 }  // namespace
