@@ -100,7 +100,8 @@ void bench_form(const Options& options, std::string_view what, const dialect::Di
 }
 
 Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
-    bench_form(options, "decode json", dialect, recording, [](auto& out, const auto& received) { message::append_json(out, received); });
+    const message::JsonFormatter json(dialect);
+    bench_form(options, "decode json", dialect, recording, [&](auto& out, const auto& received) { json.append(out, received); });
     bench_form(options, "decode text", dialect, recording, [&](auto& out, const auto& received) { message::append_text(out, received, dialect); });
     return Exit::done;
 }

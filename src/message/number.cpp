@@ -69,6 +69,32 @@ char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept 
     return write_scientific(at, digits, point - 1);
 }
 
+// The same for the at most nine digits of a float32, from registers: no byte is read back after it was written.
+char* write_decimal(char* at, std::uint32_t significand, int exponent) noexcept {
+    const bool nine = significand >= detail::eight_digit_limit;
+    const auto digits = detail::eight_digits(nine ? significand / 10 : significand);
+    const auto leading = nine ? 0 : detail::leading_zeros(digits);
+    const auto first_eight = (digits + detail::ascii_zeros) >> (8 * leading);
+    const auto ninth = std::uint64_t{'0' + significand % 10};  // only read where there is one
+    const int count = 8 + nine - static_cast<int>(leading);
+    const int point = count + exponent;
+    if (point >= 1 && exponent < 0) {
+        store_le(at, first_eight);
+        at[point] = '.';
+        store_le(at + point + 1, first_eight >> 8 >> (8 * (point - 1)) | ninth << (64 - 8 * point));
+        return at + count + 1;
+    }
+    if (point > -4 && point < 1) {
+        constexpr std::uint64_t zero_point_zeros = detail::ascii_zeros - (std::uint64_t{'0' - '.'} << 8);
+        store_le(at, zero_point_zeros);
+        at += 2 - point;
+        store_le(at, first_eight);
+        at[8] = static_cast<char>(ninth);
+        return at + count;
+    }
+    return write_decimal(at, std::uint64_t{significand}, exponent);
+}
+
 template <class Float>
 char* write_shortest(char* at, Float value) noexcept {
     if (std::signbit(value)) *at++ = '-';
