@@ -56,7 +56,8 @@ SetupResult<std::size_t> File::read(ByteSpan out) {
         const auto got = ::read(fd_, out.data() + done, out.size() - done);
         if (got == 0) break;
         if (got > 0) done += static_cast<std::size_t>(got);
-        else if (errno != EINTR) return failed("read", errno);
+        else if (errno != EINTR || !regular_) return failed("read", errno);
+        if (!regular_) break;
     }
     return done;
 }

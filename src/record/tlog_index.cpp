@@ -18,11 +18,12 @@ void TlogIndex::add(const Record& record, std::uint64_t spacing) {
 SetupResult<TlogIndex> TlogIndex::build(TlogReader& reader, std::uint64_t spacing) {
     assert(spacing != 0);
     TlogIndex index;
-    while (const auto record = reader.next()) index.add(*record, spacing);
-    // `next` ends the loop either way; a reader that is at its end says so again.
-    if (const auto stop = reader.next(); stop.error() == TlogReader::Stop::failed)
-        return tl::unexpected(reader.error());
-    return index;
+    while (true) {
+        const auto record = reader.next();
+        if (record) index.add(*record, spacing);
+        else if (record.error() == TlogReader::Stop::failed) return tl::unexpected(reader.error());
+        else if (record.error() == TlogReader::Stop::end) return index;
+    }
 }
 
 std::uint64_t TlogIndex::offset_before(WallTime time) const noexcept {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 #include "record/tlog_format.hpp"
@@ -21,28 +22,35 @@ SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, cons
     return TlogReader(std::move(*file), *size, table);
 }
 
-bool TlogReader::read_failed(SetupError error) {
+TlogReader::Stop TlogReader::read_failed(SetupError error) {
     error_ = std::move(error);
     at_end_ = true;
     begin_ = end_;
-    return false;
+    return Stop::failed;
 }
 
-// Moves what is unread to the front and reads on. False when the file failed.
-bool TlogReader::fill() {
+// Whether the record at the front cannot be judged yet. A writer at the other end of a pipe may be slow: a frame of known id needs nothing behind it.
+bool TlogReader::needs_more() const noexcept {
+    if (at_end_ || end_ - begin_ >= look_ahead) return false;
+    return file_.is_regular() || examine_record(unread(), *table_).info == nullptr;
+}
+
+// Moves what is unread to the front and reads on. Empty when that went well.
+std::optional<TlogReader::Stop> TlogReader::fill() {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
     base_ += begin_;
     end_ -= begin_;
     begin_ = 0;
     const auto got = file_.read({buffer_.get() + end_, buffer_length - end_});
+    if (!got && got.error().sys_errno == EINTR) return Stop::interrupted;
     if (!got) return read_failed(got.error());
-    at_end_ = *got < buffer_length - end_;
+    at_end_ = file_.is_regular() ? *got < buffer_length - end_ : *got == 0;
     end_ += *got;
     if (at_end_ && base_ + end_ < size_)
         return read_failed(SetupError{SetupCode::bad_input, 0,
                                       fmt::format("{} was shortened while it was read: {} of {} bytes are left",
                                                   file_.path().string(), base_ + end_, size_)});
-    return true;
+    return std::nullopt;
 }
 
 void TlogReader::lose(std::size_t bytes) noexcept {
@@ -56,7 +64,10 @@ void TlogReader::lose(std::size_t bytes) noexcept {
 Result<Record, TlogReader::Stop> TlogReader::next() {
     if (error_) return tl::unexpected(Stop::failed);
     while (true) {
-        if (end_ - begin_ < look_ahead && !at_end_ && !fill()) return tl::unexpected(Stop::failed);
+        if (needs_more()) [[unlikely]] {
+            if (const auto stop = fill()) return tl::unexpected(*stop);
+            continue;
+        }
         if (begin_ == end_) return tl::unexpected(Stop::end);
         const auto found = examine_record(unread(), *table_);
         if (found.kind == Found::Kind::nothing) [[unlikely]] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An open file as the recorder and the reader need it: reads and writes that are completed or reported, never interrupted half-way by a signal.
+// An open file as the recorder and the reader need it: reads and writes that are completed or reported, never interrupted half-way by a signal
+// (only waiting for a pipe or device can be).
 // Move-only; one owner thread; allocates only for error texts.
 #pragma once
 
@@ -25,7 +26,8 @@ public:
     File& operator=(File&& other) noexcept;
     ~File();
 
-    // Fills `out` from the current position until it is full or the file ends; returns the number of bytes.
+    // Fills `out` from the current position until it is full or the file ends; returns the number of bytes. A pipe or device gives what is
+    // there, once something is, and 0 at its end; a signal while it has nothing is an error with sys_errno EINTR.
     [[nodiscard]] SetupResult<std::size_t> read(ByteSpan out);
     struct Written {
         std::size_t bytes = 0;  // what the system took: less than all only where `error` is set

@@ -19,8 +19,8 @@ namespace mavloom::record {
 struct ReadCounters {
     Counter records, record_bytes;
     Counter unknown_ids;  // of `records`: without definition
-    Counter unknown_flags,
-        flagged_bytes;       // records whose frame has an incompatibility flag that is not defined: skipped
+    // Records whose frame has an incompatibility flag that is not defined: skipped.
+    Counter unknown_flags, flagged_bytes;
     Counter lost_bytes;      // damaged, or cut at the end
     Counter damaged_places;  // runs of lost bytes
 };
@@ -32,10 +32,11 @@ public:
                                                       const wire::MessageTable& table);
 
     enum class Stop : std::uint8_t {
-        end,     // the file is read to its end
-        failed,  // `error` says why; nothing more can be read
+        end,          // the file is read to its end
+        failed,       // `error` says why; nothing more can be read
+        interrupted,  // a signal came while a pipe had nothing; may be called again
     };
-    // The next record; its views live until the next call.
+    // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record.
     [[nodiscard]] Result<Record, Stop> next();
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
 
@@ -56,8 +57,9 @@ private:
     TlogReader(File file, std::uint64_t size, const wire::MessageTable& table);
 
     [[nodiscard]] ByteView unread() const noexcept { return {buffer_.get() + begin_, end_ - begin_}; }
-    [[nodiscard]] bool fill();
-    [[nodiscard]] bool read_failed(SetupError error);
+    [[nodiscard]] bool needs_more() const noexcept;
+    [[nodiscard]] std::optional<Stop> fill();
+    [[nodiscard]] Stop read_failed(SetupError error);
     void lose(std::size_t bytes) noexcept;
 
     File file_;

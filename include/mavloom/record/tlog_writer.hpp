@@ -51,8 +51,8 @@ private:
     std::unique_ptr<std::uint8_t[]> buffer_;
     std::size_t capacity_;
     std::size_t used_ = 0;
-    std::size_t half_ =
-        0;  // bytes of the first buffered record that a pipe or device has taken already: they cannot be taken back
+    // Bytes of the first buffered record that a pipe or device has taken already: they cannot be taken back.
+    std::size_t half_ = 0;
     std::uint64_t written_ = 0;
     Counter records_;
 };

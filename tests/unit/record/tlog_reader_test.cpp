@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/record/tlog_reader.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <map>
 #include <thread>
@@ -250,6 +255,66 @@ TEST(TlogReader, ReadsAPipe) {
 
     EXPECT_EQ(frames, 2);
     EXPECT_EQ(reader->size(), 0u);
+}
+
+// A reader that fills its buffer first would wait here for ever.
+TEST(TlogReader, HandsOnWhatASlowWriterHasWritten) {
+    const TempDir dir;
+    const auto path = dir / "pipe";
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const int writer = ::open(path.c_str(), O_RDWR);
+    ASSERT_GE(writer, 0);
+    auto reader = TlogReader::open(path, golden_table());
+    const auto whole = record(t0, test::heartbeat_v2);
+    const auto next = record(t0 + 1, test::attitude_v2);
+
+    ASSERT_EQ(::write(writer, whole.data(), whole.size()), static_cast<ssize_t>(whole.size()));
+    ASSERT_TRUE(reader->next().has_value());
+    ASSERT_EQ(::write(writer, next.data(), 10), 10);
+    std::thread slow([&] { (void)!::write(writer, next.data() + 10, next.size() - 10); });
+    const auto second = reader->next();
+    slow.join();
+
+    ASSERT_TRUE(second.has_value());
+    EXPECT_EQ(second->frame.id().value, 30u);
+    ::close(writer);
+    EXPECT_EQ(reader->next().error(), TlogReader::Stop::end);
+    EXPECT_EQ(reader->counters().lost_bytes.value(), 0u);
+}
+
+// A signal without SA_RESTART, as Ctrl-C is, ends the waiting, not the recording.
+TEST(TlogReader, ASignalEndsTheWaitForAPipe) {
+    const TempDir dir;
+    const auto path = dir / "pipe";
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    const int writer = ::open(path.c_str(), O_RDWR);
+    ASSERT_GE(writer, 0);
+    struct sigaction action {};
+    action.sa_handler = [](int) {};
+    struct sigaction before {};
+    ASSERT_EQ(::sigaction(SIGUSR1, &action, &before), 0);
+    auto reader = TlogReader::open(path, golden_table());
+    std::atomic<bool> done = false;
+    const auto waiting = ::pthread_self();
+    std::thread sender([&] {
+        while (!done) {  // the first ones may come before it waits
+            ::pthread_kill(waiting, SIGUSR1);
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        }
+    });
+
+    const auto stop = reader->next();
+    done = true;
+    sender.join();
+    ::sigaction(SIGUSR1, &before, nullptr);
+    const auto whole = record(t0, test::heartbeat_v2);
+    ASSERT_EQ(::write(writer, whole.data(), whole.size()), static_cast<ssize_t>(whole.size()));
+    const auto later = reader->next();
+
+    ASSERT_FALSE(stop.has_value());
+    EXPECT_EQ(stop.error(), TlogReader::Stop::interrupted);
+    EXPECT_TRUE(later.has_value());
+    ::close(writer);
 }
 
 TEST(TlogReader, SaysWhyAFileCannotBeOpened) {
