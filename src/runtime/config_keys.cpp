@@ -14,13 +14,6 @@ namespace mavloom::runtime::detail {
 
 namespace {
 
-template <class T, class Target>
-SetupResult<void> put(SetupResult<T> parsed, Target& target) {
-    if (!parsed) return tl::unexpected(std::move(parsed.error()));
-    target = static_cast<Target>(std::move(*parsed));
-    return {};
-}
-
 template <class E, std::size_t n>
 SetupResult<void> put_choice(std::string_view text, const std::array<std::string_view, n>& choices, E& target) {
     const auto choice = std::find(choices.begin(), choices.end(), text);
@@ -83,12 +76,6 @@ SetupResult<void> set_record_path(Config& config, std::string_view text) {
     return {};
 }
 
-SetupResult<void> set_rotate_every(Config& config, std::string_view text) {
-    const auto every = parse_duration(text);
-    if (every && *every < std::chrono::seconds{1}) return usage("segments are named by the second: 1s is the least");
-    return put(every, config.record.rotate_every);
-}
-
 constexpr std::array<std::string_view, 2> components{"system", "drop"};
 constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
 constexpr std::array<std::string_view, 3> fulls{"wait", "drop_newest", "evict"};
@@ -109,8 +96,9 @@ constexpr std::array keys{
     ConfigKey{"ring", "mode", "0600", set_mode},
     ConfigKey{"record", "path", "", set_record_path},
     ConfigKey{"record", "rotate_bytes", "",
-              [](Config& c, std::string_view t) { return put(parse_size(t), c.record.rotate_bytes); }},
-    ConfigKey{"record", "rotate_every", "", set_rotate_every},
+              [](Config& c, std::string_view t) { return put(parse_rotate_bytes(t), c.record.rotate_bytes); }},
+    ConfigKey{"record", "rotate_every", "",
+              [](Config& c, std::string_view t) { return put(parse_rotate_every(t), c.record.rotate_every); }},
     ConfigKey{"log", "level", "info", [](Config& c, std::string_view t) { return put_choice(t, levels, c.log_level); }},
     ConfigKey{"web", "listen", "127.0.0.1:8088",
               [](Config& c, std::string_view t) { return put(parse_host_port(t, {}), c.web.listen); }},

@@ -24,14 +24,6 @@ struct Option {
     Set set;
 };
 
-// Puts a parsed value where it belongs; the error passes through.
-template <class T, class Target>
-SetupResult<void> put(SetupResult<T> parsed, Target& target) {
-    if (!parsed) return tl::unexpected(std::move(parsed.error()));
-    target = static_cast<Target>(std::move(*parsed));
-    return {};
-}
-
 template <bool EndpointOptions::*member>
 SetupResult<void> set_flag(EndpointOptions& options, std::string_view text) {
     return put(parse_bool(text), options.*member);
@@ -156,15 +148,15 @@ constexpr std::array options_table{
                return put(duration_of_at_least(t, std::chrono::milliseconds{1}, "a millisecond is the least"),
                           o.queue_age);
            }},
-    Option{"max_rate", all, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
+    Option{"max_rate", links, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
     Option{"max_bytes", links, "",
            [](O& o, std::string_view t) {
                return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.max_bytes_per_s);
            }},
-    Option{"in_allow", all, "", set_filter<&O::in_allow>},
-    Option{"in_block", all, "", set_filter<&O::in_block>},
-    Option{"out_allow", all, "", set_filter<&O::out_allow>},
-    Option{"out_block", all, "", set_filter<&O::out_block>},
+    Option{"in_allow", links, "", set_filter<&O::in_allow>},
+    Option{"in_block", links, "", set_filter<&O::in_block>},
+    Option{"out_allow", links, "", set_filter<&O::out_allow>},
+    Option{"out_block", links, "", set_filter<&O::out_block>},
     Option{"tap", links, "false", set_flag<&O::tap>},
     Option{"private", links, "false", set_flag<&O::is_private>},
     Option{"sign", links, "", set_text<&O::sign_key_file>},
@@ -191,12 +183,9 @@ constexpr std::array options_table{
     Option{"lossless", shm, "false", set_flag<&O::lossless>},
     Option{"speed", tlog, "", set_speed},
     Option{"rotate_bytes", tlog, "",
-           [](O& o, std::string_view t) { return put(size_within(t, 4096, most_queue_bytes), o.rotate_bytes); }},
+           [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
     Option{"rotate_every", tlog, "",
-           [](O& o, std::string_view t) {
-               return put(duration_of_at_least(t, std::chrono::seconds{1}, "segments are named by the second"),
-                          o.rotate_every);
-           }},
+           [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},
 };
 
 constexpr auto option_names = [] {
@@ -233,6 +222,15 @@ std::string_view detail::default_option_text(Scheme scheme, std::string_view nam
     return option == nullptr ? std::string_view{} : option->default_text;
 }
 
+SetupResult<std::uint64_t> detail::parse_rotate_bytes(std::string_view text) {
+    constexpr std::uint64_t least = 4096, most = std::uint64_t{1} << 40;
+    return size_within(text, least, most);
+}
+
+SetupResult<std::chrono::nanoseconds> detail::parse_rotate_every(std::string_view text) {
+    return duration_of_at_least(text, std::chrono::seconds{1}, "segments are named by the second: 1s is the least");
+}
+
 std::span<const std::string_view> endpoint_option_names() noexcept { return option_names; }
 
 SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value) {
@@ -248,6 +246,16 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
                                  "it belongs to " + schemes_text(option->schemes)));
     auto done = option->set(endpoint.options, value);
     if (!done) return tl::unexpected(std::move(done.error()).within(fmt::format("option '{}'", key)));
+    return {};
+}
+
+SetupResult<void> check_source_options(const Endpoint& endpoint) {
+    const auto refused = [&](std::string_view key) {
+        return usage(fmt::format("{}: '{}' is for a recording that is written; this one is read",
+                                 quoted(endpoint.label()), key));
+    };
+    if (endpoint.options.rotate_bytes != 0) return refused("rotate_bytes");
+    if (endpoint.options.rotate_every != std::chrono::nanoseconds{}) return refused("rotate_every");
     return {};
 }
 

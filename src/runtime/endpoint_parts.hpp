@@ -2,7 +2,9 @@
 // Pieces that the endpoint grammar and the configuration file share. Private to module runtime; pure functions, safe from any thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,6 +43,9 @@ struct OptionText {
     std::string value;
 };
 
+// What stands behind the '?' where options begin; empty where there is none. A bare path that ends in ".tlog" may have one in its name.
+[[nodiscard]] std::optional<std::string_view> query_of(std::string_view endpoint);
+
 // "a=1&b=x%20y", decoded; a key given twice, a missing value and a bad escape are errors.
 [[nodiscard]] SetupResult<std::vector<OptionText>> split_query(std::string_view query);
 [[nodiscard]] SetupResult<std::string> percent_decoded(std::string_view text);
@@ -59,8 +64,19 @@ struct OptionText {
 [[nodiscard]] std::string to_text(const HostPort& address);
 
 [[nodiscard]] tl::unexpected<SetupError> usage(std::string text);
+// Puts a parsed value where it belongs; the error passes through.
+template <class T, class Target>
+SetupResult<void> put(SetupResult<T> parsed, Target& target) {
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    target = static_cast<Target>(std::move(*parsed));
+    return {};
+}
+
 [[nodiscard]] SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most);
 [[nodiscard]] SetupResult<double> parse_positive(std::string_view text);
+// When a recording goes on in a new file: by size, by time.
+[[nodiscard]] SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text);
+[[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text);
 [[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);
 [[nodiscard]] bool is_ring_name(std::string_view text) noexcept;
 

@@ -87,8 +87,10 @@ struct Endpoint {
 
 // One option as a URL's query or a file's key has it; `parse_endpoint` is built on this.
 [[nodiscard]] SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value);
-// The keys that `scheme` takes, for help and for "did you mean".
+// The options of all schemes, in the order of the guide's table; `set_endpoint_option` says which scheme takes which.
 [[nodiscard]] std::span<const std::string_view> endpoint_option_names() noexcept;
+// Refuses (`usage`) what makes sense only where the endpoint is written to, for commands that read it.
+[[nodiscard]] SetupResult<void> check_source_options(const Endpoint& endpoint);
 
 // "250ms", "2", "2s", "1m", "1h": seconds unless a unit follows. "64k", "1M", "32MiB": bytes.
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text);
