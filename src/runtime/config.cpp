@@ -213,9 +213,9 @@ private:
                 return bad(part->line, fmt::format("'{}' stands beside url, which says it already", key));
         auto endpoint = parse_endpoint(url->value);
         if (!endpoint) return bad(url->line, endpoint.error().text);
-        const auto question = url->value.find('?');
-        if (question == std::string::npos || url->value.ends_with(".tlog")) return endpoint;
-        const auto options = split_query(std::string_view(url->value).substr(question + 1));
+        const auto query = query_of(url->value);
+        if (!query) return endpoint;
+        const auto options = split_query(*query);
         if (!options) return bad(url->line, options.error().text);
         const auto url_line = url->line;
         for (const auto& option : *options) {
@@ -331,8 +331,8 @@ SetupResult<Config> load_config(const std::filesystem::path& file, const Environ
         return system_error(fmt::format("cannot read {}", file.string()), EISDIR);
     std::ifstream stream(file, std::ios::binary);
     if (!stream) return system_error(fmt::format("cannot read {}", file.string()), errno);
-    constexpr std::size_t longest = 4 * 1024 *
-                                    1024;  // no configuration; a recording or a device was meant for something else
+    // Longer is no configuration: a recording or a device was meant for something else.
+    constexpr std::size_t longest = 4 * 1024 * 1024;
     std::string text(longest + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));

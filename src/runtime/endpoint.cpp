@@ -84,11 +84,16 @@ tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_v
 
 bool ends_with(std::string_view text, std::string_view end) { return text.size() > end.size() && text.ends_with(end); }
 
-void split_off_query(Split& split) {
-    const auto question = split.rest.find('?');
-    split.has_query = question != std::string_view::npos;
-    if (split.has_query) split.query = split.rest.substr(question + 1);
-    split.rest = split.rest.substr(0, question);
+// Whether `text` begins with SCHEME://, known or not.
+bool names_scheme(std::string_view text) {
+    const auto slashes = text.find("://");
+    return slashes != std::string_view::npos && text.substr(0, slashes).find('?') == std::string_view::npos &&
+           text.front() != '/' && text.front() != '.';
+}
+
+bool is_short_form(std::string_view text) {
+    return std::any_of(short_forms.begin(), short_forms.end(),
+                       [&](const Short& form) { return text.starts_with(form.prefix); });
 }
 
 // "127.0.0.1:14550" and everything else that names no scheme.
@@ -120,20 +125,20 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
 
 SetupResult<Split> split(std::string_view text) {
     Split result;
-    if (const auto slashes = text.find("://"); slashes != std::string_view::npos &&
-                                               text.substr(0, slashes).find('?') == std::string_view::npos &&
-                                               text.front() != '/' && text.front() != '.') {
+    const auto query = query_of(text);
+    result.has_query = query.has_value();
+    result.query = query.value_or(std::string_view{});
+    result.rest = query ? text.substr(0, text.size() - query->size() - 1) : text;
+    if (names_scheme(text)) {
+        const auto slashes = text.find("://");
         const auto scheme = text.substr(0, slashes);
         const auto found = std::find(names.begin(), names.end(), scheme);
-        result.rest = text.substr(slashes + 3);
-        split_off_query(result);
+        result.rest.remove_prefix(slashes + 3);
         if (found == names.end()) return unknown_scheme(scheme, result.rest);
         result.scheme = static_cast<Scheme>(found - names.begin());
         return result;
     }
-    result.rest = text;
-    if (!ends_with(text, ".tlog")) split_off_query(result);
-    if (ends_with(result.rest, ".tlog")) {
+    if (!is_short_form(text) && ends_with(result.rest, ".tlog")) {
         result.scheme = Scheme::tlog;
         result.plain_path = true;
         return result;
@@ -206,6 +211,15 @@ SetupResult<Endpoint> parse(std::string_view text) {
 std::string_view scheme_name(Scheme scheme) noexcept { return names[static_cast<std::size_t>(scheme)]; }
 
 std::span<const std::string_view> detail::scheme_names() noexcept { return names; }
+
+std::optional<std::string_view> detail::query_of(std::string_view endpoint) {
+    const auto question = endpoint.find('?');
+    if (question == std::string_view::npos) return std::nullopt;
+    const bool is_path = !names_scheme(endpoint) && !is_short_form(endpoint) && !endpoint.starts_with("/dev/");
+    if (is_path && ends_with(endpoint, ".tlog") && !ends_with(endpoint.substr(0, question), ".tlog"))
+        return std::nullopt;
+    return endpoint.substr(question + 1);
+}
 
 std::string Endpoint::label() const {
     if (!options.name.empty()) return options.name;

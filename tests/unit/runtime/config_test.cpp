@@ -119,6 +119,16 @@ TEST(Config, TakesEveryKey) {
     EXPECT_EQ(config.web.listen, (HostPort{"0.0.0.0", 80}));
 }
 
+TEST(Config, AUrlWhoseOptionEndsInTlogKeepsItsOptions) {
+    const auto config = parse_config("[[endpoint]]\nurl = \"udpin://0.0.0.0:14550?name=x.tlog\"\n", "m.toml");
+    ASSERT_TRUE(config.has_value()) << config.error().text;
+    EXPECT_EQ(config->endpoints[0].options.name, "x.tlog");
+    const auto& settings = config->sections.back().settings;
+    EXPECT_EQ(std::count_if(settings.begin(), settings.end(),
+                            [](const Setting& s) { return s.key == "name" && s.value == "x.tlog"; }),
+              1);
+}
+
 TEST(Config, KnowsWhereEachValueCameFrom) {
     const auto config = parsed(whole_file, {{"MAVLOOM_ROUTER_DEDUP_MS", "7"}});
 
@@ -168,6 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[router]\nheartbeat = \"255\"\n", "neither off nor SYS/COMP"},
         Bad{"[ring]\ncapacity = 3000000\n", "no power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
         Bad{"[ring]\nname = \"a b\"\n", "no ring name"}, Bad{"[record]\nrotate_every = \"10ms\"\n", "1s is the least"},
+        Bad{"[record]\nrotate_bytes = 1\n", "out of range (4096 to"},
         Bad{"[web]\nlisten = \"8088\"\n", "the host is missing"},
         Bad{"[[endpoint]]\nname = \"x\"\n", "r.toml:1: an endpoint needs url"},
         Bad{"[[endpoint]]\nurk = \"udpin://0.0.0.0:1\"\n",

@@ -193,7 +193,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpin://127.0.0.1:1?baud=57600", "udpin does not take the option 'baud' (it belongs to serial)"},
         Bad{"serial:///dev/ttyACM0?mtu=0", "it belongs to udpin, udpout, udpbcast, udpmcast"},
         Bad{"tcpin://127.0.0.1:1?bind=0.0.0.0:1", "does not take the option 'bind'"},
-        Bad{"tlog://a.tlog?tap=true", "does not take"}, Bad{"udpin://127.0.0.1:1?name=", "option 'name'"},
+        Bad{"tlog://a.tlog?tap=true", "does not take"}, Bad{"tlog://a.tlog?max_rate=*:1", "does not take"},
+        Bad{"tlog://a.tlog?in_allow=ATTITUDE", "does not take"}, Bad{"a.tlog?out_block=sys:1", "does not take"}, Bad{"udpin://127.0.0.1:1?name=", "option 'name'"},
         Bad{"udpin://127.0.0.1:1?group=a%20b", "no group name"},
         Bad{"udpin://127.0.0.1:1?mtu=279", "neither 0 (one frame a datagram) nor"},
         Bad{"udpin://127.0.0.1:1?mtu=65508", "nor from 280 to 65507"},
@@ -292,6 +293,24 @@ TEST(ParseEndpoint, TakesTheOptionsOfOtherSchemes) {
     EXPECT_TRUE(parsed("udpbcast://192.168.1.255:14550?fixed=true").options.fixed);
     EXPECT_EQ(parsed("udpout://127.0.0.1:1?bind=[::]:14551").options.bind, (HostPort{"::", 14551}));
     EXPECT_EQ(parsed("udpout://127.0.0.1:1?bind=0.0.0.0:0").options.bind, (HostPort{"0.0.0.0", 0}));
+}
+
+// A value that ends in .tlog made the whole text a path, and the options were lost.
+TEST(ParseEndpoint, AnOptionThatEndsInTlogIsAnOption) {
+    EXPECT_EQ(parsed("udpin://127.0.0.1:14550?name=x.tlog").options.name, "x.tlog");
+    EXPECT_EQ(parsed("udpin:127.0.0.1:14550?name=x.tlog").options.name, "x.tlog");
+    EXPECT_EQ(parsed("udpin:127.0.0.1:14550?name=x.tlog").scheme, Scheme::udpin);
+    EXPECT_EQ(parsed("/dev/ttyACM0?name=x.tlog").scheme, Scheme::serial);
+    EXPECT_EQ(parsed("flight.tlog?name=x.tlog").path, "flight.tlog");
+    EXPECT_EQ(parsed("flight.tlog?name=x.tlog").options.name, "x.tlog");
+}
+
+TEST(CheckSourceOptions, RefusesWhatOnlyADestinationHas) {
+    EXPECT_TRUE(check_source_options(parsed("a.tlog?speed=10&name=a")).has_value());
+    EXPECT_TRUE(check_source_options(parsed("udpin://127.0.0.1:14550?tap=true")).has_value());
+    EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_every=1h")).error().text,
+              "'tlog://a.tlog': 'rotate_every' is for a recording that is written; this one is read");
+    EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_bytes=1M")).error().code, SetupCode::usage);
 }
 
 TEST(Endpoint, LabelIsTheNameElseTheUrlWithoutItsQuery) {
