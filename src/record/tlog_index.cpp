@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 
 namespace mavloom::record {
 
@@ -22,7 +23,8 @@ SetupResult<TlogIndex> TlogIndex::build(TlogReader& reader, std::uint64_t spacin
         const auto record = reader.next();
         if (record) index.add(*record, spacing);
         else if (record.error() == TlogReader::Stop::failed) return tl::unexpected(reader.error());
-        else if (record.error() == TlogReader::Stop::end) return index;
+        else if (record.error() == TlogReader::Stop::interrupted) return system_error("cannot index a pipe", EINTR);
+        else return index;
     }
 }
 
