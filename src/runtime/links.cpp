@@ -62,6 +62,7 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
 }
 
 SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
+    impl_->core.refresh_now();
     if (auto checked = check_supported(endpoint); !checked) return tl::unexpected(std::move(checked).error());
     for (const auto& other : impl_->endpoints) {
         if (other && other->info.endpoint.label() == endpoint.label() && endpoint.address.port != 0) {
@@ -128,6 +129,11 @@ std::vector<EndpointInfo> Links::endpoints() const {
 std::string_view Links::link_name(LinkId link) const {
     const Link* const found = impl_->core.links().find(link);
     return found == nullptr ? std::string_view{} : std::string_view(found->name);
+}
+
+const LinkCounters* Links::counters(LinkId link) const noexcept {
+    const Link* const found = impl_->core.links().find(link);
+    return found == nullptr ? nullptr : &found->counters;
 }
 
 }  // namespace mavloom::runtime

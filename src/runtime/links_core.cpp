@@ -39,6 +39,14 @@ void LinkTable::remove(LinkId id) noexcept {
     --size_;
 }
 
+void OpenEndpoint::count_gone(const Link& link) noexcept {
+    const LinkCounters& gone = link.counters;
+    counters.gone_frames_out.add(gone.frames_out.value());
+    counters.gone_bytes_out.add(gone.bytes_out.value());
+    counters.gone_queue_dropped.add(gone.queue_bytes.value() + gone.queue_age.value() + link.queue.blocks());
+    counters.gone_frames_not_sent.add(gone.frames_not_sent.value());
+}
+
 Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
            net::ReceiveBatch batch)
     : table_(table),
@@ -100,7 +108,7 @@ void Core::flush() {
         Outlet* const outlet = flushing_[i];
         if (outlet == nullptr) continue;
         outlet->scheduled = false;
-        outlet->flush(now_);
+        outlet->flush();
         if (flushing_[i] != nullptr && outlet->blocked()) schedule(*outlet);
     }
     flushing_.clear();

@@ -29,7 +29,7 @@ namespace mavloom::runtime::detail {
 class Outlet {
 public:
     virtual ~Outlet() = default;
-    virtual void flush(MonoTime now) = 0;
+    virtual void flush() = 0;
     // Something is still queued that the kernel would not take.
     [[nodiscard]] virtual bool blocked() const = 0;
     // Drops what has become too old while blocked.
@@ -66,14 +66,21 @@ public:
     [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options,
                                                                       EndpointId endpoint);
 
+    [[nodiscard]] bool verifies() const noexcept { return verifier_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // The frame with our signature, in a buffer that lives until the next call; the frame itself where nothing is to be signed (MAVLink 1).
+    // `accepts` ahead of the parser that will find the same bytes once more: that second look is not taken for a replay.
+    [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
+    // The bytes that were vouched for are about to go.
+    void forget_vouched() noexcept { vouched_ = nullptr; }
+    // The frame with our signature, in a buffer that lives until the next call. The frame itself where nothing is to be signed (MAVLink 1),
+    // or where nobody knows how: its id has no definition and no CRC_EXTRA agrees with its checksum.
     [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
                                        WallTime now) noexcept;
 
 private:
     std::optional<wire::Verifier> verifier_;
     std::optional<wire::Signer> signer_;
+    const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};
 };
 
@@ -126,6 +133,8 @@ public:
     virtual void refresh_kernel_drops() {}
     // The answer to a look-up that this endpoint asked for.
     virtual void on_resolved(net::Resolver::Answer) {}
+    // Keeps the sums of a link that has been removed.
+    void count_gone(const Link& link) noexcept;
 
     EndpointInfo info;
     EndpointCounters counters;
@@ -150,6 +159,8 @@ public:
     [[nodiscard]] const LinkTable& links() const noexcept { return links_; }
     // The instant of this turn.
     [[nodiscard]] MonoTime now() const noexcept { return now_; }
+    // For what is done between turns.
+    void refresh_now() { now_ = mono_now(); }
 
     // `link.name` is made unique. The handler is told at once inside a turn, else when the next begins.
     void add_link(Link& link);

@@ -3,9 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "mavloom/net/address.hpp"
 #include "mavloom/runtime/endpoint.hpp"

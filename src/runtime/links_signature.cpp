@@ -25,26 +25,37 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& o
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
     if (!verifier_) return true;
+    if (vouched_ == frame.bytes().data()) {
+        vouched_ = nullptr;
+        return true;
+    }
     return verifier_->verify(frame, wire::SigningTime::from(now)) == wire::Verifier::Verdict::good;
 }
 
-// The byte that makes this frame's checksum right: the dialect knows it, else it can be found from the checksum.
-static std::uint8_t crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
-                                 const wire::MessageTable& table) noexcept {
+bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {
+    if (!accepts(frame, now)) return false;
+    vouched_ = frame.bytes().data();
+    return true;
+}
+
+// The byte that makes this frame's checksum right: the dialect knows it, else it can be found from the checksum. -1: there is none.
+static int crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
+                        const wire::MessageTable& table) noexcept {
     if (const wire::MessageInfo* info = table.find(frame.id())) return info->crc_extra;
-    return static_cast<std::uint8_t>(std::max(wire::crc_extra_between(before_extra, frame.checksum()), 0));
+    return wire::crc_extra_between(before_extra, frame.checksum());
 }
 
 wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::MessageTable& table, WallTime now) noexcept {
     if (!signer_ || !frame.is_v2()) return frame;
     const std::size_t covered = frame.header_length() + frame.payload_length();
     const ByteView header_and_payload = frame.bytes().first(covered);
+    const int extra = crc_extra_of(frame, wire::crc_update(wire::crc_seed, header_and_payload.subspan(1)), table);
+    if (extra < 0) return frame;
     std::copy(header_and_payload.begin(), header_and_payload.end(), buffer_.begin());
-    const std::uint8_t extra = crc_extra_of(frame, wire::crc_update(wire::crc_seed, header_and_payload.subspan(1)),
-                                            table);
     buffer_[2] |= wire::incompat_signed;
     const ByteView now_covered = ByteView(buffer_).subspan(1, covered - 1);
-    store_le(buffer_.data() + covered, wire::crc_update(wire::crc_update(wire::crc_seed, now_covered), extra));
+    const std::uint16_t before_extra = wire::crc_update(wire::crc_seed, now_covered);
+    store_le(buffer_.data() + covered, wire::crc_update(before_extra, static_cast<std::uint8_t>(extra)));
     const std::size_t size = signer_->sign(buffer_, covered + wire::checksum_length, wire::SigningTime::from(now));
     return wire::FrameView::unchecked(ByteView(buffer_).first(size));
 }

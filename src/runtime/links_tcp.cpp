@@ -14,6 +14,7 @@ SetupResult<void> TcpPeer::attach(net::TcpStream stream) {
     watch_ = *watch;
     blocked_ = false;
     last_heard = core_.now();
+    counters.queue_age.add(queue.expire(core_.now()));  // nobody looked while there was no stream
     if (queued) core_.schedule(*this);
     return {};
 }
@@ -57,7 +58,7 @@ void TcpPeer::read() {
 
 void TcpPeer::tick(MonoTime now) { parser_.tick(now, sink(wall_now())); }
 
-void TcpPeer::flush(MonoTime) {
+void TcpPeer::flush() {
     if (blocked_ || !stream_) return;
     while (!queue.empty()) {
         std::array<iovec, pieces_per_write> room;

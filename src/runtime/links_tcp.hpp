@@ -36,7 +36,7 @@ public:
 
     void schedule() override { core_.schedule(*this); }
     void on_io(net::IoEvents events) override;
-    void flush(MonoTime now) override;
+    void flush() override;
     [[nodiscard]] bool blocked() const override { return blocked_; }
     void expire(MonoTime now) override { counters.queue_age.add(queue.expire(now)); }
     [[nodiscard]] std::optional<MonoTime> tick_due() const override { return parser_.deadline(); }

@@ -29,7 +29,6 @@ public:
         return {};
     }
     void listen(bool on) noexcept { core_.loop().change(watch_, on, false); }
-    [[nodiscard]] net::TcpListener& listener() noexcept { return listener_; }
     void on_io(net::IoEvents events) override;
 
 private:
@@ -142,6 +141,7 @@ void TcpIn::pause() {
 
 void TcpIn::on_closed(TcpPeer& peer, std::string_view why) {
     core_.remove_link(peer, why);
+    count_gone(peer);
     const auto at = std::find_if(peers_.begin(), peers_.end(), [&](const auto& p) { return p.get() == &peer; });
     core_.bury(std::move(*at));
     *at = std::move(peers_.back());

@@ -24,9 +24,15 @@ struct UdpPeer final : Link {
     UdpPort* port;
     net::Address address;
     wire::DatagramParser parser;
+    // Datagrams with a good frame count; those of junk do not keep a peer.
     MonoTime last_heard{};
     std::uint64_t datagrams = 0;
 };
+
+// The kernel's time stamp; where it gave none, now.
+[[nodiscard]] inline WallTime receive_time(const net::Datagram& datagram) {
+    return datagram.time == WallTime{} ? wall_now() : datagram.time;
+}
 
 // What an endpoint decides about its sockets' datagrams.
 class UdpOwner {
@@ -34,8 +40,8 @@ public:
     virtual ~UdpOwner() = default;
     // Whose datagram this is; null: nobody's, and it is counted.
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
-    // The kernel or the network refused what went to `peer`.
-    virtual void on_send_error(UdpPort& port, net::IoError error) = 0;
+    // The kernel or the network refused a datagram.
+    virtual void on_send_error(net::IoError error) = 0;
 };
 
 // One socket: reads a batch a turn, and sends what its peers queued with one sendmmsg a turn.
@@ -59,7 +65,7 @@ public:
 
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
-    void flush(MonoTime now) override;
+    void flush() override;
     [[nodiscard]] bool blocked() const override { return blocked_; }
     void expire(MonoTime now) override;
 

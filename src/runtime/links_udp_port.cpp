@@ -53,7 +53,7 @@ void UdpPort::on_io(net::IoEvents events) {
     if (events.failed) {
         const std::size_t errors = socket_.drain_errors();
         counters_.send_errors.add(errors);
-        if (errors != 0) owner_.on_send_error(*this, net::IoError::refused);
+        if (errors != 0) owner_.on_send_error(net::IoError::refused);
     }
     if (events.writable && blocked_) {
         blocked_ = false;
@@ -77,11 +77,13 @@ void UdpPort::receive() {
         const net::Datagram datagram = batch[i];
         UdpPeer* const peer = owner_.peer_of(*this, datagram);
         if (peer == nullptr) continue;
-        peer->last_heard = core_.now();
-        ++peer->datagrams;
-        const WallTime time = datagram.time == WallTime{} ? wall_now() : datagram.time;
+        const WallTime time = receive_time(datagram);
+        const std::uint64_t frames_before = peer->counters.frames_in.value();
         peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
         peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
+        if (peer->counters.frames_in.value() == frames_before) continue;
+        peer->last_heard = core_.now();
+        ++peer->datagrams;
     }
 }
 
@@ -89,7 +91,7 @@ void UdpPort::expire(MonoTime now) {
     for (UdpPeer* peer : waiting_) peer->counters.queue_age.add(peer->queue.expire(now));
 }
 
-void UdpPort::flush(MonoTime) {
+void UdpPort::flush() {
     if (blocked_) return;
     net::SendBatch& batch = core_.send_batch();
     batch.clear();
@@ -149,8 +151,11 @@ bool UdpPort::recover(std::size_t index, net::IoError error, int& refusals) {
     if (error == net::IoError::refused && ++refusals < most_refusals) return true;
     refusals = 0;
     counters_.send_errors.add();
-    if (parts_[index].peer != nullptr) parts_[index].peer->queue.pop(parts_[index].until);
-    owner_.on_send_error(*this, error);
+    if (const Part& part = parts_[index]; part.peer != nullptr) {
+        part.peer->counters.frames_not_sent.add(part.frames);
+        part.peer->queue.pop(part.until);
+    }
+    owner_.on_send_error(error);
     return true;
 }
 

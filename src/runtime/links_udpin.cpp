@@ -36,15 +36,16 @@ public:
     void on_resolved(net::Resolver::Answer answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override {
+        if (signature) signature->forget_vouched();
         if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;
         return newcomer(port, datagram);
     }
-    void on_send_error(UdpPort&, net::IoError) override {}
+    void on_send_error(net::IoError) override {}
     void on_timer(MonoTime now) override;
 
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
-    [[nodiscard]] bool holds_frame(ByteView datagram);
+    [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool make_room();
     void drop(std::size_t index, std::string_view why);
 
@@ -99,17 +100,20 @@ void UdpIn::refresh_kernel_drops() {
     for (const auto& port : ports_) port->refresh_kernel_drops();
 }
 
-// A frame of a defined message: its checksum vouches for the sender. An id without definition alone does not.
-bool UdpIn::holds_frame(ByteView datagram) {
+// With verify= a good signature vouches for the sender; without, the checksum of a defined message does: an id without definition alone does
+// not.
+bool UdpIn::vouched_for(const net::Datagram& datagram) {
+    const bool verifies = signature && signature->verifies();
     bool found = false;
-    stranger_.parse(datagram, [&](const wire::ParseEvent& event) {
-        found = found || (event.kind == wire::ParseEvent::Kind::frame && event.info != nullptr);
+    stranger_.parse(datagram.bytes, [&](const wire::ParseEvent& event) {
+        if (found || event.kind != wire::ParseEvent::Kind::frame) return;
+        found = verifies ? signature->vouches(event.frame, receive_time(datagram)) : event.info != nullptr;
     });
     return found;
 }
 
 UdpPeer* UdpIn::newcomer(UdpPort& port, const net::Datagram& datagram) {
-    if (!holds_frame(datagram.bytes)) {
+    if (!vouched_for(datagram)) {
         counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }
@@ -149,6 +153,7 @@ bool UdpIn::make_room() {
 void UdpIn::drop(std::size_t index, std::string_view why) {
     UdpPeer& peer = *peers_[index];
     core_.remove_link(peer, why);
+    count_gone(peer);
     peer.port->forget(peer);
     core_.bury(std::move(peers_[index]));
     peers_[index] = std::move(peers_.back());

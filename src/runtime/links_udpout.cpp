@@ -42,7 +42,7 @@ public:
         counters.wrong_peer.add();
         return nullptr;
     }
-    void on_send_error(UdpPort&, net::IoError error) override;
+    void on_send_error(net::IoError error) override;
     void on_timer(MonoTime now) override;
 
 private:
@@ -125,7 +125,7 @@ void UdpOut::try_later() {
     retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
 }
 
-void UdpOut::on_send_error(UdpPort&, net::IoError error) {
+void UdpOut::on_send_error(net::IoError error) {
     if (!peer_) return;
     if (!std::exchange(told_failure_, true)) {
         core_.notice(info.id, fmt::format("{}: {} {}; sending goes on", info.endpoint.label(), peer_->address.text(),

@@ -39,18 +39,23 @@ struct LinkCounters {
     Counter bad_signature;                  // verify= is set and the signature does not agree, or there is none
     Counter queue_bytes, queue_age;         // whole frames dropped on the way out
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
-    Counter filtered, rate_limited;
+    Counter frames_not_sent;                // in datagrams that the kernel refused
 };
 
 // What belongs to a socket rather than to one of its peers.
 struct EndpointCounters {
     Counter kernel_drop;    // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
     Counter wrong_peer;     // udpout: datagrams from another address
-    Counter stray_bytes;    // bytes of strangers whose datagrams held no valid frame
+    Counter stray_bytes;    // bytes of strangers whose datagrams held no valid frame, or with verify= none that is well signed
     Counter peers_refused;  // over max_peers, and none of the others may go (docs/guide/queues.md)
     Counter peers_evicted;  // the longest idle, gone for a newcomer
     Counter send_errors;    // datagrams that met a closed port (ICMP said so) or that the kernel refused
     Counter reconnects;
+    // Sums over the peers and clients that are gone: with those of the links that are there they make the endpoint's whole. A link is added
+    // when its on_link_down has returned.
+    Counter gone_frames_out, gone_bytes_out;
+    Counter gone_queue_dropped;  // queue_bytes, queue_age, and what was still queued when the link went
+    Counter gone_frames_not_sent;
 };
 
 struct RxFrame {
@@ -135,6 +140,8 @@ public:
     // What is there now. `counters` of a link stay until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
+    // The same counters without the list, in constant time; null for a link that is gone.
+    [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept;
     // Empty for a link that is gone.
     [[nodiscard]] std::string_view link_name(LinkId link) const;
 

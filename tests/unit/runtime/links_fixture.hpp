@@ -108,10 +108,9 @@ struct Node {
     }
     [[nodiscard]] std::uint16_t port(EndpointId id) const { return info(id).local_port; }
     [[nodiscard]] const LinkCounters& counters(LinkId id) const {
-        for (const auto& l : links->links())
-            if (l.id == id) return *l.counters;
         static const LinkCounters none;
-        return none;
+        const LinkCounters* const found = links->counters(id);
+        return found == nullptr ? none : *found;
     }
     void poll() { links->turn(recorder, mono_now()); }
 

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "mavloom/wire/crc.hpp"
 #include "unit/runtime/links_fixture.hpp"
 
 namespace mavloom::runtime {
@@ -120,18 +121,51 @@ TEST_F(LinksSigning, SignedFramesPassVerificationOthersAreCounted) {
         wrong.links->send(from_wrong, view(attitude(i)));
         unsigned_one.links->send(from_unsigned, view(attitude(i)));
     }
-    std::uint64_t bad = 0;
+    const std::size_t unsigned_bytes = 3 * attitude(0).size(), wrong_bytes = unsigned_bytes + 3 * wire::signature_length;
+    const auto& counters = *listener.info(in).counters;
     ASSERT_TRUE(until(
         [&] {
-            bad = 0;
-            for (const auto& l : listener.links->links()) bad += l.counters->bad_signature.value();
-            return bad == 6 && listener.recorder.frames.size() == 3;
+            return counters.stray_bytes.value() == unsigned_bytes + wrong_bytes && listener.recorder.frames.size() == 3;
         },
         listener, right, wrong, unsigned_one));
+    EXPECT_EQ(listener.links->links().size(), 1u) << "those without a good signature are no links";
+    const LinkCounters& peer = listener.counters(listener.recorder.frames[0].link);
+    EXPECT_EQ(peer.bad_signature.value(), 0u);
     for (const auto& heard : listener.recorder.frames) {
         EXPECT_EQ(heard.bytes.size(), attitude(0).size() + wire::signature_length);
         EXPECT_TRUE(view(heard.bytes).is_signed());
     }
+}
+
+TEST_F(LinksSigning, AReplayFromAnotherAddressMakesNoPeer) {
+    Node listener, right;
+    const auto in = listener.add("udpin://127.0.0.1:0?max_peers=1&verify=" + key_file('a'));
+    const auto from_right = right.add(fmt::format("udpout://127.0.0.1:{}?sign={}", listener.port(in), key_file('a')));
+    right.links->send(from_right, view(attitude(0)));
+    ASSERT_TRUE(until([&] { return listener.recorder.frames.size() == 1; }, listener, right));
+    const Bytes heard = listener.recorder.frames[0].bytes;
+    PlainSocket::udp().send_to(listener.port(in), heard);
+    PlainSocket::udp().send_to(listener.port(in), attitude(1));
+    ASSERT_TRUE(until(
+        [&] { return listener.info(in).counters->stray_bytes.value() == heard.size() + attitude(1).size(); }, listener));
+    EXPECT_EQ(listener.recorder.frames.size(), 1u);
+    EXPECT_EQ(listener.links->links().size(), 1u);
+    EXPECT_EQ(listener.info(in).counters->peers_evicted.value(), 0u);
+}
+
+// Signed again it would have a checksum that nobody can check.
+TEST_F(LinksSigning, AFrameWhoseChecksumNobodyKnowsLeavesAsItIs) {
+    Node node;
+    const auto far = PlainSocket::udp();
+    const auto out = node.add(fmt::format("udpout://127.0.0.1:{}?sign={}", far.port(), key_file('a')));
+    Bytes frame = attitude(0);
+    frame[8] = 0x70;  // an id without definition
+    const auto before_extra = wire::crc_update(wire::crc_seed, ByteView(frame).subspan(1, frame.size() - 3));
+    const auto checksum = [&] { return static_cast<std::uint16_t>(frame[frame.size() - 2] | frame.back() << 8); };
+    while (wire::crc_extra_between(before_extra, checksum()) >= 0) ++frame.back();
+    EXPECT_EQ(node.links->send(out, view(frame)), 1u);
+    node.poll();
+    EXPECT_EQ(far.read(), frame);
 }
 
 TEST_F(LinksSigning, AMissingKeyIsAnError) {

@@ -64,8 +64,7 @@ TEST_F(LinksTcp, AClosedClientGoesDownOnceAndItsFramesWereHeard) {
 TEST_F(LinksTcp, CountersAreThereWhileALinkGoesDown) {
     struct Last : Recorder {
         void on_link_down(LinkId id, EndpointId, std::string_view) override {
-            for (const auto& l : links->links())
-                if (l.id == id) frames_in = l.counters->frames_in.value();
+            frames_in = links->counters(id)->frames_in.value();
         }
         Links* links = nullptr;
         std::uint64_t frames_in = 0;
@@ -133,6 +132,22 @@ TEST_F(LinksTcp, WhatAStalledClientCannotTakeAges) {
     }
     const auto& counters = *other.links->links().at(0).counters;
     ASSERT_TRUE(until([&] { return counters.queue_age.value() > 0 && other.links->queued_bytes(in) <= 280; }, other));
+}
+
+TEST_F(LinksTcp, EveryFrameForAClientThatIsGoneStaysCounted) {
+    auto stalled = connect(4096);
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    std::size_t count = 0;
+    while (!node.links->pending()) {
+        for (int i = 0; i < 500; ++i) count += node.links->send(in, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
+        node.poll();
+    }
+    stalled.close();
+    ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
+    const EndpointCounters& gone = *node.info(in).counters;
+    EXPECT_GT(gone.gone_frames_out.value(), 0u);
+    EXPECT_GT(gone.gone_queue_dropped.value(), 0u);
+    EXPECT_EQ(gone.gone_frames_out.value() + gone.gone_queue_dropped.value(), count);
 }
 
 TEST_F(LinksTcp, ClientsOverMaxPeersAreTurnedAwayAndCounted) {
@@ -229,6 +244,35 @@ TEST(LinksTcpOut, ANewConnectionBeginsWithAWholeFrame) {
     EXPECT_EQ(begin[0], wire::stx_v2);
     EXPECT_NE(known.find(MessageId{begin[7] | std::uint32_t{begin[8]} << 8}), nullptr);
     ::close(second);
+}
+
+// The far side was away for longer than queue_age: what was meant for then is not said now.
+TEST(LinksTcpOut, FramesThatBecameTooOldMeanwhileAreNotSent) {
+    PlainSocket listening(SOCK_STREAM);
+    const int small = 4096;
+    setsockopt(listening.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    ASSERT_EQ(::listen(listening.fd(), 5), 0);
+    const std::uint16_t port = listening.port();
+    Node caller, listener;
+    const auto out = caller.add(fmt::format("tcpout://127.0.0.1:{}?queue_age=200ms", port));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 1; }, caller));
+    const int first = ::accept(listening.fd(), nullptr, nullptr);
+    while (!caller.links->pending()) {
+        for (int i = 0; i < 500; ++i) caller.links->send(out, view(frame_bytes(76, static_cast<std::uint8_t>(i))));
+        caller.poll();
+    }
+    listening.close();
+    ::close(first);
+    ASSERT_TRUE(until([&] { return caller.recorder.downs.size() == 1; }, caller));
+    EXPECT_GT(caller.links->queued_bytes(out), 0u);
+    const MonoTime too_old = mono_now() + std::chrono::milliseconds(250);
+    ASSERT_TRUE(until([&] { return mono_now() > too_old; }, caller));
+    listener.add(fmt::format("tcpin://127.0.0.1:{}", port));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 2; }, caller, listener));
+    caller.links->send(out, view(heartbeat(0)));
+    ASSERT_TRUE(until([&] { return !listener.recorder.frames.empty(); }, caller, listener));
+    EXPECT_EQ(listener.recorder.bytes(), heartbeat(0));
+    EXPECT_GT(caller.counters(caller.recorder.ups[0].first).queue_age.value(), 0u);
 }
 
 }  // namespace

@@ -169,6 +169,47 @@ TEST(LinksUdp, AFloodOfStrangersDoesNotPushOutThoseWhoTalk) {
     EXPECT_THAT(node.links->links(), SizeIs(2));
 }
 
+TEST(LinksUdp, JunkDoesNotKeepAPeer) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?idle=50ms");
+    const auto peer = PlainSocket::udp();
+    peer.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    ASSERT_TRUE(
+        until([&] { return peer.send_to(node.port(in), Bytes(20, 0x55)), node.recorder.downs.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.downs[0].second, "idle");
+}
+
+TEST(LinksUdp, WhatWasSentToAPeerThatIsGoneStaysCounted) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?max_peers=1");
+    const auto a = PlainSocket::udp(), b = PlainSocket::udp();
+    a.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    EXPECT_EQ(node.links->send(in, view(attitude(0))), 1u);
+    node.poll();
+    EXPECT_EQ(node.info(in).counters->gone_frames_out.value(), 0u);
+    b.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
+    EXPECT_EQ(node.info(in).counters->gone_frames_out.value(), 1u);
+    EXPECT_EQ(node.info(in).counters->gone_bytes_out.value(), 40u);
+    EXPECT_EQ(node.info(in).counters->gone_queue_dropped.value(), 0u);
+    EXPECT_EQ(node.links->counters(node.recorder.downs[0].first), nullptr);
+}
+
+// From the loopback address nothing goes to another host.
+TEST(LinksUdp, FramesOfADatagramThatIsRefusedAreCounted) {
+    Node node;
+    const auto out = node.add("udpout://192.0.2.1:9?bind=127.0.0.1:0");
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+    node.poll();
+    EXPECT_FALSE(node.links->pending());
+    const auto& counters = *node.links->links().at(0).counters;
+    EXPECT_EQ(counters.frames_not_sent.value(), 3u);
+    EXPECT_EQ(counters.frames_out.value(), 0u);
+    EXPECT_EQ(node.info(out).counters->send_errors.value(), 1u);
+}
+
 TEST(LinksUdp, KernelDropsAreCountedAlsoBehindTheLastDatagram) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0?rcvbuf=4096");
