@@ -83,7 +83,7 @@ TEST_P(LinksTransport, NamesTellPeersApart) {
     ASSERT_TRUE(until([&] { return near.recorder.frames.size() == 1; }, near, third));
     const auto links = near.links->links();
     ASSERT_THAT(links, SizeIs(2));
-    EXPECT_THAT(links[0].name, HasSubstr(listen_url() + "#"));
+    EXPECT_THAT(links[0].name, HasSubstr(listen_url(near.port(in)) + "#"));
     EXPECT_NE(links[0].name, links[1].name);
     EXPECT_EQ(near.links->link_name(links[1].id), links[1].name);
     EXPECT_EQ(far.links->links().at(0).name, call_url());
