@@ -9,16 +9,6 @@ namespace mavloom::record {
 
 namespace {
 
-constexpr bool is_start(std::uint8_t byte) noexcept { return byte == wire::stx_v1 || byte == wire::stx_v2; }
-
-// The length of the frame whose first bytes these are, whether or not it is here; 0 where the bytes that tell it are missing.
-std::size_t frame_length(ByteView bytes) noexcept {
-    if (bytes.size() < 3 || !is_start(bytes[0])) return 0;
-    if (bytes[0] == wire::stx_v1) return wire::min_frame_length + bytes[1];
-    const bool is_signed = (bytes[2] & wire::incompat_signed) != 0;
-    return wire::header_length_v2 + wire::checksum_length + bytes[1] + (is_signed ? wire::signature_length : 0);
-}
-
 bool has_plausible_time(ByteView bytes) noexcept {
     return bytes.size() >= time_length && load_be64(bytes.data()) < time_limit_us;
 }
@@ -39,8 +29,8 @@ bool is_possible(const wire::FrameView& frame, const wire::MessageInfo* info) no
 bool continues(ByteView rest, const wire::MessageTable& table) noexcept {
     if (rest.empty()) return true;
     if (rest.size() <= time_length) return rest.front() == 0;  // the highest byte of any plausible time
-    if (!has_plausible_time(rest) || !is_start(rest[time_length])) return false;
-    const auto length = frame_length(rest.subspan(time_length));
+    if (!has_plausible_time(rest) || !wire::is_start(rest[time_length])) return false;
+    const auto length = wire::frame_length(rest.subspan(time_length));
     if (length == 0 || time_length + length > rest.size()) return true;
     const auto frame = wire::FrameView::unchecked(rest.subspan(time_length, length));
     return is_possible(frame, table.find(frame.id()));
@@ -50,7 +40,7 @@ bool continues(ByteView rest, const wire::MessageTable& table) noexcept {
 
 std::size_t record_length(ByteView bytes) noexcept {
     if (bytes.size() < min_record_length) return 0;
-    const auto length = frame_length(bytes.subspan(time_length));
+    const auto length = wire::frame_length(bytes.subspan(time_length));
     return length == 0 || time_length + length > bytes.size() ? 0 : time_length + length;
 }
 
@@ -73,10 +63,10 @@ std::size_t skip_startless(ByteView bytes) noexcept {
     std::size_t at = 0;
     for (; at + block <= starts.size(); at += block) {
         bool any = false;
-        for (std::size_t i = 0; i < block; ++i) any |= is_start(starts[at + i]);
+        for (std::size_t i = 0; i < block; ++i) any |= wire::is_start(starts[at + i]);
         if (any) break;
     }
-    while (at < starts.size() && !is_start(starts[at])) ++at;
+    while (at < starts.size() && !wire::is_start(starts[at])) ++at;
     return at;
 }
 

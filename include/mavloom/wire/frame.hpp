@@ -26,6 +26,16 @@ inline constexpr std::uint8_t incompat_signed = 0x01;  // the only incompatibili
 
 enum class Version : std::uint8_t { v1 = 1, v2 = 2 };
 
+[[nodiscard]] constexpr bool is_start(std::uint8_t byte) noexcept { return byte == stx_v1 || byte == stx_v2; }
+
+// The whole length of the frame whose first bytes these are, whether or not it is here; 0 where they begin no frame or do not yet tell it.
+[[nodiscard]] constexpr std::size_t frame_length(ByteView bytes) noexcept {
+    if (bytes.size() < 3 || !is_start(bytes[0])) return 0;
+    if (bytes[0] == stx_v1) return min_frame_length + bytes[1];
+    const bool is_signed = (bytes[2] & incompat_signed) != 0;
+    return header_length_v2 + checksum_length + bytes[1] + (is_signed ? signature_length : 0);
+}
+
 class FrameView {
 public:
     constexpr FrameView() noexcept = default;

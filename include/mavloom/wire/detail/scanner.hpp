@@ -82,11 +82,8 @@ private:
         const MessageInfo* info = nullptr;
     };
 
-    // The whole length of the frame that begins at `p`, or 0 while the bytes that tell it are missing.
     [[nodiscard]] static std::size_t frame_length(const std::uint8_t* p, std::size_t size) noexcept {
-        if (size < 3) return 0;
-        if (p[0] == stx_v1) return min_frame_length + p[1];
-        return header_length_v2 + checksum_length + p[1] + ((p[2] & incompat_signed) != 0 ? signature_length : 0);
+        return wire::frame_length({p, size});
     }
 
     [[nodiscard]] static bool checksum_agrees(const FrameView& frame, const MessageInfo& info) noexcept {
