@@ -28,12 +28,14 @@ class Listener {
 public:
     Listener(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Receiver& receiver,
              const dialect::Message* csv)
-        : common_(common), options_(options), dialect_(dialect), receiver_(receiver), csv_(csv) {}
+        : common_(common), options_(options), dialect_(dialect), json_(dialect), receiver_(receiver), csv_(csv) {}
 
     Exit run() {
         if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
         const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); }, &receiver_);
-        receiver_.start(options_.receive.end(mono_now()));
+        const auto end = options_.receive.end(mono_now());
+        output_.end_at(end);
+        receiver_.start(end);
         while (going_ && receiver_.wait()) {
             while (going_) {
                 const auto entry = receiver_.next();
@@ -50,8 +52,7 @@ public:
 private:
     void handle(const runtime::FrameQueue::Entry& entry) {
         if (Signals::received() && !in_time_for_backlog()) return;
-        if (!options_.selection.takes(entry.frame)) return;
-        if (csv_ != nullptr && entry.frame.id() != csv_->id()) return;
+        if (!wanted(entry)) return;
         const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame, dialect_.find(entry.frame.id())};
         if (options_.stats) traffic_.add(entry.link, entry.frame, entry.time);
         print(received);
@@ -59,12 +60,16 @@ private:
         if (output_.flush_if_full() != Output::State::open || printed_ == options_.receive.count) going_ = false;
     }
 
+    bool wanted(const runtime::FrameQueue::Entry& entry) const {
+        return options_.selection.takes(entry.frame) && (csv_ == nullptr || entry.frame.id() == csv_->id());
+    }
+
     void print(const message::Received& received) {
         auto& out = output_.buffer();
         if (csv_ != nullptr) {
             message::append_csv_row(out, received);
         } else if (options_.json) {
-            message::append_json(out, received);
+            json_.append(out, received);
         } else {
             message::append_text(out, received, dialect_);
         }
@@ -78,32 +83,38 @@ private:
     }
 
     Exit finish() {
-        std::uint64_t unprinted = 0;
-        if (printed_ != options_.receive.count || options_.receive.count == 0)
-            while (receiver_.next()) ++unprinted;
         if (output_.state() == Output::State::failed) return fail(output_.error());
         if (options_.stats) report();
         if (!options_.stats) say_losses(common_, receiver_.totals());
-        if (unprinted != 0 && output_.state() != Output::State::closed_by_reader)
-            say(common_, fmt::format("{} frames received but not printed: the output was too slow for the end", unprinted));
-        if (const auto* error = receiver_.error()) return fail(Exit::failed, error->text);
+        if (const auto unprinted = count_unprinted(); unprinted != 0)
+            say(common_, fmt::format("{} messages received but not printed: the output was too slow for the end", unprinted));
+        if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
 
+    // What waited behind a stalled output when the end was asked for; nothing where the reader left or has all it asked for.
+    std::uint64_t count_unprinted() {
+        const bool complete = options_.receive.count != 0 && printed_ == options_.receive.count;
+        if (complete || output_.state() == Output::State::closed_by_reader) return 0;
+        std::uint64_t unprinted = output_.lost_lines();
+        while (const auto entry = receiver_.next()) unprinted += wanted(*entry);
+        return unprinted;
+    }
+
+    // Where the lines go; to stderr beside CSV rows and where the output takes no more.
     void report() {
-        if (csv_ != nullptr) {
-            fmt::print(stderr, "{}", traffic_text(traffic_, receiver_, dialect_));
+        if (csv_ != nullptr || output_.state() == Output::State::interrupted) {
+            talk(traffic_text(traffic_, receiver_, dialect_));
             return;
         }
-        const auto text = options_.json ? traffic_json(traffic_, receiver_, dialect_) : traffic_text(traffic_, receiver_, dialect_);
-        output_.reopen_after_signal();
-        output_.buffer().append(text);
+        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_) : traffic_text(traffic_, receiver_, dialect_));
         output_.flush();
     }
 
     const Common& common_;
     const Options& options_;
     const dialect::Dialect& dialect_;
+    const message::JsonFormatter json_;
     runtime::Receiver& receiver_;
     const dialect::Message* csv_;
     Output output_;

@@ -50,7 +50,7 @@ Exit record(const Common& common, Options& options) {
     if (!closed) return fail(closed.error());
     say(common, fmt::format("{}: {} frames, {} bytes", options.file, writer->records(), writer->size()));
     say_losses(common, (*receiver)->totals());
-    if (const auto* error = (*receiver)->error()) return fail(Exit::failed, error->text);
+    if (const auto* error = (*receiver)->error()) return fail(*error);
     return Signals::status(Exit::done);
 }
 

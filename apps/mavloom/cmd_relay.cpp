@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "command.hpp"
 #include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/runtime/sources.hpp"
 #include "signals.hpp"
+#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -14,7 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t frames_a_turn = 1024;  // of recordings
-constexpr auto longest_flush = 5s;
+constexpr auto longest_drain = 200ms;  // for what had arrived before the end was asked for
+constexpr auto longest_flush = 5s;     // for what is queued to leave
 
 struct Options {
     std::vector<std::string> sources, to;
@@ -26,15 +30,19 @@ struct Options {
 
 class Relay : private runtime::LinkHandler {
 public:
-    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage)
-        : common_(common), sources_(sources), destinations_(destinations), stage_(stage) {}
+    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage, bool signs)
+        : common_(common), sources_(sources), destinations_(destinations), stage_(stage), signs_(signs) {}
 
     // Recordings wait for somebody to send to; live sources do not.
     Exit run(MonoTime end) {
         const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &sources_);
-        while (going(end) && !sources_.finished()) {
-            const bool room = (started_ = started_ || destinations_.all_up()) && destinations_.have_room();
-            sources_.turn(*this, std::min(end, mono_now() + (started_ ? 1s : 20ms)), room ? frames_a_turn : 0);
+        while (going(end) && !destinations_.failed() && !sources_.finished()) {
+            const bool started = started_ || destinations_.all_up();
+            if (started != std::exchange(started_, started) && waited_) say(common_, "somebody is there: going on");
+            const std::size_t room = started ? std::min(frames_a_turn, destinations_.room_in_frames()) : 0;
+            if (!started && sources_.has_recordings() && !std::exchange(waited_, true)) say(common_, "waiting for somebody to send to");
+            // A full queue is looked at again soon: its socket may have taken all by then.
+            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})), room);
         }
         drain();
         return finish();
@@ -44,33 +52,32 @@ private:
     void on_frame(const runtime::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) {
             const auto outcome = stage_.backward(rx.frame);
-            if (outcome.verdict == edit::Verdict::forward) sources_.send(outcome.frame);
+            if (outcome.verdict == edit::Verdict::forward && sources_.send(outcome.frame) == 0) unheard_answers_.add();
             return;
         }
-        const auto outcome = stage_.forward(rx.frame, rx.time, wall_now());
-        if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame);
+        const auto outcome = stage_.forward(rx.frame, rx.time, signs_ ? wall_now() : WallTime{});
+        if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame, rx.time);
     }
     void on_link_up(LinkId, runtime::EndpointId, std::string_view name) override {
         if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
     }
-    void on_link_down(LinkId, runtime::EndpointId, std::string_view why) override {
-        if (common_.verbose > 0) say(common_, fmt::format("link down: {}", why));
+    void on_link_down(LinkId link, runtime::EndpointId, std::string_view why) override {
+        if (const auto* counters = sources_.links().counters(link)) totals_.add(*counters);
+        if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", sources_.links().link_name(link), why));
     }
-    void on_notice(runtime::EndpointId, std::string_view text) override {
-        if (common_.verbose > 0) say(common_, text);
-    }
+    void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
-    // What had arrived is relayed, and what is queued gets its time to leave.
     void drain() {
-        const auto limit = mono_now() + longest_flush;
-        while (mono_now() < limit && (sources_.turn(*this, MonoTime{}, 0) != 0 || sources_.links().pending()))
-            if (sources_.links().pending()) sources_.links().turn(*this, mono_now() + 5ms);
+        const auto begin = mono_now();
+        while (mono_now() < begin + longest_drain && sources_.turn(*this, MonoTime{}, 0) != 0) {}
+        while (mono_now() < begin + longest_flush && sources_.links().pending()) sources_.links().turn(*this, mono_now() + 5ms);
     }
 
     Exit finish() {
-        sources_.links().refresh_kernel_drops();
+        sources_.add_to(totals_);
+        const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& c = stage_.counters();
         say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(), c.reencoded.value(),
@@ -81,9 +88,11 @@ private:
         say_unless_zero(c.not_v1, "not_v1: frames that MAVLink 1 cannot carry");
         say_unless_zero(c.not_signed, "not_signed: MAVLink 1 frames, which cannot carry a signature (--as-v2 makes them MAVLink 2)");
         say_unless_zero(c.signature_removed, "signature_removed: changed frames that lost their signature (--sign gives a new one)");
-        for (const auto& endpoint : sources_.links().endpoints())
-            say_unless_zero(endpoint.counters->kernel_drop, "kernel_drop: datagrams that the kernel had no room for");
-        if (const auto* error = sources_.error()) return fail(Exit::failed, error->text);
+        say_unless_zero(unheard_answers_, "answers of the far side that no source was there for");
+        say_losses(common_, totals_);
+        if (!closed) return fail(closed.error());
+        if (sources_.finished() && destinations_.lost_any()) return Signals::status(Exit::mismatch);
+        if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
 
@@ -95,7 +104,10 @@ private:
     runtime::Sources& sources_;
     Destinations& destinations_;
     edit::Stage& stage_;
-    bool started_ = false;
+    const bool signs_;
+    runtime::Totals totals_;
+    Counter unheard_answers_;
+    bool started_ = false, waited_ = false;
 };
 
 SetupResult<void> check_words(Options& options) {
@@ -134,7 +146,7 @@ Exit relay(const Common& common, Options& options) {
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max() : mono_now() + *runtime::parse_duration(options.duration);
-    return Relay(common, *sources, *destinations, **stage).run(end);
+    return Relay(common, *sources, *destinations, **stage, options.edit.sign_key.has_value()).run(end);
 }
 
 }  // namespace

@@ -33,13 +33,13 @@ public:
         : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
 
     Exit run(MonoTime end) {
-        const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &sources_);
-        while (going(end) && !sources_.finished_recordings()) {
-            sources_.turn(*this, std::min(end, mono_now() + 100ms), destinations_.have_room() ? frames_a_turn : 0);
+        while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
+            const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
+            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), room);
             show_progress();
         }
         flush();
-        if (progress_shown_) fmt::print(stderr, "\n");
+        if (progress_shown_) talk("\n");
         return finish();
     }
 
@@ -53,8 +53,10 @@ public:
 private:
     void on_frame(const runtime::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
-        if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame);
+        if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
+
+    void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
@@ -70,15 +72,18 @@ private:
         progress_shown_ = true;
         const auto& reader = sources_.recordings().front()->reader;
         const double part = reader.size() == 0 ? 0 : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
-        fmt::print(stderr, "\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent());
+        talk(fmt::format("\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent()));
     }
 
     Exit finish() {
+        const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (counters.damaged_places.value() != 0)
             say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file, counters.damaged_places.value(), counters.lost_bytes.value()));
-        if (const auto* error = sources_.error()) return fail(Exit::failed, error->text);
+        if (!closed) return fail(closed.error());
+        if (destinations_.lost_any() && !options_.no_wait) return Signals::status(Exit::mismatch);
+        if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
 
@@ -112,8 +117,10 @@ Exit replay(const Common& common, Options& options) {
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return fail(destinations.error());
     const MonoTime forever = MonoTime::max();
+    const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
     Replayer replayer(common, options, *sources, *destinations);
-    replayer.wait_for_peers(forever);
+    const MonoTime latest_start = options.duration.empty() ? forever : mono_now() + length;
+    replayer.wait_for_peers(latest_start);
     if (auto added = sources->add(*endpoint, mono_now(), 1.0, start); !added) return fail(added.error());
     return replayer.run(options.duration.empty() ? forever : mono_now() + length);
 }
@@ -125,7 +132,7 @@ Run declare_replay(CLI::App& command, const Common& common) {
     command.add_option("file", options->file, "the recording")->required()->type_name("FILE.tlog");
     command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
     command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")->capture_default_str()->type_name("N|max");
-    command.add_option("--start", options->start, "begin this long after the recording's first record: 30s, 2m")->type_name("TIME");
+    command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")->type_name("TIME");
     command.add_option("--for", options->duration, "end after this time")->type_name("TIME");
     command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
     options->selection.declare(command);

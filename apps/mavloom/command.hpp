@@ -16,7 +16,7 @@
 namespace mavloom::app {
 
 // DESIGN.md section 5.
-enum class Exit : int { done = 0, failed = 1, wrong_use = 2, bad_input = 3, mismatch = 4, interrupted = 130, terminated = 143 };
+enum class Exit : int { done = 0, failed = 1, wrong_use = 2, bad_input = 3, mismatch = 4, hung_up = 129, interrupted = 130, terminated = 143 };
 
 // Options that every command has.
 struct Common {
@@ -48,6 +48,9 @@ Exit fail(const SetupError& error);
 Exit fail(Exit status, std::string_view text);
 // A file that the user named as input: missing or unreadable is status 3 like a file with wrong content.
 SetupError of_input_file(SetupError error);
+// Raw text on stderr. A closed or full stderr never ends a command.
+void talk(std::string_view text) noexcept;
+void keep_standard_descriptors() noexcept;
 // "mavloom: TEXT" on stderr, unless --quiet.
 void say(const Common& common, std::string_view text);
 

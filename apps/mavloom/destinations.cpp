@@ -4,36 +4,79 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace mavloom::app {
 
-SetupResult<Destinations> Destinations::open(const Common& common, const std::vector<std::string>& addresses, runtime::Links& links) {
+SetupResult<Destinations> Destinations::open(const Common& common, const std::vector<std::string>& addresses,
+                                             runtime::Links& links) {
     Destinations all(links);
     for (const auto& address : addresses) {
         const auto endpoint = runtime::parse_endpoint(address);
         if (!endpoint) return tl::unexpected(SetupError(endpoint.error()).within("--to"));
-        const auto id = links.add(*endpoint);
-        if (!id) return tl::unexpected(id.error());
-        all.endpoints_.push_back(*id);
-        all.queue_bytes_.push_back(endpoint->options.queue_bytes);
+        if (auto added = all.add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
     for (const auto& info : links.endpoints())
         if (all.has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)
             say(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
+    for (const auto& file : all.files_)
+        if (!file.renamed_to().empty())
+            say(common, fmt::format("{} exists and is now {}", file.path().string(), file.renamed_to().string()));
     return all;
 }
 
-bool Destinations::send(const wire::FrameView& frame) {
+SetupResult<void> Destinations::add(const runtime::Endpoint& endpoint) {
+    const auto& options = endpoint.options;
+    if (endpoint.scheme != runtime::Scheme::tlog) {
+        const auto id = links_->add(endpoint);
+        if (!id) return tl::unexpected(id.error());
+        endpoints_.push_back(*id);
+        queue_bytes_.push_back(options.queue_bytes);
+        nobody_there_.push_back(0);
+        return {};
+    }
+    if (options.rotate_bytes != 0 || options.rotate_every != Nanoseconds{})
+        return setup_error(SetupCode::usage, fmt::format("--to {}: rotation is not available in this version", endpoint.label()));
+    auto writer = record::TlogWriter::create(endpoint.path);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    files_.push_back(std::move(*writer));
+    return {};
+}
+
+bool Destinations::send(const wire::FrameView& frame, WallTime time) {
     std::size_t takers = 0;
-    for (const auto id : endpoints_) takers += links_->send(id, frame);
-    takers == 0 ? ++nobody_there_ : ++sent_;
+    for (std::size_t i = 0; i < endpoints_.size(); ++i) {
+        const std::size_t taken = links_->send(endpoints_[i], frame);
+        nobody_there_[i] += taken == 0;
+        takers += taken;
+    }
+    for (auto& file : files_) {
+        keep(file.write(time, frame));
+        ++takers;
+    }
+    sent_ += takers != 0;
     return takers != 0;
 }
 
-bool Destinations::have_room() const {
-    for (std::size_t i = 0; i < endpoints_.size(); ++i)
-        if (links_->queued_bytes(endpoints_[i]) > queue_bytes_[i] / 4) return false;
-    return true;
+void Destinations::keep(SetupResult<void> result) {
+    if (!result && !failure_) failure_ = std::move(result.error());
+}
+
+SetupResult<void> Destinations::close() {
+    for (auto& file : files_) keep(file.close());
+    if (failure_) return tl::unexpected(*failure_);
+    return {};
+}
+
+std::size_t Destinations::room_in_frames() const {
+    constexpr std::size_t largest_in_queue = 512;  // the longest frame and what the queue keeps beside it
+    std::size_t room = std::numeric_limits<std::size_t>::max();
+    for (std::size_t i = 0; i < endpoints_.size(); ++i) {
+        const std::size_t used = links_->queued_bytes(endpoints_[i]);
+        room = std::min(room, used >= queue_bytes_[i] ? 0 : (queue_bytes_[i] - used) / largest_in_queue);
+        if (used == 0) room = std::max<std::size_t>(room, 1);  // a queue shorter than that takes one at a time
+    }
+    return room;
 }
 
 bool Destinations::all_up() const {
@@ -45,15 +88,42 @@ bool Destinations::all_up() const {
 
 bool Destinations::has(runtime::EndpointId endpoint) const noexcept { return std::ranges::find(endpoints_, endpoint) != endpoints_.end(); }
 
-void Destinations::say_sums(const Common& common) const {
+// Of the links that are there and of those that are gone.
+Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) const {
+    const auto& gone = *info.counters;
+    Sums sums{gone.gone_frames_out.value(), gone.gone_bytes_out.value(), gone.gone_queue_dropped.value(), gone.gone_frames_not_sent.value()};
     for (const auto& link : links_->links()) {
-        if (!has(link.endpoint)) continue;
-        const auto& c = *link.counters;
-        say(common, fmt::format("{}: {} frames, {} bytes sent", link.name, c.frames_out.value(), c.bytes_out.value()));
-        const auto dropped = c.queue_bytes.value() + c.queue_age.value();
-        if (dropped != 0) say(common, fmt::format("{}: {} frames dropped, the far side was too slow", link.name, dropped));
+        if (link.endpoint != info.id) continue;
+        sums.frames += link.counters->frames_out.value();
+        sums.bytes += link.counters->bytes_out.value();
+        sums.dropped += link.counters->queue_bytes.value() + link.counters->queue_age.value();
+        sums.refused += link.counters->frames_not_sent.value();
     }
-    if (nobody_there_ != 0) say(common, fmt::format("{} frames not sent: nobody was there", nobody_there_));
+    return sums;
+}
+
+bool Destinations::lost_any() const {
+    const auto endpoints = links_->endpoints();
+    return std::ranges::any_of(endpoints, [&](const auto& info) {
+        return has(info.id) && (sums_of(info).dropped != 0 || links_->queued_bytes(info.id) != 0);
+    }) || std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
+}
+
+void Destinations::say_sums(const Common& common) const {
+    const auto endpoints = links_->endpoints();
+    for (std::size_t i = 0; i < endpoints_.size(); ++i) {
+        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &runtime::EndpointInfo::id);
+        const auto sums = sums_of(info);
+        const auto name = info.label();
+        say(common, fmt::format("{}: {} frames, {} bytes sent", name, sums.frames, sums.bytes));
+        if (sums.dropped != 0) say(common, fmt::format("{}: {} frames dropped, the far side was too slow or went", name, sums.dropped));
+        if (sums.refused != 0) say(common, fmt::format("{}: {} frames refused, nothing listens there", name, sums.refused));
+        if (nobody_there_[i] != 0) say(common, fmt::format("{}: {} frames not sent, nobody was there", name, nobody_there_[i]));
+        if (const auto left = links_->queued_bytes(info.id); left != 0)
+            say(common, fmt::format("{}: {} bytes still queued at the end, not sent", name, left));
+    }
+    for (const auto& file : files_)
+        say(common, fmt::format("{}: {} frames, {} bytes written", file.path().string(), file.records(), file.size()));
 }
 
 }  // namespace mavloom::app

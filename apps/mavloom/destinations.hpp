@@ -2,10 +2,12 @@
 // What replay and relay share on the way out: the endpoints of `--to`, whether somebody is there, room in their queues, and the sums at the end.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
+#include "mavloom/record/tlog_writer.hpp"
 #include "mavloom/runtime/links.hpp"
 
 namespace mavloom::app {
@@ -15,26 +17,41 @@ public:
     // Opens every address; `links` must outlive the object.
     [[nodiscard]] static SetupResult<Destinations> open(const Common& common, const std::vector<std::string>& addresses, runtime::Links& links);
 
-    // Queues the frame for all that are there; false when nobody is.
-    bool send(const wire::FrameView& frame);
-    // Queues hold little enough that a recording may go on.
-    [[nodiscard]] bool have_room() const;
+    // Queues the frame for all that are there, and writes it to the files with its time; false when nobody is there.
+    bool send(const wire::FrameView& frame, WallTime time);
+    // How many frames of any length all queues still take: what a recording may send now.
+    [[nodiscard]] std::size_t room_in_frames() const;
     // Every endpoint has at least one link.
     [[nodiscard]] bool all_up() const;
     [[nodiscard]] bool has(runtime::EndpointId endpoint) const noexcept;
 
-    // "udpout://…: 40087 frames, 1834899 bytes" for each, and what was dropped on the way.
+    // Frames were dropped, had nobody there, or were left in a queue at the end.
+    [[nodiscard]] bool lost_any() const;
+    // Writes what the files still buffer. The first error of a file, now or earlier, is returned.
+    [[nodiscard]] SetupResult<void> close();
+    // A file could not be written: the command ends.
+    [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }
+
+    // "udpout://…: 40087 frames, 1834899 bytes sent" for each, and what did not get there.
     void say_sums(const Common& common) const;
     [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
-    [[nodiscard]] std::uint64_t nobody_there() const noexcept { return nobody_there_; }
 
 private:
     explicit Destinations(runtime::Links& links) : links_(&links) {}
+    struct Sums {
+        std::uint64_t frames = 0, bytes = 0, dropped = 0, refused = 0;
+    };
+    [[nodiscard]] Sums sums_of(const runtime::EndpointInfo& info) const;
+    [[nodiscard]] SetupResult<void> add(const runtime::Endpoint& endpoint);
+    void keep(SetupResult<void> result);
 
     runtime::Links* links_;
     std::vector<runtime::EndpointId> endpoints_;
     std::vector<std::size_t> queue_bytes_;
-    std::uint64_t sent_ = 0, nobody_there_ = 0;
+    std::vector<record::TlogWriter> files_;
+    std::optional<SetupError> failure_;
+    std::vector<std::uint64_t> nobody_there_;  // frames, by endpoint
+    std::uint64_t sent_ = 0;
 };
 
 }  // namespace mavloom::app

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 
@@ -38,7 +41,7 @@ void add_common(CLI::App& command, Common& common) {
 
 // Two lines on stderr: what is wrong and where the help is.
 Exit wrong_use(std::string_view what, std::string_view command) {
-    fmt::print(stderr, "mavloom: {}\nTry 'mavloom{}{} --help'.\n", what, command.empty() ? "" : " ", command);
+    talk(fmt::format("mavloom: {}\nTry 'mavloom{}{} --help'.\n", what, command.empty() ? "" : " ", command));
     return Exit::wrong_use;
 }
 
@@ -46,6 +49,20 @@ Exit unknown_command(std::string_view typed) {
     std::array<std::string_view, commands.size()> names;
     for (std::size_t i = 0; i < commands.size(); ++i) names[i] = commands[i].name;
     return wrong_use(fmt::format("unknown command '{}'{}", typed, did_you_mean(typed, names)), "");
+}
+
+// CLI11's words, with the nearest spelling for an option or subcommand that does not exist.
+std::string explain(const CLI::ParseError& error, const CLI::App& app) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    const auto left = command->remaining(true);
+    if (left.empty()) return error.what();
+    std::vector<std::string> known;
+    for (const auto* option : command->get_options())
+        for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+    for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; })) known.push_back(sub->get_name());
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    return fmt::format("'{}' is not expected here{}", left.front(), did_you_mean(left.front(), names));
 }
 
 bool is_command(std::string_view word) {
@@ -79,7 +96,7 @@ Exit run(int argc, char** argv) {
         app.exit(help);
         return Exit::done;
     } catch (const CLI::ParseError& error) {
-        return wrong_use(error.what(), is_command(first) ? first : "");
+        return wrong_use(explain(error, app), is_command(first) ? first : "");
     }
     for (const auto& [sub, run_command] : runs)
         if (sub->parsed()) return run_command();
@@ -100,13 +117,31 @@ SetupError of_input_file(SetupError error) {
     return error;
 }
 
+void talk(std::string_view text) noexcept {
+    while (!text.empty()) {
+        const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return;  // nobody to tell
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
 Exit fail(Exit status, std::string_view text) {
-    fmt::print(stderr, "mavloom: {}\n", text);
+    talk(fmt::format("mavloom: {}\n", text));
     return status;
 }
 
 void say(const Common& common, std::string_view text) {
-    if (!common.quiet) fmt::print(stderr, "mavloom: {}\n", text);
+    if (!common.quiet) talk(fmt::format("mavloom: {}\n", text));
+}
+
+// A program that was started with one of them closed would give its number to the first socket it opens.
+void keep_standard_descriptors() noexcept {
+    for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
+        if (fd <= STDERR_FILENO) continue;
+        ::close(fd);
+        return;
+    }
 }
 
 SetupResult<dialect::Dialect> load_dialect(const Common& common) {
@@ -126,5 +161,9 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
     std::signal(SIGXFSZ, SIG_IGN);
-    return static_cast<int>(mavloom::app::run(argc, argv));
+    mavloom::app::keep_standard_descriptors();
+    const auto status = mavloom::app::run(argc, argv);
+    if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)
+        return static_cast<int>(mavloom::app::fail(mavloom::system_error("cannot write to standard output", errno).value()));
+    return static_cast<int>(status);
 }

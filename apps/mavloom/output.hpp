@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Standard output in large writes. A reader that went away (`| head`) is an end, not an error; a full disk is an error. Single owner.
+// Standard output. A reader that went away (`| head`) is an end, not an error; a full disk is an error; one that stalls is waited for, until a
+// signal asks for the end: from then on it has a second to take the rest. Single owner.
 #pragma once
 
 #include <optional>
 
+#include "mavloom/base/clock.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/message/format.hpp"
 
@@ -16,13 +18,14 @@ public:
     // Where lines are appended; hand over with `flush_if_full` after each and `flush` when idle.
     [[nodiscard]] message::TextBuffer& buffer() noexcept { return buffer_; }
     State flush_if_full() { return buffer_.size() >= flush_bytes ? flush() : state_; }
-    // Writes all, however long the reader takes; a signal ends the wait (`interrupted`).
+    // Writes all, however long the reader takes; after a signal for at most a second in all, then `interrupted`.
     State flush();
 
-    // What is written after a signal had ended a wait (the closing table) is tried anew.
-    void reopen_after_signal() noexcept {
-        if (state_ == State::interrupted) state_ = State::open;
-    }
+    // From then on it is as after a signal (`--for`).
+    void end_at(MonoTime end) noexcept { end_ = end; }
+
+    // Lines given up when the wait was interrupted.
+    [[nodiscard]] std::uint64_t lost_lines() const noexcept { return lost_lines_; }
 
     [[nodiscard]] State state() const noexcept { return state_; }
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }  // of `failed`
@@ -31,8 +34,13 @@ private:
     static constexpr std::size_t flush_bytes = 64 * 1024;
 
     message::TextBuffer buffer_;
+    [[nodiscard]] bool wait_for_room();
+
     State state_ = State::open;
     std::optional<SetupError> error_;
+    MonoTime end_ = MonoTime::max();
+    std::optional<MonoTime> give_up_;  // set at the first wait after a signal
+    std::uint64_t lost_lines_ = 0;
 };
 
 }  // namespace mavloom::app

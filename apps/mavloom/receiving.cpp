@@ -10,6 +10,8 @@ namespace mavloom::app {
 
 namespace {
 
+constexpr std::uint64_t smallest_buffer = 64 * 1024;  // a datagram
+
 template <class T>
 std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
     std::uint32_t value = 0;
@@ -56,19 +58,21 @@ void ReceiveOptions::declare(CLI::App& command) {
         ->required()
         ->type_name("SOURCE");
     command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms")->type_name("TIME");
-    command.add_option("--count", count, "end after this many messages")->type_name("N");
+    command.add_option("--count", count_text, "end after this many messages")->type_name("N");
     command.add_option("--buffer", buffer, "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
         ->capture_default_str()
         ->type_name("BYTES");
 }
 
-SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) const {
+SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) {
+    if (auto counted = parse_count(); !counted) return tl::unexpected(std::move(counted.error()));
     const auto bytes = runtime::parse_size(buffer);
     if (!bytes) return tl::unexpected(SetupError(bytes.error()).within("--buffer"));
+    if (*bytes < smallest_buffer) return setup_error(SetupCode::usage, fmt::format("--buffer {}: at least 64k", buffer));
     if (!duration.empty())
         if (auto time = runtime::parse_duration(duration); !time) return tl::unexpected(std::move(time.error()).within("--for"));
     const auto notice = [&common](std::string_view text) {
-        if (common.verbose > 0) say(common, text);
+        say(common, text);
     };
     auto receiver = runtime::Receiver::create(dialect, *bytes, notice);
     if (!receiver) return receiver;
@@ -80,6 +84,13 @@ SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Commo
     for (const auto& info : (*receiver)->endpoints())
         if (info.endpoint.address.port == 0) say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return receiver;
+}
+
+SetupResult<void> ReceiveOptions::parse_count() {
+    if (count_text.empty()) return {};
+    const auto [end, error] = std::from_chars(count_text.data(), count_text.data() + count_text.size(), count);
+    if (error == std::errc{} && end == count_text.data() + count_text.size() && count != 0) return {};
+    return setup_error(SetupCode::usage, fmt::format("--count {}: expected a whole number from 1", count_text));
 }
 
 MonoTime ReceiveOptions::end(MonoTime start) const {

@@ -33,12 +33,16 @@ struct ReceiveOptions {
     std::vector<std::string> sources;
     std::string duration;  // --for
     std::string buffer = "64M";
-    std::uint64_t count = 0;  // 0: no bound
+    std::string count_text;
+    std::uint64_t count = 0;  // 0: no bound; set by `open`
 
     void declare(CLI::App& command);
-    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common, const dialect::Dialect& dialect) const;
+    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common, const dialect::Dialect& dialect);
     // When --for ends; the end of time without it. Call after `open`, which has checked the words.
     [[nodiscard]] MonoTime end(MonoTime start) const;
+
+private:
+    [[nodiscard]] SetupResult<void> parse_count();
 };
 
 }  // namespace mavloom::app

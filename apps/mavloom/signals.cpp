@@ -28,6 +28,7 @@ void install(void (*handler)(int)) {
     action.sa_handler = handler;
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
+    ::sigaction(SIGHUP, &action, nullptr);  // the terminal was closed
 }
 
 }  // namespace
@@ -46,6 +47,7 @@ Exit Signals::status(Exit otherwise) noexcept {
     switch (received_signal.load()) {
         case SIGINT: return Exit::interrupted;
         case SIGTERM: return Exit::terminated;
+        case SIGHUP: return Exit::hung_up;
         default: return otherwise;
     }
 }

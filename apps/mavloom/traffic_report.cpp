@@ -6,6 +6,9 @@
 #include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <tuple>
+#include <vector>
 
 namespace mavloom::app {
 
@@ -31,7 +34,7 @@ struct Named {
 };
 
 // Every counter that is not a good frame handed on, with the words for it.
-auto losses_of(const runtime::ReceiverTotals& t) {
+auto losses_of(const runtime::Totals& t) {
     return std::array{
         Named{"kernel_drop", "datagrams dropped by the kernel: the receive buffer was full", t.kernel_drop},
         Named{"buffer_full", "frames not handed on: the output was slower than --buffer allows", t.buffer_full},
@@ -59,7 +62,16 @@ void append_row(std::string& out, const observe::TrafficRow& row, std::string_vi
                    milliseconds(row.shortest_gap), milliseconds(row.mean_gap()), milliseconds(row.longest_gap), row.bytes);
 }
 
-bool belongs(const observe::TrafficRow& row, const runtime::SourceLoss& loss) { return row.link == loss.link && row.source == loss.source; }
+using Rows = std::vector<observe::TrafficRow>;
+
+// The rows of one source. Both lists have the same order: `from` goes on behind them.
+std::span<const observe::TrafficRow> rows_of(const runtime::SourceLoss& loss, const Rows& rows, std::size_t& from) {
+    const auto key = [](const auto& x) { return std::tuple(x.link, x.source); };
+    while (from < rows.size() && key(rows[from]) < key(loss)) ++from;
+    const std::size_t begin = from;
+    while (from < rows.size() && key(rows[from]) == key(loss)) ++from;
+    return std::span(rows).subspan(begin, from - begin);
+}
 
 ordered_json row_json(const observe::TrafficRow& row, const dialect::Dialect& dialect) {
     const auto* message = dialect.find(row.id);
@@ -78,13 +90,14 @@ ordered_json row_json(const observe::TrafficRow& row, const dialect::Dialect& di
 std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
     std::string out;
     const auto rows = traffic.sorted();
+    std::size_t from = 0;
     for (const auto& loss : receiver.losses()) {
         append_source(out, loss, receiver.link_name(loss.link));
-        for (const auto& row : rows)
-            if (belongs(row, loss)) append_row(out, row, message_name(dialect, row.id));
+        for (const auto& row : rows_of(loss, rows, from)) append_row(out, row, message_name(dialect, row.id));
     }
+    if (traffic.unlisted() != 0) fmt::format_to(std::back_inserter(out), "\n{} frames of further sources are not listed\n", traffic.unlisted());
     const auto& totals = receiver.totals();
-    fmt::format_to(std::back_inserter(out), "\ntotal: {} frames, {} bytes\n", totals.frames, totals.bytes);
+    fmt::format_to(std::back_inserter(out), "\ntotal heard: {} frames, {} bytes\n", totals.frames, totals.bytes);
     for (const auto& [name, meaning, value] : losses_of(totals))
         if (value != 0) fmt::format_to(std::back_inserter(out), "  {}: {} {}\n", name, value, meaning);
     return out;
@@ -92,11 +105,11 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
 
 std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
     const auto rows = traffic.sorted();
+    std::size_t from = 0;
     auto sources = ordered_json::array();
     for (const auto& loss : receiver.losses()) {
         auto messages = ordered_json::array();
-        for (const auto& row : rows)
-            if (belongs(row, loss)) messages.push_back(row_json(row, dialect));
+        for (const auto& row : rows_of(loss, rows, from)) messages.push_back(row_json(row, dialect));
         sources.push_back({{"link", receiver.link_name(loss.link)},
                            {"sys", loss.source.system.value},
                            {"comp", loss.source.component.value},
@@ -109,12 +122,12 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
                            {"messages", std::move(messages)}});
     }
     const auto& totals = receiver.totals();
-    ordered_json sums{{"frames", totals.frames}, {"bytes", totals.bytes}};
+    ordered_json sums{{"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}};
     for (const auto& [name, meaning, value] : losses_of(totals)) sums[std::string(name)] = value;
     return ordered_json{{"stats", {{"sources", std::move(sources)}, {"totals", std::move(sums)}}}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-void say_losses(const Common& common, const runtime::ReceiverTotals& totals) {
+void say_losses(const Common& common, const runtime::Totals& totals) {
     for (const auto& [name, meaning, value] : losses_of(totals))
         if (value != 0) say(common, fmt::format("{}: {} {}", name, value, meaning));
 }

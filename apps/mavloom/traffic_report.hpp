@@ -15,6 +15,6 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
 // One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md.
 std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect);
 // Lines on stderr for whatever was lost or damaged; nothing when all is well.
-void say_losses(const Common& common, const runtime::ReceiverTotals& totals);
+void say_losses(const Common& common, const runtime::Totals& totals);
 
 }  // namespace mavloom::app

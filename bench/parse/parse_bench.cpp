@@ -84,8 +84,10 @@ int main(int argc, char** argv) {
 
     std::vector<double> our_rate, their_rate, ratio;
     for (int turn = 0; turn < turns; ++turn) {
-        our_rate.push_back(bytes_per_second(frames.size(), [&] { return our_parse(frames, chunk, table); }));
-        their_rate.push_back(bytes_per_second(frames.size(), [&] { return peer_parse(frames.data(), frames.size()); }));
+        peer_result found{}, found_by_peer{};
+        our_rate.push_back(bytes_per_second(frames.size(), [&] { found = our_parse(frames, chunk, table); }));
+        their_rate.push_back(bytes_per_second(frames.size(), [&] { found_by_peer = peer_parse(frames.data(), frames.size()); }));
+        if (found.fingerprint != found_by_peer.fingerprint) return 4;
         ratio.push_back(our_rate.back() / their_rate.back());
     }
     const auto [low, high] = std::ranges::minmax(ratio);

@@ -9,6 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr std::size_t most_names = 65'536;      // likewise for links that come and go
 constexpr std::size_t most_sources = 65'536;    // bounds what forged system and component ids can make us remember
 constexpr std::size_t largest_entry_bytes = 304; // in the queue: 16 of header and the longest frame, rounded
 constexpr std::size_t frames_a_turn = 4096;      // of recordings, so that live links get their turn
@@ -73,14 +74,16 @@ void Receiver::run() {
         queue_->publish();
     }
     drain();
-    finish_totals();
+    sources_.add_to(totals_);
     queue_->close();
 }
 
 // What had arrived before the end was asked for is not left in the kernel's buffers.
 void Receiver::drain() {
     const auto limit = mono_now() + longest_drain;
-    while (mono_now() < limit && sources_.turn(*this, MonoTime{}, 0) != 0) queue_->publish();
+    // A turn full of junk has no frames either: several such turns in a row mean that nothing is left.
+    for (int empty_turns = 0; empty_turns < 16 && mono_now() < limit; queue_->publish())
+        empty_turns = sources_.turn(*this, MonoTime{}, 0) == 0 ? empty_turns + 1 : 0;
 }
 
 void Receiver::on_frame(const RxFrame& rx) {
@@ -113,17 +116,12 @@ void Receiver::count_loss(const RxFrame& rx) {
 void Receiver::on_link_up(LinkId link, EndpointId, std::string_view name) {
     {
         const std::lock_guard lock(names_mutex_);
-        names_.emplace(link, std::string(name));
+        if (names_.size() < most_names) names_.emplace(link, name);
     }
-    if (notice_) notice_(std::string(name) + ": up");
 }
 
-void Receiver::on_link_down(LinkId link, EndpointId, std::string_view why) {
-    for (const auto& info : sources_.links().links()) {
-        if (info.id != link) continue;
-        add_link_counters(*info.counters);
-        if (notice_) notice_(info.name + ": down, " + std::string(why));
-    }
+void Receiver::on_link_down(LinkId link, EndpointId, std::string_view) {
+    if (const auto* counters = sources_.links().counters(link)) totals_.add(*counters);
 }
 
 void Receiver::on_notice(EndpointId, std::string_view text) {
@@ -133,35 +131,11 @@ void Receiver::on_notice(EndpointId, std::string_view text) {
 std::string_view Receiver::link_name(LinkId link) {
     if (link != last_named_ || last_name_.empty()) {
         const std::lock_guard lock(names_mutex_);
-        last_name_ = names_[link];
+        const auto known = names_.find(link);
+        last_name_ = known == names_.end() ? "(one of very many links)" : std::string_view(known->second);
         last_named_ = link;
     }
     return last_name_;
-}
-
-void Receiver::add_link_counters(const LinkCounters& counters) {
-    totals_.crc_error += counters.crc_error.value();
-    totals_.junk_bytes += counters.junk_bytes.value();
-    totals_.unknown_flags += counters.unknown_flags.value();
-    totals_.bad_signature += counters.bad_signature.value();
-}
-
-void Receiver::finish_totals() {
-    auto& links = sources_.links();
-    links.refresh_kernel_drops();
-    for (const auto& link : links.links()) add_link_counters(*link.counters);
-    for (const auto& endpoint : links.endpoints()) {
-        totals_.kernel_drop += endpoint.counters->kernel_drop.value();
-        totals_.wrong_peer += endpoint.counters->wrong_peer.value();
-        totals_.stray_bytes += endpoint.counters->stray_bytes.value();
-        totals_.peers_refused += endpoint.counters->peers_refused.value();
-    }
-    for (const auto& recording : sources_.recordings()) {
-        const auto& counters = recording->reader.counters();
-        totals_.junk_bytes += counters.lost_bytes.value();
-        totals_.damaged_places += counters.damaged_places.value();
-        totals_.unknown_flags += counters.unknown_flags.value();
-    }
 }
 
 std::vector<SourceLoss> Receiver::losses() const {

@@ -43,7 +43,6 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
     const double speed = endpoint.options.speed.value_or(default_speed);
     recordings_.push_back(std::make_unique<Recording>(
         Recording{LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
-    advance(*recordings_.back());
     return {};
 }
 
@@ -51,41 +50,64 @@ void Sources::advance(Recording& recording) {
     const auto record = recording.reader.next();
     if (!record) {
         recording.ended = true;
-        if (record.error() == record::TlogReader::Stop::failed) recording.error = recording.reader.error();
+        if (record.error() == record::TlogReader::Stop::failed) {
+            recording.error = recording.reader.error();
+        } else if (recording.reader.counters().records.value() == 0 && recording.reader.counters().lost_bytes.value() != 0) {
+            recording.error = SetupError{SetupCode::bad_input, 0, recording.name + " holds no record: is it a .tlog?"};
+        }
         return;
     }
     recording.next = *record;
     recording.due = recording.pacer.due(record->time);
 }
 
-std::size_t Sources::play(Recording& recording, LinkHandler& handler, std::size_t most_frames) {
-    std::size_t played = 0;
+// What is due, the earliest first: several recordings are played side by side.
+std::size_t Sources::play(LinkHandler& handler, std::size_t most_frames) {
     const MonoTime now = mono_now();
-    for (; !recording.ended && recording.due <= now && played < most_frames; ++played) {
-        const auto& record = *recording.next;
-        const auto update = recording.sequence.update(record.frame);
-        handler.on_frame({record.frame, record.info, recording.link, recording.endpoint, record.time, update});
-        advance(recording);
+    std::size_t played = 0;
+    for (; played < most_frames; ++played) {
+        Recording* const first = earliest();
+        if (first == nullptr || first->due > now) break;
+        if (!first->next) {  // at the very beginning: reading is left to the loop
+            advance(*first);
+            continue;
+        }
+        const auto& record = *first->next;
+        const auto update = first->sequence.update(record.frame);
+        handler.on_frame({record.frame, record.info, first->link, first->endpoint, record.time, update});
+        advance(*first);
     }
     return played;
 }
 
-std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames) {
-    for (const auto& recording : recordings_)
-        if (!recording->ended && most_frames != 0) deadline = std::min(deadline, recording->due);
-    std::size_t frames = links_->turn(handler, deadline);
+Sources::Recording* Sources::earliest() noexcept {
+    Recording* first = nullptr;
     for (const auto& recording : recordings_) {
-        const std::size_t played = play(*recording, handler, most_frames);
-        most_frames -= played;
-        frames += played;
+        if (recording->ended) continue;
+        const bool sooner = first == nullptr || recording->due < first->due ||
+                            (recording->due == first->due && recording->next && first->next && recording->next->time < first->next->time);
+        if (sooner) first = recording.get();
     }
-    return frames;
+    return first;
+}
+
+std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames) {
+    if (const auto* first = earliest(); first != nullptr && most_frames != 0) deadline = std::min(deadline, first->due);
+    const std::size_t frames = links_->turn(handler, deadline);
+    return frames + play(handler, most_frames);
 }
 
 std::size_t Sources::send(const wire::FrameView& frame) {
     std::size_t takers = 0;
     for (const auto id : live_) takers += links_->send(id, frame);
     return takers;
+}
+
+void Sources::add_to(Totals& totals) {
+    links_->refresh_kernel_drops();
+    for (const auto& link : links_->links()) totals.add(*link.counters);
+    for (const auto& endpoint : links_->endpoints()) totals.add(*endpoint.counters);
+    for (const auto& recording : recordings_) totals.add(recording->reader.counters());
 }
 
 bool Sources::finished_recordings() const noexcept {

@@ -13,8 +13,8 @@ Scanner::Candidate Scanner::examine_unknown(const FrameView& frame, ByteView beh
     using Kind = Candidate::Kind;
     if ((frame.incompat_flags() & ~incompat_signed) != 0) return {};
     const auto verdict = unknown_.judge(frame);
+    if (verdict != UnknownIds::Verdict::confirmed && end == End::open && behind.empty()) return {Kind::incomplete, 0, nullptr};
     if (verdict == UnknownIds::Verdict::possible) {
-        if (end == End::open && behind.empty()) return {Kind::incomplete, 0, nullptr};
         const bool plausible = (behind.empty() || is_start(behind[0])) && (in_sync_ || end == End::closed);
         if (!plausible) {
             counters_.implausible_unknown.add();

@@ -101,3 +101,12 @@ def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
 
     keys = {(row[0], row[1]): row[2] for row in rows("configuration.md")}
     assert {(v["section"], v["key"]): v["value"] or "" for v in effective if v["section"] != "endpoint"} == keys
+
+
+def test_a_key_of_very_many_parts_is_an_error(run, tmp_path):
+    for text in (".".join(["a"] * 50_000) + " = 1", "[" + ".".join(["a"] * 50_000) + "]"):
+        (tmp_path / "deep.toml").write_text(text)
+        done = run("check", tmp_path / "deep.toml")
+
+        assert done.status == 3
+        assert "deep.toml:1:" in done.stderr

@@ -57,13 +57,54 @@ def test_a_whole_flight_is_byte_identical_over_tcp(spawn, tcp_port):
     assert "40087 frames in, 40087 decoded and re-encoded, 0 passed untouched" in done.stderr
 
 
+def test_to_a_file_with_the_recorded_times(run, tmp_path):
+    out = tmp_path / "out.tlog"
+    done = run("relay", frames.FLIGHT, "--to", f"tlog://{out}")
+
+    assert done.status == 0
+    assert out.read_bytes() == frames.FLIGHT.read_bytes()
+
+
+def test_a_full_disk_ends_it(run):
+    done = run("relay", frames.FLIGHT, "--to", "tlog:///dev/full")
+
+    assert done.status == 1
+    assert "No space left" in done.stderr
+
+
+def test_a_recording_does_not_overrun_its_own_queue(spawn, tcp_port):
+    port = tcp_port()
+    with socket.create_server(("127.0.0.1", port)) as server:
+        process = spawn("relay", frames.FLIGHT, "--to", f"tcpout://127.0.0.1:{port}?queue_bytes=16k")
+        connection, _ = server.accept()
+        got = b""
+        while chunk := connection.recv(1 << 16):
+            got += chunk
+
+    assert process.wait().status == 0
+    assert len(frames.split_frames(got)) == 40087
+
+
+def test_a_far_side_that_goes_is_a_loss_with_status_4(spawn, tcp_port):
+    port = tcp_port()
+    with socket.create_server(("127.0.0.1", port)) as server:
+        process = spawn("relay", frames.FLIGHT, "--to", f"tcpout://127.0.0.1:{port}?queue_age=200ms", "--for", "20s")
+        connection, _ = server.accept()
+        connection.recv(1 << 16)
+        connection.close()
+    done = process.wait()
+
+    assert done.status == 4
+    assert "nobody was there" in done.stderr or "dropped" in done.stderr
+
+
 def test_live_frames_are_byte_identical(spawn):
     path = Path(spawn)
-    sent = [frame for _, frame in frames.read_tlog(frames.FLIGHT)[:500]]
+    sent = [frame for _, frame in frames.read_tlog(frames.FLIGHT)[:200]]
 
     assert path.through(*sent) == sent
     done = path.relay.stop()
-    assert done.status == 130 and "500 frames in" in done.stderr
+    assert done.status == 130 and "200 frames in" in done.stderr
 
 
 def test_what_cannot_be_decoded_passes_untouched(spawn):

@@ -21,6 +21,7 @@
 
 #include "mavloom/runtime/frame_queue.hpp"
 #include "mavloom/runtime/sources.hpp"
+#include "mavloom/runtime/totals.hpp"
 
 namespace mavloom::runtime {
 
@@ -29,15 +30,6 @@ struct SourceLoss {
     LinkId link;
     Source source;
     std::uint64_t received = 0, lost = 0, late = 0, duplicate = 0, resync = 0;
-};
-
-// Sums over all links and endpoints of a receiver: nothing that arrived and was not handed on is missing here.
-struct ReceiverTotals {
-    std::uint64_t frames = 0, bytes = 0;
-    std::uint64_t buffer_full = 0;  // our own: the consumer was slower than `--buffer` allows
-    std::uint64_t kernel_drop = 0;  // datagrams that the kernel had no room for
-    std::uint64_t crc_error = 0, junk_bytes = 0, unknown_flags = 0, bad_signature = 0, wrong_peer = 0, stray_bytes = 0, peers_refused = 0;
-    std::uint64_t damaged_places = 0;  // in recordings
 };
 
 class Receiver : private LinkHandler {
@@ -66,8 +58,8 @@ public:
     [[nodiscard]] std::string_view link_name(LinkId link);
 
     // After stop:
-    [[nodiscard]] const ReceiverTotals& totals() const noexcept { return totals_; }
-    [[nodiscard]] std::vector<SourceLoss> losses() const;
+    [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
+    [[nodiscard]] std::vector<SourceLoss> losses() const;  // by link, then source; the first 65,536
     // The first recording that could not be read to its end.
     [[nodiscard]] const SetupError* error() const noexcept { return sources_.error(); }
 
@@ -83,8 +75,6 @@ private:
     void drain();
     [[nodiscard]] std::size_t frames_that_fit() const noexcept;
     void count_loss(const RxFrame& rx);
-    void add_link_counters(const LinkCounters& counters);
-    void finish_totals();
 
     Sources sources_;
     std::unique_ptr<FrameQueue> queue_;
@@ -93,13 +83,13 @@ private:
     std::atomic<bool> stopping_{false};
     MonoTime end_ = MonoTime::max();
 
-    ReceiverTotals totals_;  // the receiving thread's until the queue is closed
+    Totals totals_;  // the receiving thread's until the queue is closed
     std::map<std::tuple<LinkId, Source>, SourceLoss> losses_;
     SourceLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
 
     // Written when a link comes up, read on its first frame: the consumer keeps the last one it asked for.
     std::mutex names_mutex_;
-    std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; entries are never removed
+    std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; never removed, so that views stay valid
     LinkId last_named_;                              // the consumer's
     std::string_view last_name_;
 };

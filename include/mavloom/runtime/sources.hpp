@@ -13,6 +13,7 @@
 #include "mavloom/record/pacer.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 #include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/totals.hpp"
 
 namespace mavloom::runtime {
 
@@ -25,11 +26,17 @@ public:
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now, double default_speed = record::Pacer::max_speed,
                                         Nanoseconds skip = {});
 
-    // One turn of the links, then at most `most_frames` frames of the recordings that are due. Returns the number of frames handed over.
+    // One turn of the links, then at most `most_frames` frames of the recordings that are due, the earliest first. Returns the number of frames handed over.
     std::size_t turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames);
+
+    [[nodiscard]] bool has_recordings() const noexcept { return !recordings_.empty(); }
 
     // Sends a frame to every live source: what a destination answered goes back. Returns the number of links that took it.
     std::size_t send(const wire::FrameView& frame);
+
+    // Adds all that is here now, after asking the kernel for its drops: at the end. What links that went had counted is added by whoever
+    // hears of their end (`on_link_down`).
+    void add_to(Totals& totals);
 
     // Every source is a recording and all were read to their end.
     [[nodiscard]] bool finished() const noexcept { return live_.empty() && finished_recordings(); }
@@ -61,7 +68,8 @@ private:
 
     explicit Sources(std::unique_ptr<Links> links) noexcept : links_(std::move(links)) {}
     void advance(Recording& recording);
-    std::size_t play(Recording& recording, LinkHandler& handler, std::size_t most_frames);
+    std::size_t play(LinkHandler& handler, std::size_t most_frames);
+    [[nodiscard]] Recording* earliest() noexcept;
 
     std::unique_ptr<Links> links_;
     const wire::MessageTable* table_ = nullptr;

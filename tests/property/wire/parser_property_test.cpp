@@ -71,6 +71,34 @@ RC_GTEST_PROP(StreamParserProperty, AnyChunkingGivesTheSameEvents, ()) {
     RC_ASSERT(actual.frames == expected.frames);
 }
 
+// With one definition only most frames are of unknown id: what was learned of them must not depend on where chunks end either.
+RC_GTEST_PROP(StreamParserProperty, AnyChunkingGivesTheSameEventsForUnknownIds, ()) {
+    const MessageTable only_heartbeat{std::span(test::golden_messages).first(1)};
+    Bytes bytes;
+    FrameBuffer buffer;
+    for (int i = *rc::gen::inRange(1, 60); i > 0; --i) {
+        const auto extra = static_cast<std::uint8_t>(*rc::gen::element(7, 7, 7, 9));
+        const bool known = *rc::gen::inRange(0, 3) == 0;
+        const MessageInfo info{known ? MessageId{0} : MessageId{9'999'999}, known ? std::uint8_t{50} : extra, 4, 4};
+        const auto frame = write_frame(buffer, {Version::v2, 0, {SystemId{1}, ComponentId{1}}, 0}, info, test::hex("01020304"));
+        bytes.insert(bytes.end(), frame.bytes().begin(), frame.bytes().end());
+        if (*rc::gen::inRange(0, 10) == 0) bytes.push_back(*rc::gen::arbitrary<std::uint8_t>());
+    }
+    StreamParser whole{only_heartbeat}, chunked{only_heartbeat};
+    test::ParseLog expected, actual;
+
+    whole.feed(bytes, MonoTime{}, expected);
+    whole.finish(expected);
+    for (std::size_t at = 0; at < bytes.size();) {
+        const auto size = std::min(*rc::gen::inRange<std::size_t>(1, 40), bytes.size() - at);
+        chunked.feed(ByteView{bytes}.subspan(at, size), MonoTime{}, actual);
+        at += size;
+    }
+    chunked.finish(actual);
+
+    RC_ASSERT(actual.events == expected.events);
+}
+
 RC_GTEST_PROP(StreamParserProperty, EveryByteIsCountedOnce, ()) {
     const auto bytes = *line_noise();
     StreamParser sut{table};

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Sums over all links, endpoints and recordings of a command, those that are gone included: what came in, and every loss by its name
+// (DESIGN.md rule 3). A plain value; whoever fills it owns it.
+#pragma once
+
+#include <cstdint>
+
+#include "mavloom/record/tlog_reader.hpp"
+#include "mavloom/runtime/links.hpp"
+
+namespace mavloom::runtime {
+
+struct Totals {
+    std::uint64_t frames = 0, bytes = 0;
+    std::uint64_t buffer_full = 0;  // our own: the consumer was slower than `--buffer` allows
+    std::uint64_t kernel_drop = 0;  // datagrams that the kernel had no room for
+    std::uint64_t crc_error = 0, junk_bytes = 0, unknown_flags = 0, bad_signature = 0;
+    std::uint64_t wrong_peer = 0, stray_bytes = 0, peers_refused = 0;
+    std::uint64_t lost = 0;            // on the links themselves: sequence gaps
+    std::uint64_t damaged_places = 0;  // in recordings
+
+    // Of a link, when it goes or at the end: once each.
+    void add(const LinkCounters& counters) noexcept;
+    // Of an endpoint and of a recording: once each, at the end.
+    void add(const EndpointCounters& counters) noexcept;
+    void add(const record::ReadCounters& counters) noexcept;
+};
+
+}  // namespace mavloom::runtime
