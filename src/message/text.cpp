@@ -40,6 +40,11 @@ void put_escape(Cursor& out, char32_t c) {
 void put_visible(Cursor& out, std::string_view bytes, bool quoted) {
     out.reserve(bytes.size() * 6);
     while (!bytes.empty()) {
+        if (const char plain = bytes.front(); plain >= ' ' && plain < 0x7f && plain != '"' && plain != '\\') {
+            out.put_unchecked(plain);
+            bytes.remove_prefix(1);
+            continue;
+        }
         const auto c = decode_utf8(bytes);
         if (is_control(c.value) || (quoted && (c.value == '"' || c.value == '\\'))) {
             put_escape(out, c.value);
