@@ -23,7 +23,7 @@ struct Options {
 };
 
 struct Recording {
-    Bytes frames;                   // back to back, as a serial line would carry them
+    Bytes frames;  // back to back, as a serial line would carry them
     std::vector<WallTime> times;
 };
 
@@ -60,17 +60,20 @@ void parse_all(const Recording& recording, std::size_t chunk, const wire::Messag
         if (event.kind == wire::ParseEvent::Kind::frame) on_frame(event.frame);
     };
     const ByteView all{recording.frames};
-    for (std::size_t at = 0; at < all.size(); at += chunk) parser.feed(all.subspan(at, std::min(chunk, all.size() - at)), MonoTime{}, sink);
+    for (std::size_t at = 0; at < all.size(); at += chunk)
+        parser.feed(all.subspan(at, std::min(chunk, all.size() - at)), MonoTime{}, sink);
     parser.finish(sink);
 }
 
-void print(const Options& options, std::string_view what, double per_s, std::string_view unit, const Recording& recording) {
+void print(const Options& options, std::string_view what, double per_s, std::string_view unit,
+           const Recording& recording) {
     if (options.json) {
-        fmt::print("{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n", what, per_s, unit,
-                   recording.times.size(), recording.frames.size(), options.turns);
+        fmt::print(
+            "{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n",
+            what, per_s, unit, recording.times.size(), recording.frames.size(), options.turns);
     } else {
-        fmt::print("{:<14} {:>14.0f} {}/s   ({} frames, {} bytes, median of {} turns)\n", what, per_s, unit, recording.times.size(),
-                   recording.frames.size(), options.turns);
+        fmt::print("{:<14} {:>14.0f} {}/s   ({} frames, {} bytes, median of {} turns)\n", what, per_s, unit,
+                   recording.times.size(), recording.frames.size(), options.turns);
     }
 }
 
@@ -79,15 +82,19 @@ Exit bench_parse(const Options& options, const dialect::Dialect& dialect, const 
     std::uint64_t found = 0;
     parse_all(recording, options.chunk, table, [&](const wire::FrameView&) { ++found; });
     if (found != recording.times.size())
-        return fail(Exit::mismatch, fmt::format("the stream parser found {} of {} frames", found, recording.times.size()));
-    const auto work = [&] { parse_all(recording, options.chunk, table, [&](const wire::FrameView& frame) { found += frame.sequence(); }); };
+        return fail(Exit::mismatch,
+                    fmt::format("the stream parser found {} of {} frames", found, recording.times.size()));
+    const auto work = [&] {
+        parse_all(recording, options.chunk, table, [&](const wire::FrameView& frame) { found += frame.sequence(); });
+    };
     const double rate = per_second(options.turns, static_cast<double>(recording.frames.size()), work);
     print(options, "parse", rate, "bytes", recording);
     return Exit::done;
 }
 
 template <class Append>
-void bench_form(const Options& options, std::string_view what, const dialect::Dialect& dialect, const Recording& recording, Append&& append) {
+void bench_form(const Options& options, std::string_view what, const dialect::Dialect& dialect,
+                const Recording& recording, Append&& append) {
     message::TextBuffer out;
     const auto work = [&] {
         std::size_t index = 0;
@@ -96,13 +103,16 @@ void bench_form(const Options& options, std::string_view what, const dialect::Di
             append(out, message::Received{recording.times[index++], "bench", frame, dialect.find(frame.id())});
         });
     };
-    print(options, what, per_second(options.turns, static_cast<double>(recording.times.size()), work), "messages", recording);
+    print(options, what, per_second(options.turns, static_cast<double>(recording.times.size()), work), "messages",
+          recording);
 }
 
 Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
     const message::JsonFormatter json(dialect);
-    bench_form(options, "decode json", dialect, recording, [&](auto& out, const auto& received) { json.append(out, received); });
-    bench_form(options, "decode text", dialect, recording, [&](auto& out, const auto& received) { message::append_text(out, received, dialect); });
+    bench_form(options, "decode json", dialect, recording,
+               [&](auto& out, const auto& received) { json.append(out, received); });
+    bench_form(options, "decode text", dialect, recording,
+               [&](auto& out, const auto& received) { message::append_text(out, received, dialect); });
     return Exit::done;
 }
 
@@ -118,8 +128,12 @@ Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
 CLI::App* declare_one(CLI::App& command, Options& options, const char* name, const char* description) {
     auto* sub = command.add_subcommand(name, description);
     sub->add_option("file", options.file, "a recording")->required()->type_name("FILE.tlog");
-    sub->add_option("--turns", options.turns, "how often to measure; the median counts")->capture_default_str()->check(CLI::Range(1, 10'000));
-    sub->add_option("--chunk", options.chunk, "bytes handed to the parser at once")->capture_default_str()->check(CLI::Range(1, 1 << 30));
+    sub->add_option("--turns", options.turns, "how often to measure; the median counts")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10'000));
+    sub->add_option("--chunk", options.chunk, "bytes handed to the parser at once")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 30));
     sub->add_flag("--json", options.json, "one JSON object a line");
     return sub;
 }
@@ -131,7 +145,8 @@ Run declare_bench(CLI::App& command, const Common& common) {
     auto* parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
     command.require_subcommand(1);
-    command.footer("Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
+    command.footer(
+        "Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
     return [options, parse, &common] {
         return parse->parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
     };

@@ -32,7 +32,8 @@ public:
 
     Exit run() {
         if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
-        const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); }, &receiver_);
+        const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); },
+                              &receiver_);
         const auto end = options_.receive.end(mono_now());
         output_.end_at(end);
         receiver_.start(end);
@@ -53,7 +54,8 @@ private:
     void handle(const runtime::FrameQueue::Entry& entry) {
         if (Signals::received() && !in_time_for_backlog()) return;
         if (!wanted(entry)) return;
-        const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame, dialect_.find(entry.frame.id())};
+        const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame,
+                                         dialect_.find(entry.frame.id())};
         if (options_.stats) traffic_.add(entry.link, entry.frame, entry.time);
         print(received);
         ++printed_;
@@ -87,7 +89,8 @@ private:
         if (options_.stats) report();
         if (!options_.stats) say_losses(common_, receiver_.totals());
         if (const auto unprinted = count_unprinted(); unprinted != 0)
-            say(common_, fmt::format("{} messages received but not printed: the output was too slow for the end", unprinted));
+            say(common_,
+                fmt::format("{} messages received but not printed: the output was too slow for the end", unprinted));
         if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
@@ -107,7 +110,8 @@ private:
             talk(traffic_text(traffic_, receiver_, dialect_));
             return;
         }
-        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_) : traffic_text(traffic_, receiver_, dialect_));
+        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_)
+                                              : traffic_text(traffic_, receiver_, dialect_));
         output_.flush();
     }
 
@@ -146,10 +150,14 @@ Run declare_listen(CLI::App& command, const Common& common) {
     options->receive.declare(command);
     options->selection.declare(command);
     auto* json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
-    command.add_option("--csv", options->csv, "one message as CSV: a header, then a row each")->type_name("MESSAGE")->excludes(json);
+    command.add_option("--csv", options->csv, "one message as CSV: a header, then a row each")
+        ->type_name("MESSAGE")
+        ->excludes(json);
     command.add_flag("--stats", options->stats, "end with a table: rates, gaps, bytes and loss by source and message");
-    command.footer("Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only ATTITUDE,VFR_HUD --json\n"
-                   "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C.");
+    command.footer(
+        "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
+        "ATTITUDE,VFR_HUD --json\n"
+        "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C.");
     return [options, &common] { return listen(common, *options); };
 }
 

@@ -38,7 +38,8 @@ Exit record(const Common& common, Options& options) {
     if (!receiver) return fail(receiver.error());
     auto writer = record::TlogWriter::create(options.file);
     if (!writer) return fail(writer.error());
-    if (!writer->renamed_to().empty()) say(common, fmt::format("{} exists and is now {}", options.file, writer->renamed_to().string()));
+    if (!writer->renamed_to().empty())
+        say(common, fmt::format("{} exists and is now {}", options.file, writer->renamed_to().string()));
 
     const Signals signals([](void* r) noexcept { static_cast<runtime::Receiver*>(r)->stop(); }, receiver->get());
     (*receiver)->start(options.receive.end(mono_now()));
@@ -60,9 +61,12 @@ Run declare_record(CLI::App& command, const Common& common) {
     auto options = std::make_shared<Options>();
     options->receive.declare(command);
     options->selection.declare(command);
-    command.add_option("-o,--output", options->file, "the file to write; an existing one is first renamed FILE.1")->required()->type_name("FILE");
-    command.footer("Records every good frame with the kernel's receive time, in the tlog format (docs/formats/tlog.md).\n\n"
-                   "Example:\n  mavloom record udpin://0.0.0.0:14550 -o flight.tlog --for 10m");
+    command.add_option("-o,--output", options->file, "the file to write; an existing one is first renamed FILE.1")
+        ->required()
+        ->type_name("FILE");
+    command.footer(
+        "Records every good frame with the kernel's receive time, in the tlog format (docs/formats/tlog.md).\n\n"
+        "Example:\n  mavloom record udpin://0.0.0.0:14550 -o flight.tlog --for 10m");
     return [options, &common] { return record(common, *options); };
 }
 

@@ -17,8 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t frames_a_turn = 1024;  // of recordings
-constexpr auto longest_drain = 200ms;  // for what had arrived before the end was asked for
-constexpr auto longest_flush = 5s;     // for what is queued to leave
+constexpr auto longest_drain = 200ms;        // for what had arrived before the end was asked for
+constexpr auto longest_flush = 5s;           // for what is queued to leave
 
 struct Options {
     std::vector<std::string> sources, to;
@@ -40,7 +40,8 @@ public:
             const bool started = started_ || destinations_.all_up();
             if (started != std::exchange(started_, started) && waited_) say(common_, "somebody is there: going on");
             const std::size_t room = started ? std::min(frames_a_turn, destinations_.room_in_frames()) : 0;
-            if (!started && sources_.has_recordings() && !std::exchange(waited_, true)) say(common_, "waiting for somebody to send to");
+            if (!started && sources_.has_recordings() && !std::exchange(waited_, true))
+                say(common_, "waiting for somebody to send to");
             // A full queue is looked at again soon: its socket may have taken all by then.
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})), room);
         }
@@ -72,7 +73,8 @@ private:
     void drain() {
         const auto begin = mono_now();
         while (mono_now() < begin + longest_drain && sources_.turn(*this, MonoTime{}, 0) != 0) {}
-        while (mono_now() < begin + longest_flush && sources_.links().pending()) sources_.links().turn(*this, mono_now() + 5ms);
+        while (mono_now() < begin + longest_flush && sources_.links().pending())
+            sources_.links().turn(*this, mono_now() + 5ms);
     }
 
     Exit finish() {
@@ -80,14 +82,16 @@ private:
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& c = stage_.counters();
-        say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(), c.reencoded.value(),
-                                 c.passed_untouched.value()));
+        say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(),
+                                 c.reencoded.value(), c.passed_untouched.value()));
         say_unless_zero(c.rewrapped, "rewrapped: frames without full definition that got a new header and checksum");
         say_unless_zero(c.filtered, "filtered: frames that --only leaves out");
         say_unless_zero(c.rate_limited, "rate_limited: frames over --max-rate");
         say_unless_zero(c.not_v1, "not_v1: frames that MAVLink 1 cannot carry");
-        say_unless_zero(c.not_signed, "not_signed: MAVLink 1 frames, which cannot carry a signature (--as-v2 makes them MAVLink 2)");
-        say_unless_zero(c.signature_removed, "signature_removed: changed frames that lost their signature (--sign gives a new one)");
+        say_unless_zero(c.not_signed,
+                        "not_signed: MAVLink 1 frames, which cannot carry a signature (--as-v2 makes them MAVLink 2)");
+        say_unless_zero(c.signature_removed,
+                        "signature_removed: changed frames that lost their signature (--sign gives a new one)");
         say_unless_zero(unheard_answers_, "answers of the far side that no source was there for");
         say_losses(common_, totals_);
         if (!closed) return fail(closed.error());
@@ -119,7 +123,8 @@ SetupResult<void> check_words(Options& options) {
         options.edit.sign_key = *key;
     }
     if (!options.duration.empty())
-        if (auto time = runtime::parse_duration(options.duration); !time) return tl::unexpected(std::move(time.error()).within("--for"));
+        if (auto time = runtime::parse_duration(options.duration); !time)
+            return tl::unexpected(std::move(time.error()).within("--for"));
     return {};
 }
 
@@ -130,7 +135,8 @@ SetupResult<void> open_sources(const Common& common, const Options& options, run
         if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
     }
     for (const auto& info : sources.links().endpoints())
-        if (info.endpoint.address.port == 0) say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+        if (info.endpoint.address.port == 0)
+            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return {};
 }
 
@@ -145,7 +151,8 @@ Exit relay(const Common& common, Options& options) {
     if (auto opened = open_sources(common, options, *sources); !opened) return fail(opened.error());
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return fail(destinations.error());
-    const auto end = options.duration.empty() ? MonoTime::max() : mono_now() + *runtime::parse_duration(options.duration);
+    const auto end = options.duration.empty() ? MonoTime::max()
+                                              : mono_now() + *runtime::parse_duration(options.duration);
     return Relay(common, *sources, *destinations, **stage, options.edit.sign_key.has_value()).run(end);
 }
 
@@ -156,19 +163,36 @@ Run declare_relay(CLI::App& command, const Common& common) {
     auto& edit = options->edit;
     command.add_option("source", options->sources, "where to receive")->required()->type_name("SOURCE");
     command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
-    command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")->type_name("MESSAGE.FIELD=VALUE");
-    command.add_option("--remap-system", edit.remap_system, "change system id A to B, and back in what the far side answers")->type_name("A=B");
-    command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")->delimiter(',')->type_name("NAMES");
-    command.add_option("--max-rate", edit.max_rate, "at most this many a second of each source: ATTITUDE:10,*:50")->delimiter(',')->type_name("MESSAGE:HZ");
-    auto* v1 = command.add_flag("--as-v1", options->as_v1, "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
+    command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")
+        ->type_name("MESSAGE.FIELD=VALUE");
+    command
+        .add_option("--remap-system", edit.remap_system,
+                    "change system id A to B, and back in what the far side answers")
+        ->type_name("A=B");
+    command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")
+        ->delimiter(',')
+        ->type_name("NAMES");
+    command.add_option("--max-rate", edit.max_rate, "at most this many a second of each source: ATTITUDE:10,*:50")
+        ->delimiter(',')
+        ->type_name("MESSAGE:HZ");
+    auto* v1 = command.add_flag("--as-v1", options->as_v1,
+                                "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
     command.add_flag("--as-v2", options->as_v2, "send MAVLink 2")->excludes(v1);
-    command.add_option("--sign", options->sign_file, "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)")->type_name("FILE")->excludes(v1);
-    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in signatures")->capture_default_str()->type_name("0-255");
+    command
+        .add_option("--sign", options->sign_file,
+                    "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)")
+        ->type_name("FILE")
+        ->excludes(v1);
+    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in signatures")
+        ->capture_default_str()
+        ->type_name("0-255");
     command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
-    command.footer("Without options what comes out is byte for byte what went in. What the far side answers goes back.\n\nExamples:\n"
-                   "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
-                   "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
+    command.footer(
+        "Without options what comes out is byte for byte what went in. What the far side answers goes "
+        "back.\n\nExamples:\n"
+        "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
+        "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
     return [options, &common] { return relay(common, *options); };
 }
 

@@ -71,7 +71,9 @@ private:
         next_progress_ = now + 250ms;
         progress_shown_ = true;
         const auto& reader = sources_.recordings().front()->reader;
-        const double part = reader.size() == 0 ? 0 : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
+        const double part = reader.size() == 0
+                                ? 0
+                                : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
         talk(fmt::format("\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent()));
     }
 
@@ -80,7 +82,8 @@ private:
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (counters.damaged_places.value() != 0)
-            say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file, counters.damaged_places.value(), counters.lost_bytes.value()));
+            say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file,
+                                     counters.damaged_places.value(), counters.lost_bytes.value()));
         if (!closed) return fail(closed.error());
         if (destinations_.lost_any() && !options_.no_wait) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
@@ -99,13 +102,18 @@ Exit replay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
-    auto endpoint = runtime::parse_endpoint(options.file.ends_with(".tlog") || options.file.find("://") != std::string::npos ? options.file : "tlog://" + options.file);
+    auto endpoint = runtime::parse_endpoint(
+        options.file.ends_with(".tlog") || options.file.find("://") != std::string::npos ? options.file
+                                                                                         : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
-    if (endpoint->scheme != runtime::Scheme::tlog) return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
+    if (endpoint->scheme != runtime::Scheme::tlog)
+        return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
     if (!endpoint->options.speed)
-        if (auto set = runtime::set_endpoint_option(*endpoint, "speed", options.speed); !set) return fail(std::move(set.error()).within("--speed"));
+        if (auto set = runtime::set_endpoint_option(*endpoint, "speed", options.speed); !set)
+            return fail(std::move(set.error()).within("--speed"));
     Nanoseconds start{}, length{};
-    for (const auto& [text, value, name] : {std::tuple{&options.start, &start, "--start"}, std::tuple{&options.duration, &length, "--for"}}) {
+    for (const auto& [text, value, name] :
+         {std::tuple{&options.start, &start, "--start"}, std::tuple{&options.duration, &length, "--for"}}) {
         if (text->empty()) continue;
         const auto parsed = runtime::parse_duration(*text);
         if (!parsed) return fail(SetupError(parsed.error()).within(name));
@@ -131,8 +139,11 @@ Run declare_replay(CLI::App& command, const Common& common) {
     auto options = std::make_shared<Options>();
     command.add_option("file", options->file, "the recording")->required()->type_name("FILE.tlog");
     command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
-    command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")->capture_default_str()->type_name("N|max");
-    command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")->type_name("TIME");
+    command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")
+        ->capture_default_str()
+        ->type_name("N|max");
+    command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
+        ->type_name("TIME");
     command.add_option("--for", options->duration, "end after this time")->type_name("TIME");
     command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
     options->selection.declare(command);

@@ -16,7 +16,16 @@
 namespace mavloom::app {
 
 // DESIGN.md section 5.
-enum class Exit : int { done = 0, failed = 1, wrong_use = 2, bad_input = 3, mismatch = 4, hung_up = 129, interrupted = 130, terminated = 143 };
+enum class Exit : int {
+    done = 0,
+    failed = 1,
+    wrong_use = 2,
+    bad_input = 3,
+    mismatch = 4,
+    hung_up = 129,
+    interrupted = 130,
+    terminated = 143
+};
 
 // Options that every command has.
 struct Common {

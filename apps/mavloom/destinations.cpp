@@ -36,7 +36,8 @@ SetupResult<void> Destinations::add(const runtime::Endpoint& endpoint) {
         return {};
     }
     if (options.rotate_bytes != 0 || options.rotate_every != Nanoseconds{})
-        return setup_error(SetupCode::usage, fmt::format("--to {}: rotation is not available in this version", endpoint.label()));
+        return setup_error(SetupCode::usage,
+                           fmt::format("--to {}: rotation is not available in this version", endpoint.label()));
     auto writer = record::TlogWriter::create(endpoint.path);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     files_.push_back(std::move(*writer));
@@ -86,12 +87,15 @@ bool Destinations::all_up() const {
     });
 }
 
-bool Destinations::has(runtime::EndpointId endpoint) const noexcept { return std::ranges::find(endpoints_, endpoint) != endpoints_.end(); }
+bool Destinations::has(runtime::EndpointId endpoint) const noexcept {
+    return std::ranges::find(endpoints_, endpoint) != endpoints_.end();
+}
 
 // Of the links that are there and of those that are gone.
 Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) const {
     const auto& gone = *info.counters;
-    Sums sums{gone.gone_frames_out.value(), gone.gone_bytes_out.value(), gone.gone_queue_dropped.value(), gone.gone_frames_not_sent.value()};
+    Sums sums{gone.gone_frames_out.value(), gone.gone_bytes_out.value(), gone.gone_queue_dropped.value(),
+              gone.gone_frames_not_sent.value()};
     for (const auto& link : links_->links()) {
         if (link.endpoint != info.id) continue;
         sums.frames += link.counters->frames_out.value();
@@ -104,9 +108,12 @@ Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) cons
 
 bool Destinations::lost_any() const {
     const auto endpoints = links_->endpoints();
-    return std::ranges::any_of(endpoints, [&](const auto& info) {
-        return has(info.id) && (sums_of(info).dropped != 0 || links_->queued_bytes(info.id) != 0);
-    }) || std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
+    return std::ranges::any_of(endpoints,
+                               [&](const auto& info) {
+                                   return has(info.id) &&
+                                          (sums_of(info).dropped != 0 || links_->queued_bytes(info.id) != 0);
+                               }) ||
+           std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
 }
 
 void Destinations::say_sums(const Common& common) const {
@@ -116,9 +123,12 @@ void Destinations::say_sums(const Common& common) const {
         const auto sums = sums_of(info);
         const auto name = info.label();
         say(common, fmt::format("{}: {} frames, {} bytes sent", name, sums.frames, sums.bytes));
-        if (sums.dropped != 0) say(common, fmt::format("{}: {} frames dropped, the far side was too slow or went", name, sums.dropped));
-        if (sums.refused != 0) say(common, fmt::format("{}: {} frames refused, nothing listens there", name, sums.refused));
-        if (nobody_there_[i] != 0) say(common, fmt::format("{}: {} frames not sent, nobody was there", name, nobody_there_[i]));
+        if (sums.dropped != 0)
+            say(common, fmt::format("{}: {} frames dropped, the far side was too slow or went", name, sums.dropped));
+        if (sums.refused != 0)
+            say(common, fmt::format("{}: {} frames refused, nothing listens there", name, sums.refused));
+        if (nobody_there_[i] != 0)
+            say(common, fmt::format("{}: {} frames not sent, nobody was there", name, nobody_there_[i]));
         if (const auto left = links_->queued_bytes(info.id); left != 0)
             say(common, fmt::format("{}: {} bytes still queued at the end, not sent", name, left));
     }

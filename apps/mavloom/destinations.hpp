@@ -15,7 +15,8 @@ namespace mavloom::app {
 class Destinations {
 public:
     // Opens every address; `links` must outlive the object.
-    [[nodiscard]] static SetupResult<Destinations> open(const Common& common, const std::vector<std::string>& addresses, runtime::Links& links);
+    [[nodiscard]] static SetupResult<Destinations> open(const Common& common, const std::vector<std::string>& addresses,
+                                                        runtime::Links& links);
 
     // Queues the frame for all that are there, and writes it to the files with its time; false when nobody is there.
     bool send(const wire::FrameView& frame, WallTime time);

@@ -27,14 +27,18 @@ constexpr std::array commands{
 };
 
 constexpr std::string_view footer =
-    "Endpoints: udpin://HOST:PORT udpout://HOST:PORT tcpin://HOST:PORT tcpout://HOST:PORT tlog://PATH (docs/guide/endpoints.md)\n"
+    "Endpoints: udpin://HOST:PORT udpout://HOST:PORT tcpin://HOST:PORT tcpout://HOST:PORT tlog://PATH "
+    "(docs/guide/endpoints.md)\n"
     "Example:   mavloom listen udpin://0.0.0.0:14550 --stats\n"
-    "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a signal.";
+    "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a "
+    "signal.";
 
 void add_common(CLI::App& command, Common& common) {
     command.add_flag("-v,--verbose", common.verbose, "say more on stderr; may be repeated");
     command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
-    command.add_option("--dialect", common.dialect_files, "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
+    command
+        .add_option("--dialect", common.dialect_files,
+                    "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
@@ -60,7 +64,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     std::vector<std::string> known;
     for (const auto* option : command->get_options())
         for (const auto& name : option->get_lnames()) known.push_back("--" + name);
-    for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; })) known.push_back(sub->get_name());
+    for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; }))
+        known.push_back(sub->get_name());
     const std::vector<std::string_view> names(known.begin(), known.end());
     return fmt::format("'{}' is not expected here{}", left.front(), did_you_mean(left.front(), names));
 }
@@ -159,11 +164,13 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
 }  // namespace mavloom::app
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
+    std::signal(SIGPIPE,
+                SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
     std::signal(SIGXFSZ, SIG_IGN);
     mavloom::app::keep_standard_descriptors();
     const auto status = mavloom::app::run(argc, argv);
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)
-        return static_cast<int>(mavloom::app::fail(mavloom::system_error("cannot write to standard output", errno).value()));
+        return static_cast<int>(
+            mavloom::app::fail(mavloom::system_error("cannot write to standard output", errno).value()));
     return static_cast<int>(status);
 }

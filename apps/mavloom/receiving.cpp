@@ -23,7 +23,9 @@ std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
 }  // namespace
 
 void Selection::declare(CLI::App& command) {
-    command.add_option("--only", only, "these messages only: names or ids, separated by commas")->delimiter(',')->type_name("NAMES");
+    command.add_option("--only", only, "these messages only: names or ids, separated by commas")
+        ->delimiter(',')
+        ->type_name("NAMES");
     command.add_option("--from", from, "from this system, or this component of it, only")->type_name("SYS[/COMP]");
 }
 
@@ -41,9 +43,12 @@ SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
     if (from.empty()) return {};
     const auto slash = from.find('/');
     system_ = whole_number<SystemId>(std::string_view(from).substr(0, slash), 255);
-    if (slash != std::string::npos) component_ = whole_number<ComponentId>(std::string_view(from).substr(slash + 1), 255);
+    if (slash != std::string::npos)
+        component_ = whole_number<ComponentId>(std::string_view(from).substr(slash + 1), 255);
     if (!system_ || (slash != std::string::npos && !component_))
-        return setup_error(SetupCode::usage, fmt::format("--from {}: expected SYS or SYS/COMP, numbers from 0 to 255, for example --from 1/1", from));
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("--from {}: expected SYS or SYS/COMP, numbers from 0 to 255, for example --from 1/1", from));
     return {};
 }
 
@@ -54,26 +59,32 @@ bool Selection::takes(const wire::FrameView& frame) const noexcept {
 }
 
 void ReceiveOptions::declare(CLI::App& command) {
-    command.add_option("source", sources, "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, flight.tlog, ... (docs/guide/endpoints.md)")
+    command
+        .add_option(
+            "source", sources,
+            "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, flight.tlog, ... (docs/guide/endpoints.md)")
         ->required()
         ->type_name("SOURCE");
     command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms")->type_name("TIME");
     command.add_option("--count", count_text, "end after this many messages")->type_name("N");
-    command.add_option("--buffer", buffer, "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
+    command
+        .add_option("--buffer", buffer,
+                    "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
         ->capture_default_str()
         ->type_name("BYTES");
 }
 
-SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) {
+SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common,
+                                                                     const dialect::Dialect& dialect) {
     if (auto counted = parse_count(); !counted) return tl::unexpected(std::move(counted.error()));
     const auto bytes = runtime::parse_size(buffer);
     if (!bytes) return tl::unexpected(SetupError(bytes.error()).within("--buffer"));
-    if (*bytes < smallest_buffer) return setup_error(SetupCode::usage, fmt::format("--buffer {}: at least 64k", buffer));
+    if (*bytes < smallest_buffer)
+        return setup_error(SetupCode::usage, fmt::format("--buffer {}: at least 64k", buffer));
     if (!duration.empty())
-        if (auto time = runtime::parse_duration(duration); !time) return tl::unexpected(std::move(time.error()).within("--for"));
-    const auto notice = [&common](std::string_view text) {
-        say(common, text);
-    };
+        if (auto time = runtime::parse_duration(duration); !time)
+            return tl::unexpected(std::move(time.error()).within("--for"));
+    const auto notice = [&common](std::string_view text) { say(common, text); };
     auto receiver = runtime::Receiver::create(dialect, *bytes, notice);
     if (!receiver) return receiver;
     for (const auto& text : sources) {
@@ -82,7 +93,8 @@ SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Commo
         if (auto added = (*receiver)->add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
     for (const auto& info : (*receiver)->endpoints())
-        if (info.endpoint.address.port == 0) say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+        if (info.endpoint.address.port == 0)
+            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return receiver;
 }
 

@@ -37,7 +37,8 @@ struct ReceiveOptions {
     std::uint64_t count = 0;  // 0: no bound; set by `open`
 
     void declare(CLI::App& command);
-    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common, const dialect::Dialect& dialect);
+    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common,
+                                                                       const dialect::Dialect& dialect);
     // When --for ends; the end of time without it. Call after `open`, which has checked the words.
     [[nodiscard]] MonoTime end(MonoTime start) const;
 

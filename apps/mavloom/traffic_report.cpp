@@ -50,16 +50,18 @@ auto losses_of(const runtime::Totals& t) {
 }
 
 void append_source(std::string& out, const runtime::SourceLoss& loss, std::string_view link) {
-    fmt::format_to(std::back_inserter(out), "\n{} {}/{}: {} frames, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n", link,
-                   loss.source.system.value, loss.source.component.value, loss.received, loss.lost, loss_percent(loss), loss.late,
-                   loss.duplicate, loss.resync);
-    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9} {:>10} {:>10} {:>10} {:>11}\n", "message", "count", "Hz", "gap min ms",
-                   "mean ms", "max ms", "bytes");
+    fmt::format_to(std::back_inserter(out),
+                   "\n{} {}/{}: {} frames, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n", link,
+                   loss.source.system.value, loss.source.component.value, loss.received, loss.lost, loss_percent(loss),
+                   loss.late, loss.duplicate, loss.resync);
+    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9} {:>10} {:>10} {:>10} {:>11}\n", "message", "count",
+                   "Hz", "gap min ms", "mean ms", "max ms", "bytes");
 }
 
 void append_row(std::string& out, const observe::TrafficRow& row, std::string_view name) {
-    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>11}\n", name, row.count, row.rate_hz(),
-                   milliseconds(row.shortest_gap), milliseconds(row.mean_gap()), milliseconds(row.longest_gap), row.bytes);
+    fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>11}\n", name,
+                   row.count, row.rate_hz(), milliseconds(row.shortest_gap), milliseconds(row.mean_gap()),
+                   milliseconds(row.longest_gap), row.bytes);
 }
 
 using Rows = std::vector<observe::TrafficRow>;
@@ -87,7 +89,8 @@ ordered_json row_json(const observe::TrafficRow& row, const dialect::Dialect& di
 
 }  // namespace
 
-std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
+std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+                         const dialect::Dialect& dialect) {
     std::string out;
     const auto rows = traffic.sorted();
     std::size_t from = 0;
@@ -95,7 +98,8 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
         append_source(out, loss, receiver.link_name(loss.link));
         for (const auto& row : rows_of(loss, rows, from)) append_row(out, row, message_name(dialect, row.id));
     }
-    if (traffic.unlisted() != 0) fmt::format_to(std::back_inserter(out), "\n{} frames of further sources are not listed\n", traffic.unlisted());
+    if (traffic.unlisted() != 0)
+        fmt::format_to(std::back_inserter(out), "\n{} frames of further sources are not listed\n", traffic.unlisted());
     const auto& totals = receiver.totals();
     fmt::format_to(std::back_inserter(out), "\ntotal heard: {} frames, {} bytes\n", totals.frames, totals.bytes);
     for (const auto& [name, meaning, value] : losses_of(totals))
@@ -103,7 +107,8 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
     return out;
 }
 
-std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect) {
+std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+                         const dialect::Dialect& dialect) {
     const auto rows = traffic.sorted();
     std::size_t from = 0;
     auto sources = ordered_json::array();
@@ -124,7 +129,9 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
     const auto& totals = receiver.totals();
     ordered_json sums{{"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}};
     for (const auto& [name, meaning, value] : losses_of(totals)) sums[std::string(name)] = value;
-    return ordered_json{{"stats", {{"sources", std::move(sources)}, {"totals", std::move(sums)}}}}.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return ordered_json{{"stats", {{"sources", std::move(sources)}, {"totals", std::move(sums)}}}}.dump(
+               -1, ' ', false, ordered_json::error_handler_t::replace) +
+           "\n";
 }
 
 void say_losses(const Common& common, const runtime::Totals& totals) {

@@ -11,9 +11,11 @@
 namespace mavloom::app {
 
 // A table for people. `receiver` has been joined.
-std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect);
+std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+                         const dialect::Dialect& dialect);
 // One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md.
-std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver, const dialect::Dialect& dialect);
+std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+                         const dialect::Dialect& dialect);
 // Lines on stderr for whatever was lost or damaged; nothing when all is well.
 void say_losses(const Common& common, const runtime::Totals& totals);
 

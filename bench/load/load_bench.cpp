@@ -30,7 +30,8 @@ std::vector<std::vector<char>> frames_of(const char* path) {
     for (std::size_t at = 8; at + 3 < file.size();) {
         const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(file[at + i]); };
         const std::size_t size = byte(1) + (byte(0) == 0xfd ? 12u + 13u * (byte(2) & 1u) : 8u);
-        frames.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(at), file.begin() + static_cast<std::ptrdiff_t>(at + size));
+        frames.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(at),
+                            file.begin() + static_cast<std::ptrdiff_t>(at + size));
         at += size + 8;
     }
     return frames;

@@ -78,7 +78,8 @@ int main(int argc, char** argv) {
     const auto theirs = peer_parse(frames.data(), frames.size());
     const auto ours = our_parse(frames, chunk, table);
     if (theirs.frames != ours.frames || theirs.fingerprint != ours.fingerprint || ours.dropped != 0 || ours.frames == 0) {
-        fmt::print(stderr, "parse_bench: the answers differ: {} frames by us, {} by the C library\n", ours.frames, theirs.frames);
+        fmt::print(stderr, "parse_bench: the answers differ: {} frames by us, {} by the C library\n", ours.frames,
+                   theirs.frames);
         return 4;
     }
 
@@ -86,12 +87,16 @@ int main(int argc, char** argv) {
     for (int turn = 0; turn < turns; ++turn) {
         peer_result found{}, found_by_peer{};
         our_rate.push_back(bytes_per_second(frames.size(), [&] { found = our_parse(frames, chunk, table); }));
-        their_rate.push_back(bytes_per_second(frames.size(), [&] { found_by_peer = peer_parse(frames.data(), frames.size()); }));
+        their_rate.push_back(
+            bytes_per_second(frames.size(), [&] { found_by_peer = peer_parse(frames.data(), frames.size()); }));
         if (found.fingerprint != found_by_peer.fingerprint) return 4;
         ratio.push_back(our_rate.back() / their_rate.back());
     }
     const auto [low, high] = std::ranges::minmax(ratio);
-    fmt::print("parse and validate {} frames, {} bytes, chunks of {} bytes, {} turns, same frames found\n", ours.frames, frames.size(), chunk, turns);
-    fmt::print("  mavloom             {:8.1f} MB/s\n  mavlink_parse_char  {:8.1f} MB/s\n  ratio               {:8.2f} (lowest {:.2f}, highest {:.2f})\n",
-               median(our_rate) / 1e6, median(their_rate) / 1e6, median(ratio), low, high);
+    fmt::print("parse and validate {} frames, {} bytes, chunks of {} bytes, {} turns, same frames found\n", ours.frames,
+               frames.size(), chunk, turns);
+    fmt::print(
+        "  mavloom             {:8.1f} MB/s\n  mavlink_parse_char  {:8.1f} MB/s\n  ratio               {:8.2f} (lowest "
+        "{:.2f}, highest {:.2f})\n",
+        median(our_rate) / 1e6, median(their_rate) / 1e6, median(ratio), low, high);
 }

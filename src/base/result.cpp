@@ -10,11 +10,24 @@ namespace mavloom {
 
 static SetupCode code_of(int err) {
     switch (err) {
-        case ENOENT: case ENODEV: case ENXIO: case ENOTDIR: return SetupCode::not_found;
-        case EACCES: case EPERM: case EROFS: return SetupCode::permission;
-        case EADDRINUSE: case EBUSY: case EEXIST: return SetupCode::in_use;
-        case ECONNREFUSED: case EHOSTUNREACH: case ENETUNREACH: case ETIMEDOUT: return SetupCode::unreachable;
-        case ENOSPC: case EDQUOT: case ENOMEM: case EFBIG: return SetupCode::no_space;
+        case ENOENT:
+        case ENODEV:
+        case ENXIO:
+        case ENOTDIR: return SetupCode::not_found;
+        case EACCES:
+        case EPERM:
+        case EROFS: return SetupCode::permission;
+        case EADDRINUSE:
+        case EBUSY:
+        case EEXIST: return SetupCode::in_use;
+        case ECONNREFUSED:
+        case EHOSTUNREACH:
+        case ENETUNREACH:
+        case ETIMEDOUT: return SetupCode::unreachable;
+        case ENOSPC:
+        case EDQUOT:
+        case ENOMEM:
+        case EFBIG: return SetupCode::no_space;
         default: return SetupCode::system;
     }
 }

@@ -34,7 +34,8 @@ std::string_view nearest(std::string_view typed, std::span<const std::string_vie
     std::string_view best;
     std::size_t best_distance = typed.size() / 3 + 1;
     for (const auto candidate : candidates) {
-        if (candidate.size() > typed.size() + best_distance || typed.size() > candidate.size() + best_distance) continue;
+        if (candidate.size() > typed.size() + best_distance || typed.size() > candidate.size() + best_distance)
+            continue;
         const auto d = distance(typed, candidate);
         if (d < best_distance || (d == best_distance && best.empty())) {
             best = candidate;

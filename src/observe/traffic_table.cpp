@@ -17,7 +17,8 @@ Nanoseconds TrafficRow::mean_gap() const noexcept {
 
 void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time) {
     const auto source = frame.source();
-    const Key key{link.value, std::uint64_t{frame.id().value} << 16 | std::uint64_t{source.system.value} << 8 | source.component.value};
+    const Key key{link.value, std::uint64_t{frame.id().value} << 16 | std::uint64_t{source.system.value} << 8 |
+                                  source.component.value};
     auto it = rows_.find(key);
     if (it == rows_.end()) {
         if (rows_.size() == max_rows) {

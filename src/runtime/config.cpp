@@ -87,7 +87,8 @@ private:
     }
 
     SetupResult<toml::table> parse(std::string_view text) const {
-        if (const auto line = line_with_endless_key(text); line != 0) return bad(line, "more than 1000 dots in one line: expected keys like router.dedup_ms");
+        if (const auto line = line_with_endless_key(text); line != 0)
+            return bad(line, "more than 1000 dots in one line: expected keys like router.dedup_ms");
         try {
             return toml::parse(text, file_);
         } catch (const toml::parse_error& error) {  // this library's only way to say it

@@ -182,10 +182,8 @@ constexpr std::array options_table{
     Option{"from", shm, "newest", set_from},
     Option{"lossless", shm, "false", set_flag<&O::lossless>},
     Option{"speed", tlog, "", set_speed},
-    Option{"rotate_bytes", tlog, "",
-           [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
-    Option{"rotate_every", tlog, "",
-           [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},
+    Option{"rotate_bytes", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
+    Option{"rotate_every", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},
 };
 
 constexpr auto option_names = [] {

@@ -38,7 +38,8 @@ SetupResult<std::unique_ptr<FrameQueue>> FrameQueue::create(std::size_t capacity
 FrameQueue::~FrameQueue() { ::munmap(memory_, capacity_); }
 
 void FrameQueue::look_at_head() noexcept {
-    tail_.head_seen = std::max(head_.position.load(std::memory_order_acquire), tail_.restarted_to);  // pairs with the release in next()
+    tail_.head_seen = std::max(head_.position.load(std::memory_order_acquire),
+                               tail_.restarted_to);  // pairs with the release in next()
 }
 
 bool FrameQueue::push(const Entry& entry) noexcept {
@@ -46,7 +47,7 @@ bool FrameQueue::push(const Entry& entry) noexcept {
     std::uint64_t tail = tail_.position.load(std::memory_order_relaxed);
     const bool warm_end = capacity_ - to_end(tail) > warm_bytes;
     if (warm_end) look_at_head();
-    if (warm_end && tail_.head_seen == tail) {  // empty: back to the memory that is in the cache
+    if (warm_end && tail_.head_seen == tail) {                    // empty: back to the memory that is in the cache
         tail_.restart_at.store(tail, std::memory_order_relaxed);  // seen by the reader with the new tail
         tail += to_end(tail);
         tail_.restarted_to = tail_.head_seen = tail;
@@ -60,7 +61,8 @@ bool FrameQueue::push(const Entry& entry) noexcept {
         if (rest >= header_bytes) std::memcpy(at(tail), &padding, header_bytes);
         tail += rest;
     }
-    const Header header{entry.time.time_since_epoch().count(), entry.link.value, static_cast<std::uint32_t>(entry.frame.size())};
+    const Header header{entry.time.time_since_epoch().count(), entry.link.value,
+                        static_cast<std::uint32_t>(entry.frame.size())};
     std::memcpy(at(tail), &header, header_bytes);
     std::memcpy(at(tail) + header_bytes, entry.frame.bytes().data(), entry.frame.size());
     tail_.position.store(tail + size, std::memory_order_release);  // pairs with the acquire in next()
@@ -84,7 +86,8 @@ void FrameQueue::close() noexcept {
 
 std::optional<FrameQueue::Entry> FrameQueue::next() noexcept {
     std::uint64_t head = head_.release_to;
-    head_.position.store(head, std::memory_order_release);  // gives the last entry's room back; pairs with the acquire in push()
+    head_.position.store(
+        head, std::memory_order_release);  // gives the last entry's room back; pairs with the acquire in push()
     for (;;) {
         if (head == head_.tail_seen) {
             head_.tail_seen = tail_.position.load(std::memory_order_acquire);  // pairs with the release in push()

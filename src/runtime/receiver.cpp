@@ -9,16 +9,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_names = 65'536;      // likewise for links that come and go
-constexpr std::size_t most_sources = 65'536;    // bounds what forged system and component ids can make us remember
-constexpr std::size_t largest_entry_bytes = 304; // in the queue: 16 of header and the longest frame, rounded
-constexpr std::size_t frames_a_turn = 4096;      // of recordings, so that live links get their turn
+constexpr std::size_t most_names = 65'536;        // likewise for links that come and go
+constexpr std::size_t most_sources = 65'536;      // bounds what forged system and component ids can make us remember
+constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 of header and the longest frame, rounded
+constexpr std::size_t frames_a_turn = 4096;       // of recordings, so that live links get their turn
 constexpr auto longest_drain = 200ms;
-constexpr auto drops_every = 1s;                 // how often the kernel is asked for its drops
+constexpr auto drops_every = 1s;  // how often the kernel is asked for its drops
 
 }  // namespace
 
-SetupResult<std::unique_ptr<Receiver>> Receiver::create(const dialect::Dialect& dialect, std::size_t buffer_bytes, Notice notice) {
+SetupResult<std::unique_ptr<Receiver>> Receiver::create(const dialect::Dialect& dialect, std::size_t buffer_bytes,
+                                                        Notice notice) {
     auto sources = Sources::create(dialect);
     if (!sources) return tl::unexpected(std::move(sources.error()));
     auto queue = FrameQueue::create(buffer_bytes);
@@ -58,13 +59,15 @@ void Receiver::join() {
 }
 
 std::size_t Receiver::frames_that_fit() const noexcept {
-    const std::size_t room = queue_->capacity() - std::min(queue_->capacity(), queue_->used_bytes() + largest_entry_bytes);
+    const std::size_t room = queue_->capacity() -
+                             std::min(queue_->capacity(), queue_->used_bytes() + largest_entry_bytes);
     return std::min(frames_a_turn, room / largest_entry_bytes);
 }
 
 void Receiver::run() {
     auto ask_kernel = mono_now() + drops_every;
-    for (auto now = mono_now(); !stopping_.load(std::memory_order_relaxed) && now < end_ && !sources_.finished(); now = mono_now()) {
+    for (auto now = mono_now(); !stopping_.load(std::memory_order_relaxed) && now < end_ && !sources_.finished();
+         now = mono_now()) {
         if (now >= ask_kernel) {
             sources_.links().refresh_kernel_drops();
             ask_kernel = now + drops_every;

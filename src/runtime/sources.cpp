@@ -18,7 +18,8 @@ SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
 namespace {
 
 // The index is built by a reader of its own, so that damage is counted once.
-SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path, const wire::MessageTable& table, Nanoseconds skip) {
+SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path, const wire::MessageTable& table,
+                             Nanoseconds skip) {
     auto scan = record::TlogReader::open(path, table);
     if (!scan) return tl::unexpected(std::move(scan.error()));
     const auto index = record::TlogIndex::build(*scan);
@@ -29,6 +30,7 @@ SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path
 }  // namespace
 
 SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
+    if (auto checked = check_source_options(endpoint); !checked) return checked;
     if (endpoint.scheme != Scheme::tlog) {
         return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
@@ -41,8 +43,8 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
         if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped) return skipped;
     const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
     const double speed = endpoint.options.speed.value_or(default_speed);
-    recordings_.push_back(std::make_unique<Recording>(
-        Recording{LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
+    recordings_.push_back(std::make_unique<Recording>(Recording{
+        LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
     return {};
 }
 
@@ -52,7 +54,8 @@ void Sources::advance(Recording& recording) {
         recording.ended = true;
         if (record.error() == record::TlogReader::Stop::failed) {
             recording.error = recording.reader.error();
-        } else if (recording.reader.counters().records.value() == 0 && recording.reader.counters().lost_bytes.value() != 0) {
+        } else if (recording.reader.counters().records.value() == 0 &&
+                   recording.reader.counters().lost_bytes.value() != 0) {
             recording.error = SetupError{SetupCode::bad_input, 0, recording.name + " holds no record: is it a .tlog?"};
         }
         return;
@@ -85,7 +88,8 @@ Sources::Recording* Sources::earliest() noexcept {
     for (const auto& recording : recordings_) {
         if (recording->ended) continue;
         const bool sooner = first == nullptr || recording->due < first->due ||
-                            (recording->due == first->due && recording->next && first->next && recording->next->time < first->next->time);
+                            (recording->due == first->due && recording->next && first->next &&
+                             recording->next->time < first->next->time);
         if (sooner) first = recording.get();
     }
     return first;

@@ -64,7 +64,8 @@ alignas(64) constexpr std::uint8_t shift_in[32] = {0x80, 0x80, 0x80, 0x80, 0x80,
     const __m128i fold = _mm_set_epi64x(static_cast<long long>(x127_mod_p), static_cast<long long>(x191_mod_p));
     for (p += head; p != end; p += 16) {
         const __m128i next = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-        block = _mm_xor_si128(_mm_xor_si128(_mm_clmulepi64_si128(block, fold, 0x00), _mm_clmulepi64_si128(block, fold, 0x11)), next);
+        block = _mm_xor_si128(
+            _mm_xor_si128(_mm_clmulepi64_si128(block, fold, 0x00), _mm_clmulepi64_si128(block, fold, 0x11)), next);
     }
     return reduce(block);
 }

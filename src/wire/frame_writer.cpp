@@ -17,7 +17,8 @@ std::size_t truncated_length(ByteView payload) noexcept {
     return length;
 }
 
-std::size_t write_header_v1(std::uint8_t* p, const FrameHeader& header, const MessageInfo& info, std::size_t length) noexcept {
+std::size_t write_header_v1(std::uint8_t* p, const FrameHeader& header, const MessageInfo& info,
+                            std::size_t length) noexcept {
     p[0] = stx_v1;
     p[1] = static_cast<std::uint8_t>(length);
     p[2] = header.sequence;
@@ -44,8 +45,8 @@ std::size_t write_header_v2(std::uint8_t* p, const FrameHeader& header, const Me
 
 }  // namespace
 
-FrameView write_frame(std::span<std::uint8_t, max_frame_length> out, const FrameHeader& header, const MessageInfo& info, ByteView payload,
-                      Signing signing) noexcept {
+FrameView write_frame(std::span<std::uint8_t, max_frame_length> out, const FrameHeader& header, const MessageInfo& info,
+                      ByteView payload, Signing signing) noexcept {
     const bool v1 = header.version == Version::v1;
     assert(!v1 || fits_v1(info));
     const std::size_t full = v1 ? info.min_length : info.max_length;

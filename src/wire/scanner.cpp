@@ -3,17 +3,14 @@
 
 namespace mavloom::wire::detail {
 
-namespace {
-bool is_start(std::uint8_t byte) noexcept { return byte == stx_v1 || byte == stx_v2; }
-}  // namespace
-
 // routing.md 5.4: a datagram's frame must end where the datagram or another frame does; a stream's must follow a good frame and be followed
 // by a start byte or by silence. Once the source's CRC_EXTRA is learned the checksum alone decides.
 Scanner::Candidate Scanner::examine_unknown(const FrameView& frame, ByteView behind, End end) noexcept {
     using Kind = Candidate::Kind;
     if ((frame.incompat_flags() & ~incompat_signed) != 0) return {};
     const auto verdict = unknown_.judge(frame);
-    if (verdict != UnknownIds::Verdict::confirmed && end == End::open && behind.empty()) return {Kind::incomplete, 0, nullptr};
+    if (verdict != UnknownIds::Verdict::confirmed && end == End::open && behind.empty())
+        return {Kind::incomplete, 0, nullptr};
     if (verdict == UnknownIds::Verdict::possible) {
         const bool plausible = (behind.empty() || is_start(behind[0])) && (in_sync_ || end == End::closed);
         if (!plausible) {

@@ -7,14 +7,14 @@ namespace {
 
 // Tells a repeated frame from another one that carries the same number: checksum, id and length; never 0.
 std::uint32_t fingerprint(const FrameView& frame) noexcept {
-    return (std::uint32_t{frame.checksum()} << 16 | std::uint32_t{frame.payload_length()} << 8 | (frame.id().value & 0xff)) | 0x100u;
+    return (std::uint32_t{frame.checksum()} << 16 | std::uint32_t{frame.payload_length()} << 8 |
+            (frame.id().value & 0xff)) |
+           0x100u;
 }
 
 }  // namespace
 
-SequenceTracker::SequenceTracker() : index_of_(256) {
-    page_of_.fill(0);
-}
+SequenceTracker::SequenceTracker() : index_of_(256) { page_of_.fill(0); }
 
 std::size_t SequenceTracker::find_or_add(Source source) {
     auto& page = page_of_[source.system.value];

@@ -47,7 +47,8 @@ std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(const std:
     std::size_t written = 0;
     const char* end = nullptr;
     if (text.size() != 2 * key.size()) return std::nullopt;
-    if (sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &written, &end) != 0) return std::nullopt;
+    if (sodium_hex2bin(key.data(), key.size(), text.data(), text.size(), nullptr, &written, &end) != 0)
+        return std::nullopt;
     if (written != key.size() || end != text.data() + text.size()) return std::nullopt;
     return key;
 }
@@ -58,17 +59,20 @@ SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
     struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) return system_error(fmt::format("cannot open key file {}", file.string()), errno);
+    if (::stat(file.c_str(), &status) != 0)
+        return system_error(fmt::format("cannot open key file {}", file.string()), errno);
     if ((status.st_mode & 077) != 0)
-        return setup_error(SetupCode::permission, fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}",
-                                                              file.string(), status.st_mode & 0777u, file.string()));
+        return setup_error(SetupCode::permission,
+                           fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}", file.string(),
+                                       status.st_mode & 0777u, file.string()));
     std::ifstream in(file);
     std::string word, more;
     if (!in) return system_error(fmt::format("cannot open key file {}", file.string()), errno);
     in >> word >> more;
     const auto key = parse_hex(word);
     if (!key || !more.empty())
-        return setup_error(SetupCode::bad_input, fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
+        return setup_error(SetupCode::bad_input,
+                           fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
     return SigningKey(*key);
 }
 
@@ -83,7 +87,9 @@ std::size_t Signer::sign(ByteSpan frame, std::size_t size, SigningTime now) noex
     return size + signature_length;
 }
 
-Verifier::Verifier(const SigningKey& key, SigningTime newest) : key_(key), newest_(newest) { streams_.reserve(max_streams); }
+Verifier::Verifier(const SigningKey& key, SigningTime newest) : key_(key), newest_(newest) {
+    streams_.reserve(max_streams);
+}
 
 Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noexcept {
     if (!frame.is_signed()) return Verdict::unsigned_frame;
@@ -92,7 +98,8 @@ Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noex
     if (sodium_memcmp(hash.data(), signature.data() + 1 + time_length, hash.size()) != 0) return Verdict::bad_signature;
 
     const SigningTime time{load_time(signature.data() + 1)};
-    const std::uint32_t key = std::uint32_t{signature[0]} << 16 | std::uint32_t{frame.system().value} << 8 | frame.component().value;
+    const std::uint32_t key = std::uint32_t{signature[0]} << 16 | std::uint32_t{frame.system().value} << 8 |
+                              frame.component().value;
     const auto it = std::ranges::lower_bound(streams_, key, {}, &Stream::key);
     if (it != streams_.end() && it->key == key) {
         if (time <= it->last) return Verdict::replay;

@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (event.kind == wire::ParseEvent::Kind::junk) return;
         const auto frame = event.frame;
         require(frame.bytes().data() >= data && frame.bytes().data() + frame.size() <= data + size);
-        require(frame.header_length() + frame.payload_length() + wire::checksum_length + frame.signature().size() == frame.size());
+        require(frame.header_length() + frame.payload_length() + wire::checksum_length + frame.signature().size() ==
+                frame.size());
         tracker.update(frame);
         require(verifier.verify(frame, {}) != wire::Verifier::Verdict::good || frame.is_signed());
     });

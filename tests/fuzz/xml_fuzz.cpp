@@ -42,7 +42,8 @@ void check_message(const dialect::Dialect& dialect, const dialect::Message& mess
     for (const auto& field : message.fields) {
         bytes += field.size();
         require(field.offset + field.size() <= message.wire.max_length, "a field ends behind the payload");
-        require(field.extension || field.offset + field.size() <= message.wire.min_length, "a base field ends behind min_length");
+        require(field.extension || field.offset + field.size() <= message.wire.min_length,
+                "a base field ends behind min_length");
         for (std::size_t i = 0; i < field.size(); ++i) {
             require(!used[field.offset + i], "two fields share a byte");
             used[field.offset + i] = true;

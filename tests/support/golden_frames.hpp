@@ -23,15 +23,18 @@ inline const Bytes ping_zero_v2 = hex("fd01000000010104000000bf2f");
 // COMMAND_ACK 400 accepted, result_param2=50, to 255/190, seq 255.
 inline const Bytes command_ack_v2 = hex("fd0a0000ff01014d00009001003200000000ffbe7738");
 // TUNNEL (id 385) with 128 bytes 00…7f, payload_type 3, length 4, to 1/2, seq 9.
-inline const Bytes tunnel_v2 =
-    hex("fd8500000901018101000300010204000102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f2021222324252627"
-        "28292a2b2c2d2e2f303132333435363738393a3b3c3d3e3f404142434445464748494a4b4c4d4e4f505152535455565758595a5b5c5d5e5f606162"
-        "636465666768696a6b6c6d6e6f707172737475767778797a7b7c7d7e7f1566");
+inline const Bytes tunnel_v2 = hex(
+    "fd8500000901018101000300010204000102030405060708090a0b0c0d0e0f101112131415161718191a1b1c1d1e1f2021222324252627"
+    "28292a2b2c2d2e2f303132333435363738393a3b3c3d3e3f404142434445464748494a4b4c4d4e4f505152535455565758595a5b5c5d5e5f60"
+    "6162"
+    "636465666768696a6b6c6d6e6f707172737475767778797a7b7c7d7e7f1566");
 
 // Their definitions: ids, CRC_EXTRA and lengths as pymavlink has them.
 inline const std::array golden_messages{
-    wire::MessageInfo{MessageId{0}, 50, 9, 9},           wire::MessageInfo{MessageId{4}, 237, 14, 14, 12, 13},
-    wire::MessageInfo{MessageId{30}, 39, 28, 28},        wire::MessageInfo{MessageId{77}, 143, 3, 10, 8, 9},
+    wire::MessageInfo{MessageId{0}, 50, 9, 9},
+    wire::MessageInfo{MessageId{4}, 237, 14, 14, 12, 13},
+    wire::MessageInfo{MessageId{30}, 39, 28, 28},
+    wire::MessageInfo{MessageId{77}, 143, 3, 10, 8, 9},
     wire::MessageInfo{MessageId{385}, 147, 133, 133, 2, 3},
 };
 

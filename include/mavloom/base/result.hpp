@@ -29,7 +29,7 @@ enum class SetupCode : std::uint8_t {
 struct SetupError {
     SetupCode code = SetupCode::system;
     int sys_errno = 0;  // 0 where no system call failed
-    std::string text;   // for the user: what failed, why, what to do; names file and line of his input where there is one
+    std::string text;  // for the user: what failed, why, what to do; names file and line of his input where there is one
 
     // The same error with the outer operation put in front: "cannot open link X: " + text.
     [[nodiscard]] SetupError within(std::string_view outer) && {

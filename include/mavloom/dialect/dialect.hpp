@@ -35,10 +35,10 @@ struct Deprecation {
 
 // A parameter of a MAV_CMD entry: what param1 to param7 of COMMAND_LONG, COMMAND_INT and MISSION_ITEM_INT mean for that command.
 struct CommandParam {
-    std::uint8_t index = 0;       // 1 to 7
-    std::string_view label;       // "Radius"; empty where the definition gives none
-    std::string_view units;       // "m"
-    std::string_view enum_name;   // empty: a plain number
+    std::uint8_t index = 0;      // 1 to 7
+    std::string_view label;      // "Radius"; empty where the definition gives none
+    std::string_view units;      // "m"
+    std::string_view enum_name;  // empty: a plain number
     std::string_view default_value;
     std::optional<double> minimum, maximum, increment;
     bool reserved = false;

@@ -32,7 +32,8 @@ public:
     // Checked writes: integers must be in the field's range and whole; text at most the field's length in bytes.
     [[nodiscard]] SetupResult<void> set_number(const dialect::Field& field, double value, std::size_t index = 0);
     [[nodiscard]] SetupResult<void> set_integer(const dialect::Field& field, std::int64_t value, std::size_t index = 0);
-    [[nodiscard]] SetupResult<void> set_unsigned(const dialect::Field& field, std::uint64_t value, std::size_t index = 0);
+    [[nodiscard]] SetupResult<void> set_unsigned(const dialect::Field& field, std::uint64_t value,
+                                                 std::size_t index = 0);
     [[nodiscard]] SetupResult<void> set_text(const dialect::Field& field, std::string_view utf8);
 
     // Parses what a user types for `--set MESSAGE.field=value`: number (decimal, 0x…, nan, inf), enum names (A|B for flags),

@@ -30,7 +30,8 @@ public:
     [[nodiscard]] T get(const dialect::Field& field, std::size_t index = 0) const noexcept {
         assert(sizeof(T) == dialect::size_of(field.type) && index < field.count());
         const std::size_t at = field.offset + index * sizeof(T);
-        if (at + sizeof(T) <= payload_.size()) [[likely]] return load_le<T>(payload_.data() + at);
+        if (at + sizeof(T) <= payload_.size()) [[likely]]
+            return load_le<T>(payload_.data() + at);
         std::array<std::uint8_t, sizeof(T)> bytes{};
         if (at < payload_.size()) std::memcpy(bytes.data(), payload_.data() + at, payload_.size() - at);
         return load_le<T>(bytes.data());

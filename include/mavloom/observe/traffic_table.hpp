@@ -47,7 +47,9 @@ private:
         friend bool operator==(const Key&, const Key&) = default;
     };
     struct KeyHash {
-        std::size_t operator()(const Key& key) const noexcept { return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> 7; }
+        std::size_t operator()(const Key& key) const noexcept {
+            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> 7;
+        }
     };
 
     std::unordered_map<Key, TrafficRow, KeyHash> rows_;

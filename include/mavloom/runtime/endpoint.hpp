@@ -42,10 +42,10 @@ struct RateTerm {
 enum class GroupMode : std::uint8_t { all, best, primary };
 
 struct EndpointOptions {
-    std::string name;   // default: the URL without its query
+    std::string name;  // default: the URL without its query
     std::string group;
     GroupMode group_mode = GroupMode::all;
-    std::uint32_t mtu_bytes = 1280;  // 0: one frame a datagram
+    std::uint32_t mtu_bytes = 1280;                // 0: one frame a datagram
     std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
     std::uint64_t queue_bytes = 1 << 20;
     std::optional<std::chrono::nanoseconds> queue_age;  // default: 1 s for class 2, 10 s for the others
@@ -62,11 +62,11 @@ struct EndpointOptions {
     bool low_latency = false;
     bool required = false;
     std::optional<HostPort> bind;
-    bool fixed = false;                  // udpbcast
-    std::optional<double> speed;         // tlog source: 1 = recorded pace, infinity = speed=max
-    std::uint64_t rotate_bytes = 0;      // tlog destination; 0: no rotation
+    bool fixed = false;              // udpbcast
+    std::optional<double> speed;     // tlog source: 1 = recorded pace, infinity = speed=max
+    std::uint64_t rotate_bytes = 0;  // tlog destination; 0: no rotation
     std::chrono::nanoseconds rotate_every{};
-    std::uint32_t baud = 57600;          // serial; 0: auto
+    std::uint32_t baud = 57600;  // serial; 0: auto
     std::string flow = "none";
     bool from_oldest = false, lossless = false;  // shm
 };

@@ -50,8 +50,12 @@ public:
 private:
     struct Header;
     FrameQueue(std::uint8_t* memory, std::size_t capacity) noexcept : memory_(memory), capacity_(capacity) {}
-    [[nodiscard]] std::uint8_t* at(std::uint64_t position) const noexcept { return memory_ + (position & (capacity_ - 1)); }
-    [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept { return capacity_ - (position & (capacity_ - 1)); }
+    [[nodiscard]] std::uint8_t* at(std::uint64_t position) const noexcept {
+        return memory_ + (position & (capacity_ - 1));
+    }
+    [[nodiscard]] std::size_t to_end(std::uint64_t position) const noexcept {
+        return capacity_ - (position & (capacity_ - 1));
+    }
     void look_at_head() noexcept;
 
     std::uint8_t* const memory_;
@@ -62,12 +66,12 @@ private:
         std::atomic<std::uint64_t> restart_at{~std::uint64_t{0}};  // an empty queue went on from here at the ring's start
         std::uint64_t head_seen = 0;
         std::uint64_t restarted_to = 0;  // all before is read, even if the reader does not know yet
-    } tail_;  // the writer's
+    } tail_;                             // the writer's
     struct alignas(64) {
         std::atomic<std::uint64_t> position{0};
         std::uint64_t tail_seen = 0;
         std::uint64_t release_to = 0;
-    } head_;  // the reader's
+    } head_;                                            // the reader's
     alignas(64) std::atomic<std::uint32_t> signal_{0};  // counts wake-ups; what `wait` sleeps on
     std::atomic<bool> sleeping_{false};
     std::atomic<bool> closed_{false};

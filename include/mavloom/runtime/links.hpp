@@ -44,9 +44,9 @@ struct LinkCounters {
 
 // What belongs to a socket rather than to one of its peers.
 struct EndpointCounters {
-    Counter kernel_drop;    // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
-    Counter wrong_peer;     // udpout: datagrams from another address
-    Counter stray_bytes;    // bytes of strangers whose datagrams held no valid frame, or with verify= none that is well signed
+    Counter kernel_drop;  // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
+    Counter wrong_peer;   // udpout: datagrams from another address
+    Counter stray_bytes;  // bytes of strangers whose datagrams held no valid frame, or with verify= none that is well signed
     Counter peers_refused;  // over max_peers, and none of the others may go (docs/guide/queues.md)
     Counter peers_evicted;  // the longest idle, gone for a newcomer
     Counter send_errors;    // datagrams that met a closed port (ICMP said so) or that the kernel refused

@@ -39,7 +39,8 @@ public:
     // Called on the receiving thread, for people: a line that says something happened once.
     using Notice = std::function<void(std::string_view)>;
 
-    [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect, std::size_t buffer_bytes, Notice notice);
+    [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect,
+                                                                       std::size_t buffer_bytes, Notice notice);
     ~Receiver() override;
 
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);

@@ -23,8 +23,8 @@ public:
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect);
 
     // Opens the endpoint; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
-    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now, double default_speed = record::Pacer::max_speed,
-                                        Nanoseconds skip = {});
+    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now,
+                                        double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
 
     // One turn of the links, then at most `most_frames` frames of the recordings that are due, the earliest first. Returns the number of frames handed over.
     std::size_t turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames);
@@ -58,7 +58,7 @@ public:
         std::optional<record::Record> next;  // read, not yet handed over
         MonoTime due{};
         bool ended = false;
-        std::optional<SetupError> error{};   // why it ended early
+        std::optional<SetupError> error{};  // why it ended early
     };
     [[nodiscard]] const std::vector<std::unique_ptr<Recording>>& recordings() const noexcept { return recordings_; }
 

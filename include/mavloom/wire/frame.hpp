@@ -20,8 +20,9 @@ inline constexpr std::size_t header_length_v2 = 10;  // STX len incompat compat 
 inline constexpr std::size_t checksum_length = 2;
 inline constexpr std::size_t signature_length = 13;  // link id, 6 bytes of time, 6 bytes of hash
 inline constexpr std::size_t max_payload_length = 255;
-inline constexpr std::size_t max_frame_length = header_length_v2 + max_payload_length + checksum_length + signature_length;  // 280
-inline constexpr std::size_t min_frame_length = header_length_v1 + checksum_length;                                         // 8
+inline constexpr std::size_t max_frame_length = header_length_v2 + max_payload_length + checksum_length +
+                                                signature_length;                    // 280
+inline constexpr std::size_t min_frame_length = header_length_v1 + checksum_length;  // 8
 inline constexpr std::uint8_t incompat_signed = 0x01;  // the only incompatibility flag that is defined
 
 enum class Version : std::uint8_t { v1 = 1, v2 = 2 };

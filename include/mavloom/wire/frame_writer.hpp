@@ -34,7 +34,7 @@ using FrameBuffer = std::array<std::uint8_t, max_frame_length>;
 
 // Writes one frame into `out` and returns the view of it. `payload` is the full payload, `info.max_length` bytes (shorter ones are taken as
 // zero-extended). MAVLink 1 needs fits_v1(info) and ignores `signing`.
-[[nodiscard]] FrameView write_frame(std::span<std::uint8_t, max_frame_length> out, const FrameHeader& header, const MessageInfo& info,
-                                    ByteView payload, Signing signing = {}) noexcept;
+[[nodiscard]] FrameView write_frame(std::span<std::uint8_t, max_frame_length> out, const FrameHeader& header,
+                                    const MessageInfo& info, ByteView payload, Signing signing = {}) noexcept;
 
 }  // namespace mavloom::wire

@@ -20,7 +20,7 @@ struct MessageInfo {
     std::uint8_t crc_extra = 0;
     std::uint8_t min_length = 0;  // payload bytes without extension fields: the length of the message in MAVLink 1
     std::uint8_t max_length = 0;  // payload bytes with all extension fields
-    std::uint8_t target_system_offset = no_target;     // in the payload; MANUAL_CONTROL's `target` counts (DESIGN.md section 4)
+    std::uint8_t target_system_offset = no_target;  // in the payload; MANUAL_CONTROL's `target` counts (DESIGN.md section 4)
     std::uint8_t target_component_offset = no_target;
     friend constexpr bool operator==(const MessageInfo&, const MessageInfo&) = default;
 };

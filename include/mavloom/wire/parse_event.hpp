@@ -14,9 +14,9 @@ namespace mavloom::wire {
 
 struct ParseEvent {
     enum class Kind : std::uint8_t {
-        frame,          // good: `frame`, `info` (null for an id without definition)
-        bad_checksum,   // something that began and was as long as a frame: `frame`; its bytes are scanned again and end as frames or junk
-        junk,           // `bytes` bytes that belong to no frame; a run is reported when it ends, or each 4,096 bytes of it
+        frame,  // good: `frame`, `info` (null for an id without definition)
+        bad_checksum,  // something that began and was as long as a frame: `frame`; its bytes are scanned again and end as frames or junk
+        junk,  // `bytes` bytes that belong to no frame; a run is reported when it ends, or each 4,096 bytes of it
         unknown_flags,  // a whole frame with a good checksum and an incompatibility flag that is not defined: must not be handled
     };
     Kind kind = Kind::junk;

@@ -21,11 +21,11 @@ namespace mavloom::wire {
 struct SequenceStats {
     Source source;
     std::uint64_t received = 0;
-    std::uint64_t lost = 0;        // after late frames were taken back
+    std::uint64_t lost = 0;  // after late frames were taken back
     std::uint64_t late = 0;
     std::uint64_t duplicate = 0;
-    std::uint64_t resync = 0;      // jumps too long to be loss: a reboot, another sender with the same id
-    bool no_sequence = false;      // the sender does not count: always the same number
+    std::uint64_t resync = 0;  // jumps too long to be loss: a reboot, another sender with the same id
+    bool no_sequence = false;  // the sender does not count: always the same number
 };
 
 class SequenceTracker {
@@ -49,8 +49,8 @@ public:
     [[nodiscard]] std::uint64_t untracked() const noexcept { return untracked_; }
 
 private:
-    static constexpr std::size_t window = 32;         // recent frames remembered per source, to tell a duplicate from a late one
-    static constexpr std::uint8_t constant_after = 8; // equal numbers in a row that mark a sender without sequence
+    static constexpr std::size_t window = 32;  // recent frames remembered per source, to tell a duplicate from a late one
+    static constexpr std::uint8_t constant_after = 8;  // equal numbers in a row that mark a sender without sequence
 
     struct State {
         std::array<std::uint32_t, window> recent{};  // fingerprint of the frame with sequence number s at [s % window]; 0: none

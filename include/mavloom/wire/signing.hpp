@@ -26,7 +26,8 @@ struct SigningTime {
     [[nodiscard]] static constexpr SigningTime from(WallTime t) noexcept {
         constexpr std::int64_t epoch_s = 1420070400;  // 2015-01-01 00:00:00 UTC in Unix time
         const auto since = t.time_since_epoch() - std::chrono::seconds{epoch_s};
-        const auto ticks = std::chrono::duration_cast<std::chrono::duration<std::int64_t, std::ratio<1, 100'000>>>(since).count();
+        const auto ticks = std::chrono::duration_cast<std::chrono::duration<std::int64_t, std::ratio<1, 100'000>>>(since)
+                               .count();
         return {ticks < 0 ? 0 : static_cast<std::uint64_t>(ticks)};
     }
 };
@@ -59,7 +60,9 @@ public:
     // written. Returns the new size.
     std::size_t sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept;
 
-    [[nodiscard]] SigningTime last() const noexcept { return last_; }  // to be stored, so that a restart does not go back
+    [[nodiscard]] SigningTime last() const noexcept {
+        return last_;
+    }  // to be stored, so that a restart does not go back
 
 private:
     SigningKey key_;

@@ -38,8 +38,8 @@ public:
 private:
     struct Entry {
         std::uint64_t key = 0;
-        std::uint8_t extra = 0, agreed = 0;         // the byte in use and how many frames agreed (up to `confirmations`)
-        std::uint8_t rival = 0, rival_agreed = 0;   // a different byte seen since
+        std::uint8_t extra = 0, agreed = 0;        // the byte in use and how many frames agreed (up to `confirmations`)
+        std::uint8_t rival = 0, rival_agreed = 0;  // a different byte seen since
     };
 
     // entries_.size() where the key is not there.

@@ -26,7 +26,8 @@ bool names_are_members() {
     names.max_length_ = {5, 6, 7};
     std::array<std::uint8_t, shop::msg::ShelfNames::max_length> payload;
     names.encode(payload);
-    const std::array<std::uint8_t, 11> expected{1, 2, 0, 3, 4, 0, 0, 0, 5, 6, 7};  // all one byte wide: the order of the definition
+    const std::array<std::uint8_t, 11> expected{1, 2, 0, 3, 4, 0,
+                                                0, 0, 5, 6, 7};  // all one byte wide: the order of the definition
     return payload == expected && shop::msg::ShelfNames::decode(payload) == names;
 }
 
@@ -39,12 +40,14 @@ int main() {
     parser.parse(frame, [&](const mavloom::wire::ParseEvent& event) {
         if (event.kind != mavloom::wire::ParseEvent::Kind::frame || event.info == nullptr) return;
         const auto status = ShelfStatus::decode(event.frame.payload());
-        std::printf("state=%d items=%d weight=%g\n", static_cast<int>(status.state), status.items, static_cast<double>(status.weight));
+        std::printf("state=%d items=%d weight=%g\n", static_cast<int>(status.state), status.items,
+                    static_cast<double>(status.weight));
 
         mavloom::wire::FrameBuffer out;
         std::array<std::uint8_t, ShelfStatus::max_length> payload;
         status.encode(payload);
-        const auto written = write_frame(out, {.sequence = event.frame.sequence(), .source = event.frame.source()}, *event.info, payload);
+        const auto written = write_frame(out, {.sequence = event.frame.sequence(), .source = event.frame.source()},
+                                         *event.info, payload);
         same = written.size() == sizeof frame && std::memcmp(written.bytes().data(), frame, sizeof frame) == 0;
     });
     std::printf("re-encoded: %s\n", same ? "same bytes" : "other bytes");

@@ -20,24 +20,28 @@ namespace {
 
 const MessageTable table{test::golden_messages};
 
-const std::vector<Bytes> good_frames{test::heartbeat_v2, test::heartbeat_v1, test::heartbeat_signed_1, test::attitude_v2,
-                                     test::attitude_v1,  test::ping_zero_v2, test::command_ack_v2,     test::tunnel_v2};
+const std::vector<Bytes> good_frames{test::heartbeat_v2,   test::heartbeat_v1, test::heartbeat_signed_1,
+                                     test::attitude_v2,    test::attitude_v1,  test::ping_zero_v2,
+                                     test::command_ack_v2, test::tunnel_v2};
 
 // Bytes as a bad line has them: whole frames, damaged and cut ones, start bytes, noise.
 rc::Gen<Bytes> line_noise() {
     const auto frame = rc::gen::elementOf(good_frames);
     const auto cut = rc::gen::mapcat(frame, [](Bytes f) {
-        return rc::gen::map(rc::gen::inRange<std::size_t>(0, f.size()), [f](std::size_t n) { return Bytes(f.begin(), f.begin() + static_cast<std::ptrdiff_t>(n)); });
+        return rc::gen::map(rc::gen::inRange<std::size_t>(0, f.size()),
+                            [f](std::size_t n) { return Bytes(f.begin(), f.begin() + static_cast<std::ptrdiff_t>(n)); });
     });
     const auto damaged = rc::gen::mapcat(frame, [](Bytes f) {
-        return rc::gen::map(rc::gen::pair(rc::gen::inRange<std::size_t>(0, f.size()), rc::gen::arbitrary<std::uint8_t>()),
-                            [f](std::pair<std::size_t, std::uint8_t> change) {
-                                auto g = f;
-                                g[change.first] = change.second;
-                                return g;
-                            });
+        return rc::gen::map(
+            rc::gen::pair(rc::gen::inRange<std::size_t>(0, f.size()), rc::gen::arbitrary<std::uint8_t>()),
+            [f](std::pair<std::size_t, std::uint8_t> change) {
+                auto g = f;
+                g[change.first] = change.second;
+                return g;
+            });
     });
-    const auto noise = rc::gen::container<Bytes>(rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(), rc::gen::element(stx_v1, stx_v2)));
+    const auto noise = rc::gen::container<Bytes>(
+        rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(), rc::gen::element(stx_v1, stx_v2)));
     const auto pieces = rc::gen::container<std::vector<Bytes>>(rc::gen::oneOf(frame, frame, frame, cut, damaged, noise));
     return rc::gen::map(pieces, [](const std::vector<Bytes>& all) {
         Bytes joined;
@@ -48,7 +52,8 @@ rc::Gen<Bytes> line_noise() {
 
 // Noise that cannot begin a frame, so that the frames between it are certain.
 rc::Gen<Bytes> quiet_noise() {
-    return rc::gen::container<Bytes>(rc::gen::suchThat(rc::gen::arbitrary<std::uint8_t>(), [](std::uint8_t b) { return b != stx_v1 && b != stx_v2; }));
+    return rc::gen::container<Bytes>(rc::gen::suchThat(rc::gen::arbitrary<std::uint8_t>(),
+                                                       [](std::uint8_t b) { return b != stx_v1 && b != stx_v2; }));
 }
 
 }  // namespace
@@ -80,7 +85,8 @@ RC_GTEST_PROP(StreamParserProperty, AnyChunkingGivesTheSameEventsForUnknownIds, 
         const auto extra = static_cast<std::uint8_t>(*rc::gen::element(7, 7, 7, 9));
         const bool known = *rc::gen::inRange(0, 3) == 0;
         const MessageInfo info{known ? MessageId{0} : MessageId{9'999'999}, known ? std::uint8_t{50} : extra, 4, 4};
-        const auto frame = write_frame(buffer, {Version::v2, 0, {SystemId{1}, ComponentId{1}}, 0}, info, test::hex("01020304"));
+        const auto frame = write_frame(buffer, {Version::v2, 0, {SystemId{1}, ComponentId{1}}, 0}, info,
+                                       test::hex("01020304"));
         bytes.insert(bytes.end(), frame.bytes().begin(), frame.bytes().end());
         if (*rc::gen::inRange(0, 10) == 0) bytes.push_back(*rc::gen::arbitrary<std::uint8_t>());
     }
@@ -107,7 +113,8 @@ RC_GTEST_PROP(StreamParserProperty, EveryByteIsCountedOnce, ()) {
     sut.feed(bytes, MonoTime{}, log);
 
     const auto& c = sut.counters();
-    RC_ASSERT(c.frame_bytes.value() + c.flagged_bytes.value() + c.junk_bytes.value() + sut.pending_bytes() == bytes.size());
+    RC_ASSERT(c.frame_bytes.value() + c.flagged_bytes.value() + c.junk_bytes.value() + sut.pending_bytes() ==
+              bytes.size());
 }
 
 RC_GTEST_PROP(StreamParserProperty, GarbageLosesNoFrameItDoesNotOverlap, ()) {
@@ -146,9 +153,13 @@ RC_GTEST_PROP(DatagramParserProperty, DamageStaysWithTheDamagedFrame, ()) {
 
 RC_GTEST_PROP(FrameWriterProperty, WhatIsWrittenIsFoundAgain, ()) {
     const auto info = *rc::gen::elementOf(std::vector(test::golden_messages.begin(), test::golden_messages.end()));
-    const auto payload = *rc::gen::container<Bytes>(info.max_length, rc::gen::oneOf(rc::gen::just<std::uint8_t>(0), rc::gen::arbitrary<std::uint8_t>()));
-    const FrameHeader header{*rc::gen::element(Version::v2, Version::v1), *rc::gen::arbitrary<std::uint8_t>(),
-                             {SystemId{*rc::gen::arbitrary<std::uint8_t>()}, ComponentId{*rc::gen::arbitrary<std::uint8_t>()}}, 0};
+    const auto payload = *rc::gen::container<Bytes>(
+        info.max_length, rc::gen::oneOf(rc::gen::just<std::uint8_t>(0), rc::gen::arbitrary<std::uint8_t>()));
+    const FrameHeader header{
+        *rc::gen::element(Version::v2, Version::v1),
+        *rc::gen::arbitrary<std::uint8_t>(),
+        {SystemId{*rc::gen::arbitrary<std::uint8_t>()}, ComponentId{*rc::gen::arbitrary<std::uint8_t>()}},
+        0};
     RC_PRE(header.version == Version::v2 || fits_v1(info));
     FrameBuffer out;
     DatagramParser parser{table};
@@ -165,7 +176,8 @@ RC_GTEST_PROP(FrameWriterProperty, WhatIsWrittenIsFoundAgain, ()) {
         found.push_back(received);
     });
 
-    const auto sent = Bytes(payload.begin(), payload.begin() + (header.version == Version::v1 ? info.min_length : info.max_length));
+    const auto sent = Bytes(payload.begin(),
+                            payload.begin() + (header.version == Version::v1 ? info.min_length : info.max_length));
     RC_ASSERT(found == std::vector<Bytes>{sent});
 }
 
@@ -182,7 +194,8 @@ RC_GTEST_PROP(DatagramParserProperty, FindsWhatBruteForceFinds, ()) {
     });
 
     for (const auto& frame : good_frames) {
-        for (auto it = bytes.begin(); (it = std::search(it, bytes.end(), frame.begin(), frame.end())) != bytes.end(); ++it) {
+        for (auto it = bytes.begin(); (it = std::search(it, bytes.end(), frame.begin(), frame.end())) != bytes.end();
+             ++it) {
             const auto begin = static_cast<std::size_t>(it - bytes.begin());
             RC_ASSERT(std::ranges::any_of(found, [&](const auto& f) { return f.first <= begin && begin < f.second; }));
         }

@@ -270,7 +270,8 @@ TEST(Dialect, WithMoreMessagesThanTheTableCountsIsAnError) {
     for (unsigned file = 0; file < 4 && merged; ++file) {
         std::string text;
         for (unsigned i = file * each; i < (file + 1) * each; ++i)
-            text += fmt::format(R"(<message id="{0}" name="M{0}"><field type="float" name="x"/></message>)", 100'000 + i);
+            text += fmt::format(R"(<message id="{0}" name="M{0}"><field type="float" name="x"/></message>)",
+                                100'000 + i);
         folder.write("many.xml", messages(text));
         merged = merged->with(*folder.load("many.xml"));
     }

@@ -98,7 +98,8 @@ TEST(FrameQueue, HoldsItsWholeCapacityWherever) {
         std::size_t bytes = 0;
         for (; sut->push(entry(numbered(written))); ++written) bytes += 16 + (30 + written % 100 + 7) / 8 * 8;
         ASSERT_GT(bytes, sut->capacity() - 1024) << round;
-        for (unsigned to_read = round % 2 == 0 ? written - read : 5000; to_read != 0; --to_read) ASSERT_EQ(number_of(*sut->next()), read++);
+        for (unsigned to_read = round % 2 == 0 ? written - read : 5000; to_read != 0; --to_read)
+            ASSERT_EQ(number_of(*sut->next()), read++);
         const auto rest = written - read;
         for (unsigned i = 0; i < rest; ++i) ASSERT_EQ(number_of(*sut->next()), read++);
         ASSERT_FALSE(sut->next());

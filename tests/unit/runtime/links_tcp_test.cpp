@@ -139,7 +139,8 @@ TEST_F(LinksTcp, EveryFrameForAClientThatIsGoneStaysCounted) {
     ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
     std::size_t count = 0;
     while (!node.links->pending()) {
-        for (int i = 0; i < 500; ++i) count += node.links->send(in, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
+        for (int i = 0; i < 500; ++i)
+            count += node.links->send(in, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
         node.poll();
     }
     stalled.close();

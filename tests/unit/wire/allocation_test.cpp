@@ -19,7 +19,8 @@ TEST(Wire, AllocatesNothingForAFrameOrForJunk) {
     FrameBuffer out;
     auto damaged = test::attitude_v1;
     damaged[9] ^= 1;
-    const auto bytes = test::join({test::heartbeat_v2, {1, 2, 0xfd, 3}, damaged, test::tunnel_v2, test::heartbeat_signed_1, test::attitude_v1});
+    const auto bytes = test::join(
+        {test::heartbeat_v2, {1, 2, 0xfd, 3}, damaged, test::tunnel_v2, test::heartbeat_signed_1, test::attitude_v1});
     std::uint64_t frames = 0;
     const auto sink = [&](const ParseEvent& event) {
         if (event.kind != ParseEvent::Kind::frame) return;

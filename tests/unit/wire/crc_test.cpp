@@ -15,7 +15,8 @@ TEST(Crc, GivesTheCatalogueCheckValue) {
     const std::string_view digits = "123456789";
     const ByteView bytes{reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()};
 
-    for (const auto& form : crc_implementations()) EXPECT_EQ(form.update(crc_seed, bytes.data(), bytes.size()), 0x6f91) << form.name;
+    for (const auto& form : crc_implementations())
+        EXPECT_EQ(form.update(crc_seed, bytes.data(), bytes.size()), 0x6f91) << form.name;
 }
 
 TEST(Crc, OfNothingIsTheSeed) { EXPECT_EQ(crc_update(crc_seed, ByteView{}), 0xffff); }
@@ -24,7 +25,8 @@ TEST(Crc, AgreesWithFramesOfPymavlink) {
     const auto covered = ByteView{test::tunnel_v2}.subspan(1, test::tunnel_v2.size() - 3);
 
     for (const auto& form : crc_implementations())
-        EXPECT_EQ(crc_update(form.update(crc_seed, covered.data(), covered.size()), std::uint8_t{147}), 0x6615) << form.name;
+        EXPECT_EQ(crc_update(form.update(crc_seed, covered.data(), covered.size()), std::uint8_t{147}), 0x6615)
+            << form.name;
 }
 
 // All lengths that a frame can have, at every alignment: the fast form against byte by byte.
@@ -39,7 +41,8 @@ TEST(Crc, AllFormsAgreeByteByByteAtEveryLength) {
             std::uint16_t plain = static_cast<std::uint16_t>(size * 257);
             const std::uint16_t seed = plain;
             for (const auto b : view) plain = crc_update(plain, b);
-            for (const auto& form : crc_implementations()) ASSERT_EQ(form.update(seed, view.data(), size), plain) << form.name << ' ' << size;
+            for (const auto& form : crc_implementations())
+                ASSERT_EQ(form.update(seed, view.data(), size), plain) << form.name << ' ' << size;
         }
     }
 }

@@ -8,10 +8,10 @@
 
 namespace mavloom::wire {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using test::Bytes;
 using test::join;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 namespace {
 
@@ -31,7 +31,8 @@ const Bytes heartbeat_flag_4 = test::hex("fd09040007010100000000000402020c510403
 }  // namespace
 
 TEST_F(DatagramParserTest, FindsAllFramesOfADatagram) {
-    EXPECT_THAT(parse(join({test::heartbeat_v2, test::attitude_v1, test::tunnel_v2, test::heartbeat_signed_1, test::ping_zero_v2})),
+    EXPECT_THAT(parse(join({test::heartbeat_v2, test::attitude_v1, test::tunnel_v2, test::heartbeat_signed_1,
+                            test::ping_zero_v2})),
                 ElementsAre("frame 0/7", "frame 30/200", "frame 385/9", "frame 0/7", "frame 4/0"));
 }
 
@@ -99,7 +100,8 @@ TEST_F(DatagramParserTest, CountsEveryByteOnce) {
     parse(datagram);
 
     const auto& counters = sut.counters();
-    EXPECT_EQ(counters.frame_bytes.value() + counters.flagged_bytes.value() + counters.junk_bytes.value(), datagram.size());
+    EXPECT_EQ(counters.frame_bytes.value() + counters.flagged_bytes.value() + counters.junk_bytes.value(),
+              datagram.size());
     EXPECT_EQ(counters.frame_bytes.value(), test::heartbeat_v2.size() + test::attitude_v2.size());
 }
 

@@ -17,7 +17,9 @@ const MessageInfo ping = test::golden_messages[1];
 const MessageInfo attitude = test::golden_messages[2];
 const MessageInfo command_ack = test::golden_messages[3];
 
-FrameHeader header(Version version, std::uint8_t sequence) { return {version, sequence, {SystemId{1}, ComponentId{1}}, 0}; }
+FrameHeader header(Version version, std::uint8_t sequence) {
+    return {version, sequence, {SystemId{1}, ComponentId{1}}, 0};
+}
 
 SigningKey counting_key() {
     std::array<std::uint8_t, SigningKey::length> bytes{};
@@ -74,8 +76,9 @@ TEST(FrameWriter, SignsLikePymavlink) {
 
     EXPECT_EQ(copy(write_frame(out, header(Version::v2, 7), heartbeat, payload, {&signer, SigningTime{0}}).bytes()),
               test::heartbeat_signed_1);
-    EXPECT_EQ(copy(write_frame(out, header(Version::v2, 7), heartbeat, payload, {&signer, SigningTime{0x123456789abc}}).bytes()),
-              test::heartbeat_signed_late);
+    EXPECT_EQ(
+        copy(write_frame(out, header(Version::v2, 7), heartbeat, payload, {&signer, SigningTime{0x123456789abc}}).bytes()),
+        test::heartbeat_signed_late);
 }
 
 TEST(FrameView, ReadsEveryHeaderField) {

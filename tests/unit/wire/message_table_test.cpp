@@ -21,14 +21,16 @@ TEST(MessageTable, FindsSmallAndLargeIds) {
 
 TEST(MessageTable, HoldsThousandsOfIdsThatCollide) {
     std::vector<MessageInfo> infos;
-    for (std::uint32_t i = 0; i < 5000; ++i) infos.push_back({MessageId{1024 + i * 4096 % 0xff0000 + i}, static_cast<std::uint8_t>(i), 1, 1});
+    for (std::uint32_t i = 0; i < 5000; ++i)
+        infos.push_back({MessageId{1024 + i * 4096 % 0xff0000 + i}, static_cast<std::uint8_t>(i), 1, 1});
     const MessageTable sut(infos);
 
     for (const auto& info : infos) ASSERT_NE(sut.find(info.id), nullptr);
 }
 
 TEST(MessageTable, KeepsTheFirstOfTwoEqualIds) {
-    const std::vector<MessageInfo> infos{{MessageId{7}, 1, 1, 1}, {MessageId{7}, 2, 2, 2}, {MessageId{5000}, 3, 1, 1}, {MessageId{5000}, 4, 1, 1}};
+    const std::vector<MessageInfo> infos{
+        {MessageId{7}, 1, 1, 1}, {MessageId{7}, 2, 2, 2}, {MessageId{5000}, 3, 1, 1}, {MessageId{5000}, 4, 1, 1}};
     const MessageTable sut(infos);
 
     EXPECT_EQ(sut.find(MessageId{7})->crc_extra, 1);

@@ -81,8 +81,8 @@ TEST(SequenceTracker, LateIsAtMost30Behind) {
     SequenceTracker sut;
     for (unsigned s = 0; s < 60; s += 2) sut.update(TestFrame(s));  // expected is now 59
 
-    EXPECT_EQ(sut.update(TestFrame(29, 1, 9)).verdict, Verdict::late);     // 30 behind
-    EXPECT_EQ(sut.update(TestFrame(28, 1, 9)).verdict, Verdict::resync);   // 31 behind
+    EXPECT_EQ(sut.update(TestFrame(29, 1, 9)).verdict, Verdict::late);    // 30 behind
+    EXPECT_EQ(sut.update(TestFrame(28, 1, 9)).verdict, Verdict::resync);  // 31 behind
 }
 
 TEST(SequenceTracker, MarksASenderThatDoesNotCount) {

@@ -9,10 +9,10 @@
 namespace mavloom::wire {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using test::Bytes;
 using test::join;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 namespace {
 
@@ -29,7 +29,8 @@ struct StreamParserTest : ::testing::Test {
     }
 };
 
-const Bytes five_frames = join({test::heartbeat_v2, test::attitude_v1, test::tunnel_v2, test::heartbeat_signed_1, test::ping_zero_v2});
+const Bytes five_frames = join(
+    {test::heartbeat_v2, test::attitude_v1, test::tunnel_v2, test::heartbeat_signed_1, test::ping_zero_v2});
 
 }  // namespace
 
@@ -47,7 +48,8 @@ TEST_F(StreamParserTest, FindsFramesCutAnywhereInTwo) {
         test::ParseLog found;
         parser.feed(ByteView{five_frames}.first(cut), now, found);
         parser.feed(ByteView{five_frames}.subspan(cut), now, found);
-        ASSERT_THAT(found.events, ElementsAre("frame 0/7", "frame 30/200", "frame 385/9", "frame 0/7", "frame 4/0")) << cut;
+        ASSERT_THAT(found.events, ElementsAre("frame 0/7", "frame 30/200", "frame 385/9", "frame 0/7", "frame 4/0"))
+            << cut;
     }
 }
 

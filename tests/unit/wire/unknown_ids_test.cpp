@@ -16,7 +16,8 @@ namespace {
 struct Stranger {
     FrameBuffer buffer{};
     FrameView with(std::uint8_t extra, std::uint8_t system = 1, std::uint32_t id = 60000) {
-        return write_frame(buffer, {Version::v2, 0, {SystemId{system}, ComponentId{1}}, 0}, {MessageId{id}, extra, 4, 4}, test::hex("01020304"));
+        return write_frame(buffer, {Version::v2, 0, {SystemId{system}, ComponentId{1}}, 0},
+                           {MessageId{id}, extra, 4, 4}, test::hex("01020304"));
     }
 };
 

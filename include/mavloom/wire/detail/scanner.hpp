@@ -54,7 +54,8 @@ public:
     // Reports a run of junk that has not ended.
     template <class Sink>
     void end_junk(Sink&& sink) {
-        if (junk_run_ == 0) [[likely]] return;
+        if (junk_run_ == 0) [[likely]]
+            return;
         sink(ParseEvent{ParseEvent::Kind::junk, {}, nullptr, junk_run_});
         junk_run_ = 0;
     }
@@ -98,7 +99,8 @@ private:
             return {end == End::closed ? Candidate::Kind::nothing : Candidate::Kind::incomplete, 0, nullptr};
         const auto frame = FrameView::unchecked({p, length});
         const MessageInfo* info = table_->find(frame.id());
-        if (info == nullptr) [[unlikely]] return examine_unknown(frame, ByteView{p + length, size - length}, end);
+        if (info == nullptr) [[unlikely]]
+            return examine_unknown(frame, ByteView{p + length, size - length}, end);
         if (!checksum_agrees(frame, *info)) return {Candidate::Kind::bad_checksum, length, info};
         if ((frame.incompat_flags() & ~incompat_signed) != 0) return {Candidate::Kind::unknown_flags, length, info};
         return {Candidate::Kind::frame, length, info};
