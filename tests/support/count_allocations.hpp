@@ -18,10 +18,14 @@ inline thread_local std::size_t allocations = 0;
 }
 
 #ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
-// Not inlined: GCC would take new and free for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
+// Not inlined: GCC would take new and free for a mismatch. The nothrow form too: std::stable_sort takes its buffer by it and gives it back by
+// the plain delete, and the address sanitizer's own nothrow form would not match ours.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     ++mavloom::test::allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    return std::malloc(size == 0 ? 1 : size);
+}
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    if (void* p = operator new(size, std::nothrow)) return p;
     throw std::bad_alloc();
 }
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
