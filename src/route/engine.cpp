@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/route/engine.hpp"
+
+#include <algorithm>
+
+#include "mavloom/route/essential.hpp"
+#include "route/engine_impl.hpp"
+
+namespace mavloom::route {
+
+static constexpr MessageId heartbeat_id{0};
+static constexpr MessageId system_time_id{2};
+static constexpr std::size_t boot_time_offset = 8;  // of SYSTEM_TIME.time_boot_ms, behind time_unix_usec
+
+Engine::Engine(const wire::MessageTable& table, const Options& options)
+    : impl_(std::make_unique<Impl>(table, options)) {}
+Engine::Engine(Engine&&) noexcept = default;
+Engine& Engine::operator=(Engine&&) noexcept = default;
+Engine::~Engine() = default;
+
+bool Engine::add_link(LinkId link, const LinkPolicy& policy) { return impl_->add_link(link, policy); }
+void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
+std::size_t Engine::links() const noexcept { return impl_->link_count; }
+Decision Engine::route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
+                       MonoTime now) noexcept {
+    return impl_->route(frame, info, ingress, now);
+}
+Decision Engine::route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept {
+    return impl_->route(frame, impl_->table.find(frame.id()), ingress, now);
+}
+Decision Engine::explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
+                         std::vector<Explanation>& why) {
+    return impl_->explain(frame, info, ingress, now, why);
+}
+void Engine::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept {
+    impl_->note_sent(frame, link, now);
+}
+void Engine::set_loss(LinkId link, std::uint32_t permille) noexcept {
+    const Slot slot = impl_->slot_of(link);
+    if (slot != no_slot) impl_->links[slot]->loss_permille = permille;
+}
+std::vector<RouteInfo> Engine::routes(MonoTime now) const { return impl_->routes(now); }
+std::span<const DuplicateId> Engine::duplicate_ids() const noexcept { return impl_->duplicates; }
+std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(); }
+const EngineCounters& Engine::counters() const noexcept { return impl_->counters; }
+const LinkCounters* Engine::counters(LinkId link) const noexcept {
+    const Slot slot = impl_->slot_of(link);
+    return slot == no_slot ? nullptr : &impl_->links[slot]->counters;
+}
+
+Decision Engine::Impl::route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
+                             MonoTime now) noexcept {
+    const Slot slot = slot_of(ingress);
+    if (slot == no_slot) [[unlikely]] {
+        counters.unknown_link.add();
+        return {Verdict::unknown_link, {}};
+    }
+    now_ = std::max(now, now_);
+    Link& link = *links[slot];
+    Passage p{frame, info, frame.id(), pair_of(frame.source()), slot, link, now_};
+    RouteTable::Change change;
+    routes_.expire(now_, change);
+    count_routes(change);
+
+    const Verdict verdict = judge(p);
+    link.counters.frames.add();
+    count(link.counters, verdict);
+    if (verdict != Verdict::forwarded) std::fill_n(candidates_.begin(), words_, std::uint64_t{0});
+    if (verdict != Verdict::tap) add_taps(p);
+    if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
+    std::size_t n = 0;
+    each(candidates_.data(), words_, [&](Slot to) { out_[n++] = ids_[to]; });
+    return {verdict, {out_.data(), n}};
+}
+
+// Leaves in candidates_ where the frame goes, taps aside.
+Verdict Engine::Impl::judge(Passage& p) noexcept {
+    if (p.link.policy.tap) [[unlikely]]
+        return Verdict::tap;
+    if (p.link.filters_in && !p.link.policy.in.admits(p.id, p.frame.source())) return Verdict::filtered;
+    Verdict verdict = Verdict::forwarded;
+    if (is_heard_before(p, verdict)) return verdict;
+    learn(p);
+    if (p.link.policy.is_private) return Verdict::private_link;
+
+    verdict = choose_by_target(p);
+    if (verdict != Verdict::forwarded) return verdict;
+    leave_out_origin(p);
+    if (!any(candidates_.data(), words_)) return Verdict::nowhere;
+    apply_filters(p);
+    if (!any(candidates_.data(), words_)) return Verdict::filtered;
+    apply_groups(p);
+    apply_limits(p);
+    return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
+}
+
+// An echo comes back where it was sent; a duplicate was heard on another link of the group, or anywhere within `dedup`. A link that
+// delivers the same bytes once more has a sender who repeats itself: that is a new frame, unless `dedup` says otherwise.
+bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
+    if (!recent_.active()) return false;
+    const std::uint64_t hash = hash_of(p.frame.bytes(), options.seed);
+    if (recent_.find(hash, p.recent)) {
+        const Nanoseconds age = p.now - recent_.time(p.recent);
+        if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
+            verdict = Verdict::echo;
+            return true;
+        }
+        const Words heard = recent_.heard(p.recent);
+        const bool again_here = has(heard, p.slot);
+        const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here &&
+                                   intersect(heard, groups_[p.link.group].members.data(), words_);
+        if (copy_in_group || (age < options.dedup && any(heard, words_))) {
+            insert(heard, p.slot);
+            if (!again_here) learn(p);
+            verdict = Verdict::duplicate;
+            return true;
+        }
+    }
+    remember(p, hash);
+    return false;
+}
+
+void Engine::Impl::remember(Passage& p, std::uint64_t hash) noexcept {
+    if (recent_.put(hash, p.now, window_, p.recent)) counters.recent_evicted.add();
+    insert(recent_.heard(p.recent), p.slot);
+    p.is_remembered = true;
+}
+
+static std::uint32_t boot_ms_of(ByteView payload) noexcept {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4 && boot_time_offset + i < payload.size(); ++i)
+        value |= std::uint32_t{payload[boot_time_offset + i]} << (8 * i);
+    return value;
+}
+
+void Engine::Impl::learn(Passage& p) noexcept {
+    p.link.heard = true;
+    p.link.last_heard = p.now;
+    if (p.info == nullptr || p.frame.system().value == 0) return;
+    RouteTable::Change change;
+    Route* route = &routes_.learn(p.slot, p.source, p.now, change);
+    if (p.id == system_time_id) [[unlikely]] {
+        const std::uint32_t boot_ms = boot_ms_of(p.frame.payload());
+        if (route->has_boot && route->boot_ms > boot_ms && route->boot_ms - boot_ms > reboot_tolerance_ms) {
+            counters.reboots.add();
+            routes_.forget_system(p.frame.system());
+            route = &routes_.learn(p.slot, p.source, p.now, change);
+            --route->frames;  // the same frame
+        }
+        route->has_boot = true;
+        route->boot_ms = boot_ms;
+    }
+    count_routes(change);
+    watch_for_duplicate_ids(p);
+}
+
+void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
+    const ConstWords where = routes_.links_of(p.source);
+    std::uint64_t others = 0;
+    for (std::size_t w = 0; w < words_; ++w)
+        others |= where[w] & ~(w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0);
+    if (others == 0) [[likely]]
+        return;
+    Turns& turns = turns_[p.source];
+    if (turns.last == p.slot) return;
+    const bool last_knows = turns.last != no_slot && has(where, turns.last);
+    const bool one_group = last_knows && p.link.group != no_group && links[turns.last]->group == p.link.group;
+    if (one_group) return;
+    turns.count = last_knows ? static_cast<std::uint8_t>(turns.count + 1) : std::uint8_t{1};
+    if (turns.count >= turns_of_duplicates && !turns.told) {
+        turns.told = true;
+        counters.duplicate_ids.add();
+        if (duplicates.size() < max_duplicate_ids)
+            duplicates.push_back({source_of(p.source), links[turns.last]->id, p.link.id});
+    }
+    turns.count = std::min(turns.count, turns_of_duplicates);
+    turns.last = p.slot;
+}
+
+Verdict Engine::Impl::to_everybody() noexcept {
+    assign(candidates_.data(), ordinary_.data(), words_);
+    if (reasons_ != nullptr) [[unlikely]]
+        each(private_.data(), words_, [&](Slot slot) { note(slot, Reason::private_link); });
+    return Verdict::forwarded;
+}
+
+Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
+    std::uint8_t system = 0, component = 0;
+    if (p.info != nullptr) {
+        // What the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) is 0.
+        const ByteView payload = p.frame.payload();
+        if (p.info->target_system_offset < payload.size()) system = payload[p.info->target_system_offset];
+        if (p.info->target_component_offset < payload.size()) component = payload[p.info->target_component_offset];
+    }
+    if (system == 0) return to_everybody();
+    const Source target{SystemId{system}, ComponentId{component}};
+    if (options.own == target) return Verdict::consumed;
+
+    const ConstWords pair = routes_.links_of(pair_of(target));
+    const bool exact = component != 0 && any(pair, words_);
+    if (exact) {
+        assign(candidates_.data(), pair, words_);
+    } else {
+        const ConstWords of_system = routes_.links_of(SystemId{system});
+        if (!any(of_system, words_)) {
+            if (options.unknown_target == UnknownTarget::flood) return to_everybody();
+            ++unknown_[pair_of(target)];
+            return Verdict::unknown_target;
+        }
+        if (component != 0 && options.unknown_component == UnknownComponent::drop) {
+            ++unknown_[pair_of(target)];
+            return Verdict::unknown_target;
+        }
+        for (std::size_t w = 0; w < words_; ++w) candidates_[w] = of_system[w] & ~private_[w];
+    }
+    if (reasons_ != nullptr) [[unlikely]] {
+        each(ordinary_.data(), words_, [&](Slot slot) {
+            if (!has(candidates_.data(), slot)) note(slot, Reason::other_target);
+        });
+        each(private_.data(), words_, [&](Slot slot) {
+            if (!has(candidates_.data(), slot)) note(slot, Reason::private_link);
+        });
+    }
+    return Verdict::forwarded;
+}
+
+void Engine::Impl::leave_out(ConstWords set, Reason reason) noexcept {
+    for (std::size_t w = 0; w < words_; ++w) {
+        if (reasons_ != nullptr) [[unlikely]]
+            each_in_word(candidates_[w] & set[w], static_cast<Slot>(64 * w), [&](Slot slot) { note(slot, reason); });
+        candidates_[w] &= ~set[w];
+    }
+}
+
+void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
+    erase(candidates_.data(), p.slot);
+    note(p.slot, Reason::ingress);
+    if (p.link.group != no_group) leave_out(groups_[p.link.group].members.data(), Reason::same_group);
+    leave_out(routes_.links_of(p.source), Reason::source_here);
+}
+
+void Engine::Impl::apply_filters(const Passage& p) noexcept {
+    for (const OutFilter& filter : filters_) {
+        if (!intersect(candidates_.data(), filter.links.data(), words_)) continue;
+        if (filter.filter.admits(p.id, p.frame.source())) continue;
+        for (std::size_t w = 0; w < words_; ++w)
+            each_in_word(candidates_[w] & filter.links[w], static_cast<Slot>(64 * w),
+                         [&](Slot slot) { links[slot]->counters.out_filtered.add(); });
+        leave_out(filter.links.data(), Reason::filtered);
+    }
+}
+
+// HEARTBEAT goes on every link of a group: so each side hears which of them live.
+void Engine::Impl::apply_groups(const Passage& p) noexcept {
+    if (!chooses_members_ || p.id == heartbeat_id) return;
+    for (Group& group : groups_) {
+        if (group.mode == GroupMode::all) continue;
+        std::size_t size = 0;
+        for (std::size_t w = 0; w < words_; ++w) {
+            scratch_[w] = candidates_[w] & group.members[w];
+            size += static_cast<std::size_t>(std::popcount(scratch_[w]));
+        }
+        if (size < 2) continue;
+        const Slot chosen = choose_member(group, scratch_.data(), p.now);
+        if (chosen == no_slot) continue;
+        erase(scratch_.data(), chosen);
+        leave_out(scratch_.data(), Reason::other_member);
+    }
+}
+
+bool Engine::Impl::is_alive(const Link& link, MonoTime now) const noexcept {
+    return link.heard && now - link.last_heard < member_silence;
+}
+
+// no_slot where none is alive: then all are tried.
+Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) noexcept {
+    Slot best = no_slot;
+    for (const Slot slot : group.order) {
+        const Link& link = *links[slot];
+        if (!has(candidates, slot) || !is_alive(link, now)) continue;
+        if (group.mode == GroupMode::primary) return slot;
+        if (best == no_slot || link.loss_permille < links[best]->loss_permille ||
+            (link.loss_permille == links[best]->loss_permille && link.last_heard > links[best]->last_heard))
+            best = slot;
+    }
+    if (best == no_slot) return no_slot;
+    const Slot current = group.current;
+    const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
+                       links[current]->loss_permille < links[best]->loss_permille + better_by_permille;
+    if (!stays) group.current = best;
+    return group.current;
+}
+
+EgressLimiter::Answer Engine::Impl::limit(Link& link, const Passage& p) noexcept {
+    const auto answer = link.limiter.admit(p.frame, is_essential(p.id), p.now);
+    if (answer == EgressLimiter::Answer::rate_limited) link.counters.out_rate_limited.add();
+    if (answer == EgressLimiter::Answer::bytes_limited) link.counters.out_bytes_limited.add();
+    return answer;
+}
+
+static constexpr Reason reason_of(EgressLimiter::Answer answer) noexcept {
+    return answer == EgressLimiter::Answer::rate_limited ? Reason::rate_limited : Reason::bytes_limited;
+}
+
+void Engine::Impl::apply_limits(const Passage& p) noexcept {
+    for (std::size_t w = 0; w < words_; ++w)
+        each_in_word(candidates_[w] & limited_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
+            const auto answer = limit(*links[slot], p);
+            if (answer == EgressLimiter::Answer::admitted) return;
+            erase(candidates_.data(), slot);
+            note(slot, reason_of(answer));
+        });
+}
+
+void Engine::Impl::add_taps(const Passage& p) noexcept {
+    each(taps_.data(), words_, [&](Slot slot) {
+        Link& link = *links[slot];
+        if (!link.policy.out.admits(p.id, p.frame.source())) {
+            link.counters.out_filtered.add();
+            note(slot, Reason::filtered);
+            return;
+        }
+        const auto answer = has(limited_.data(), slot) ? limit(link, p) : EgressLimiter::Answer::admitted;
+        if (answer == EgressLimiter::Answer::admitted) {
+            insert(candidates_.data(), slot);
+            note(slot, Reason::tap);
+        } else {
+            note(slot, reason_of(answer));
+        }
+    });
+}
+
+void Engine::Impl::count(LinkCounters& of, Verdict verdict) noexcept {
+    switch (verdict) {
+        case Verdict::forwarded: of.forwarded.add(); break;
+        case Verdict::nowhere: of.nowhere.add(); break;
+        case Verdict::filtered: of.filtered.add(); break;
+        case Verdict::rate_limited: of.rate_limited.add(); break;
+        case Verdict::duplicate: of.duplicate.add(); break;
+        case Verdict::echo: of.echo.add(); break;
+        case Verdict::unknown_target: of.unknown_target.add(); break;
+        case Verdict::consumed: of.consumed.add(); break;
+        case Verdict::tap: of.tap.add(); break;
+        case Verdict::private_link: of.private_link.add(); break;
+        case Verdict::unknown_link: break;
+    }
+}
+
+void Engine::Impl::count_routes(const RouteTable::Change& change) noexcept {
+    if ((change.learned | change.expired | change.evicted) == 0) [[likely]]
+        return;
+    counters.routes_learned.add(change.learned);
+    counters.routes_expired.add(change.expired);
+    counters.routes_evicted.add(change.evicted);
+}
+
+Decision Engine::Impl::explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
+                               MonoTime now, std::vector<Explanation>& why) {
+    std::vector<Reason> reasons(links.size(), Reason::dropped);
+    reasons_ = &reasons;
+    const Decision decision = route(frame, info, ingress, now);
+    reasons_ = nullptr;
+    why.clear();
+    for (Slot slot = 0; slot < links.size(); ++slot) {
+        if (links[slot] == nullptr) continue;
+        const bool goes = has(candidates_.data(), slot) && decision.verdict != Verdict::unknown_link;
+        if (goes && reasons[slot] != Reason::tap) reasons[slot] = Reason::sent;
+        why.push_back({links[slot]->id, reasons[slot]});
+    }
+    std::sort(why.begin(), why.end(), [](const Explanation& a, const Explanation& b) { return a.link < b.link; });
+    return decision;
+}
+
+void Engine::Impl::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept {
+    const Slot slot = slot_of(link);
+    if (slot == no_slot || !recent_.active()) return;
+    now_ = std::max(now, now_);
+    const std::uint64_t hash = hash_of(frame.bytes(), options.seed);
+    std::size_t at = 0;
+    if (!recent_.find(hash, at) || now_ - recent_.time(at) >= echo_window)
+        if (recent_.put(hash, now_, window_, at)) counters.recent_evicted.add();
+    insert(recent_.sent(at), slot);
+}
+
+}  // namespace mavloom::route

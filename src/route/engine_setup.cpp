@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// What an Engine does when links come and go, and its lists for people.
+#include <algorithm>
+#include <bit>
+#include <chrono>
+
+#include "route/engine_impl.hpp"
+
+namespace mavloom::route {
+
+static constexpr std::size_t pairs = 1u << 16;
+// Longer times mean for ever, and sums with the clock stay in range.
+static constexpr Nanoseconds longest = std::chrono::hours{24 * 365 * 50};
+
+static Options bounded(Options options) {
+    options.dedup = std::clamp(options.dedup, Nanoseconds{}, longest);
+    options.route_timeout = std::clamp(options.route_timeout, Nanoseconds{}, longest);
+    return options;
+}
+
+Engine::Impl::Impl(const wire::MessageTable& message_table, const Options& given)
+    : table(message_table),
+      options(bounded(given)),
+      window_(std::max(echo_window, options.dedup)),
+      index_(128, no_slot),
+      routes_(max_routes, max_routes_per_link),
+      turns_(pairs),
+      unknown_(pairs) {
+    grow(64);
+    rebuild();
+}
+
+Slot Engine::Impl::slot_of(LinkId id) const noexcept {
+    const std::size_t mask = index_.size() - 1;
+    for (std::size_t at = id.value & mask; index_[at] != no_slot; at = (at + 1) & mask)
+        if (ids_[index_[at]] == id) return index_[at];
+    return no_slot;
+}
+
+void Engine::Impl::grow(std::size_t slots) {
+    words_ = slots / 64;
+    routes_.resize(words_);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &candidates_, &scratch_}) set->resize(words_);
+    out_.resize(slots);
+    ids_.resize(slots);
+}
+
+bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
+    if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
+    const auto free = std::find(links.begin(), links.end(), nullptr);
+    const auto slot = static_cast<Slot>(free - links.begin());
+    if (free == links.end()) {
+        if (links.size() == words_ * 64) grow(2 * words_ * 64);
+        links.emplace_back();
+    }
+    links[slot].reset(new Link{.id = id,
+                               .policy = policy,
+                               .limiter = EgressLimiter(policy.max_rate, policy.max_bytes_per_s),
+                               .filters_in = !policy.in.admits_all()});
+    ids_[slot] = id;
+    ++link_count;
+    routes_.add_link(slot, std::clamp(policy.route_timeout.value_or(options.route_timeout), Nanoseconds{}, longest));
+    index_links();
+    rebuild();
+    return true;
+}
+
+void Engine::Impl::remove_link(LinkId id) {
+    const Slot slot = slot_of(id);
+    if (slot == no_slot) return;
+    routes_.remove_link(slot);
+    recent_.forget(slot);
+    for (Turns& turns : turns_)
+        if (turns.last == slot) turns.last = no_slot;
+    links[slot].reset();
+    ids_[slot] = LinkId{};
+    --link_count;
+    index_links();
+    rebuild();
+}
+
+void Engine::Impl::index_links() {
+    index_.assign(std::bit_ceil(std::max<std::size_t>(128, 2 * links.size())), no_slot);
+    const std::size_t mask = index_.size() - 1;
+    for (Slot slot = 0; slot < links.size(); ++slot) {
+        if (links[slot] == nullptr) continue;
+        std::size_t at = links[slot]->id.value & mask;
+        while (index_[at] != no_slot) at = (at + 1) & mask;
+        index_[at] = slot;
+    }
+}
+
+std::uint32_t Engine::Impl::group_index(const Link& link) {
+    const auto same = [&](const Group& group) { return group.id == link.policy.group; };
+    const auto at = std::find_if(groups_.begin(), groups_.end(), same);
+    if (at == groups_.end())
+        groups_.push_back({.id = link.policy.group, .mode = link.policy.group_mode, .members{}, .order{}});
+    return static_cast<std::uint32_t>(at - groups_.begin());
+}
+
+// All sets that follow from the links and their policies.
+void Engine::Impl::rebuild() {
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
+    for (Group& group : groups_) {
+        group.members.assign(words_, 0);
+        group.order.clear();
+    }
+    filters_.clear();
+    for (Slot slot = 0; slot < links.size(); ++slot) {
+        if (links[slot] == nullptr) continue;
+        Link& link = *links[slot];
+        route::insert(link.policy.tap          ? taps_.data()
+                      : link.policy.is_private ? private_.data()
+                                               : ordinary_.data(),
+                      slot);
+        if (link.limiter.limits()) route::insert(limited_.data(), slot);
+        if (link.policy.tap) continue;
+        if (!link.policy.out.admits_all()) {
+            const auto same = [&](const OutFilter& f) { return f.filter == link.policy.out; };
+            auto at = std::find_if(filters_.begin(), filters_.end(), same);
+            if (at == filters_.end()) at = filters_.insert(at, {link.policy.out, std::vector<std::uint64_t>(words_)});
+            route::insert(at->links.data(), slot);
+        }
+        if (link.policy.group.value == 0) continue;
+        link.group = group_index(link);
+        Group& group = groups_[link.group];
+        group.members.resize(words_);
+        route::insert(group.members.data(), slot);
+        group.order.push_back(slot);
+    }
+    const auto preferred = [&](Slot a, Slot b) {
+        const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
+        return rank(a) < rank(b);
+    };
+    chooses_members_ = false;
+    for (Group& group : groups_) {
+        std::sort(group.order.begin(), group.order.end(), preferred);
+        if (group.current != no_slot && !has(group.members.data(), group.current)) group.current = no_slot;
+        chooses_members_ = chooses_members_ || (group.mode != GroupMode::all && group.order.size() > 1);
+    }
+    // With one link nothing is sent anywhere, and nothing can come back.
+    const bool remembers = link_count > 1 || options.dedup > Nanoseconds{} || recent_.active();
+    recent_.resize(remembers ? options.recent_frames : 0, words_);
+}
+
+std::vector<RouteInfo> Engine::Impl::routes(MonoTime now) const {
+    std::vector<RouteInfo> list;
+    routes_.each_known([&](const Route& route, std::int64_t timeout_ns) {
+        const std::int64_t age_ns = now.time_since_epoch().count() - route.heard_ns;
+        if (age_ns < timeout_ns)
+            list.push_back({ids_[route.slot], source_of(route.pair), Nanoseconds{std::max<std::int64_t>(age_ns, 0)},
+                            route.frames});
+    });
+    std::sort(list.begin(), list.end(), [](const RouteInfo& a, const RouteInfo& b) {
+        return std::pair{a.source, a.link} < std::pair{b.source, b.link};
+    });
+    return list;
+}
+
+std::vector<UnknownTargetInfo> Engine::Impl::unknown_targets() const {
+    std::vector<UnknownTargetInfo> list;
+    for (std::size_t pair = 0; pair < unknown_.size(); ++pair)
+        if (unknown_[pair] != 0) list.push_back({source_of(static_cast<Pair>(pair)), unknown_[pair]});
+    return list;
+}
+
+}  // namespace mavloom::route

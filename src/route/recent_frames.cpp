@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "route/recent_frames.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace mavloom::route {
+
+// The 128-bit product folded: every bit of the result depends on every bit of both.
+static std::uint64_t mix(std::uint64_t a, std::uint64_t b) noexcept {
+    __extension__ using Wide = unsigned __int128;
+    const Wide product = static_cast<Wide>(a) * b;
+    return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+
+std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept {
+    constexpr std::uint64_t k0 = 0x9e3779b97f4a7c15u, k1 = 0xd6e8feb86659fd93u;
+    const std::uint8_t* p = frame.data();
+    std::size_t left = frame.size();
+    std::uint64_t h = seed ^ mix(k0 ^ left, k1 ^ seed);
+    for (; left > 16; left -= 16, p += 16)
+        h = mix(load_le<std::uint64_t>(p) ^ k0, load_le<std::uint64_t>(p + 8) ^ k1 ^ h);
+    // The last 8 to 16 bytes, and for shorter rests some before them once more.
+    const std::uint8_t* const end = p + left;
+    const std::uint64_t first = left >= 8 ? load_le<std::uint64_t>(p) : 0;
+    h = mix(first ^ k1, load_le<std::uint64_t>(end - 8) ^ k0 ^ h);
+    h = mix(h ^ k0, k1);
+    return h == 0 ? 1 : h;
+}
+
+void RecentFrames::resize(std::size_t capacity, std::size_t words) {
+    if (capacity != 0) {
+        capacity = std::bit_ceil(std::max<std::size_t>(capacity, 64));
+        while (capacity > 4096 && capacity * 2 * words * sizeof(std::uint64_t) > most_set_bytes) capacity /= 2;
+    }
+    if (capacity == entries_.size() && words == words_) return;
+    RecentFrames grown;
+    grown.words_ = words;
+    grown.entries_.resize(capacity);
+    grown.sets_.resize(capacity * 2 * words);
+    const std::size_t kept = std::min(words, words_);
+    for (std::size_t i = 0; i < entries_.size() && capacity != 0; ++i) {
+        if (entries_[i].hash == 0) continue;
+        std::size_t at = 0;
+        grown.put(entries_[i].hash, entries_[i].time, Nanoseconds{}, at);
+        assign(grown.heard(at), heard(i), kept);
+        assign(grown.sent(at), sent(i), kept);
+    }
+    *this = std::move(grown);
+}
+
+bool RecentFrames::find(std::uint64_t hash, std::size_t& index) const noexcept {
+    const std::size_t first = bucket(hash);
+    for (std::size_t i = first; i < first + ways; ++i) {
+        if (entries_[i].hash != hash) continue;
+        index = i;
+        return true;
+    }
+    return false;
+}
+
+bool RecentFrames::put(std::uint64_t hash, MonoTime now, Nanoseconds window, std::size_t& index) noexcept {
+    bool gave_way = false;
+    if (!find(hash, index)) {
+        index = bucket(hash);
+        for (std::size_t i = index + 1; i < bucket(hash) + ways; ++i)
+            if (entries_[index].hash != 0 && (entries_[i].hash == 0 || entries_[i].time < entries_[index].time))
+                index = i;
+        gave_way = entries_[index].hash != 0 && now - entries_[index].time < window;
+    }
+    entries_[index] = {hash, now};
+    std::fill_n(heard(index), 2 * words_, std::uint64_t{0});
+    return gave_way;
+}
+
+void RecentFrames::forget(Slot slot) noexcept {
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        erase(heard(i), slot);
+        erase(sent(i), slot);
+    }
+}
+
+}  // namespace mavloom::route

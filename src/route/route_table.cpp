@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "route/route_table.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
+namespace mavloom::route {
+
+static_assert(std::is_trivially_default_constructible_v<Route>, "so that no page is touched before it is needed");
+
+static constexpr std::size_t pairs = 1u << 16;
+static constexpr std::size_t systems = 256;
+
+RouteTable::RouteTable(std::size_t most, std::size_t per_link)
+    : most_(most),
+      per_link_(per_link),
+      routes_(new Route[most]),
+      index_(std::bit_ceil(2 * most), none),
+      shift_(32u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
+    resize(1);
+}
+
+void RouteTable::resize(std::size_t words) {
+    words_ = words;
+    pair_links_.assign(pairs * words, 0);
+    system_links_.assign(systems * words, 0);
+    system_counts_.assign(systems * words * 64, 0);
+    for (const Link& link : links_)
+        for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
+            if (routes_[i].known) set_known(routes_[i]);
+}
+
+void RouteTable::add_link(Slot slot, Nanoseconds timeout) {
+    if (slot >= links_.size()) links_.resize(slot + 1);
+    links_[slot] = Link{.timeout_ns = timeout.count()};
+}
+
+void RouteTable::remove_link(Slot slot) noexcept {
+    while (links_[slot].oldest != none) remove(links_[slot].oldest);
+}
+
+Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
+    Link& link = links_[slot];
+    std::uint32_t index = link.newest;
+    if (index == none || routes_[index].pair != pair) {
+        const std::size_t place = place_of(slot, pair);
+        index = index_[place];
+        if (index == none) {
+            index = static_cast<std::uint32_t>(&insert(slot, pair, place, change) - routes_.get());
+        } else {
+            unlink(index);
+            append(index);
+        }
+    }
+    Route& route = routes_[index];
+    route.heard_ns = now.time_since_epoch().count();
+    ++route.frames;
+    if (!route.known) [[unlikely]] {
+        set_known(route);
+        ++change.learned;
+        next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + link.timeout_ns);
+    }
+    return route;
+}
+
+// Where the route's index stands, or the empty place where it would.
+std::size_t RouteTable::place_of(Slot slot, Pair pair) const noexcept {
+    std::size_t at = home(slot, pair);
+    while (index_[at] != none && (routes_[index_[at]].slot != slot || routes_[index_[at]].pair != pair))
+        at = (at + 1) & (index_.size() - 1);
+    return at;
+}
+
+Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& change) noexcept {
+    if (links_[slot].count >= per_link_ || count_ >= most_) {
+        make_room(slot, change);
+        place = place_of(slot, pair);
+    }
+    std::uint32_t index = free_;
+    if (index != none) {
+        free_ = routes_[index].newer;
+    } else {
+        index = static_cast<std::uint32_t>(used_++);
+    }
+    routes_[index] = Route{.heard_ns = 0,
+                           .frames = 0,
+                           .older = none,
+                           .newer = none,
+                           .boot_ms = 0,
+                           .slot = slot,
+                           .pair = pair,
+                           .known = false,
+                           .has_boot = false};
+    index_[place] = index;
+    append(index);
+    ++links_[slot].count;
+    ++count_;
+    return routes_[index];
+}
+
+void RouteTable::make_room(Slot slot, Change& change) noexcept {
+    const auto fewer = [](const Link& a, const Link& b) { return a.count < b.count; };
+    const bool own_limit = links_[slot].count >= per_link_;
+    const Link& from = own_limit ? links_[slot] : *std::max_element(links_.begin(), links_.end(), fewer);
+    remove(from.oldest);
+    ++change.evicted;
+}
+
+void RouteTable::set_known(Route& route) noexcept {
+    const std::size_t system = route.pair >> 8;
+    route.known = true;
+    route::insert(&pair_links_[route.pair * words_], route.slot);
+    if (system_counts_[system * words_ * 64 + route.slot]++ == 0)
+        route::insert(&system_links_[system * words_], route.slot);
+}
+
+void RouteTable::set_unknown(Route& route) noexcept {
+    const std::size_t system = route.pair >> 8;
+    route.known = false;
+    erase(&pair_links_[route.pair * words_], route.slot);
+    if (--system_counts_[system * words_ * 64 + route.slot] == 0) erase(&system_links_[system * words_], route.slot);
+}
+
+void RouteTable::append(std::uint32_t index) noexcept {
+    Link& link = links_[routes_[index].slot];
+    routes_[index].older = link.newest;
+    routes_[index].newer = none;
+    (link.newest != none ? routes_[link.newest].newer : link.oldest) = index;
+    link.newest = index;
+}
+
+void RouteTable::unlink(std::uint32_t index) noexcept {
+    const Route& route = routes_[index];
+    Link& link = links_[route.slot];
+    (route.older != none ? routes_[route.older].newer : link.oldest) = route.newer;
+    (route.newer != none ? routes_[route.newer].older : link.newest) = route.older;
+}
+
+void RouteTable::remove(std::uint32_t index) noexcept {
+    Route& route = routes_[index];
+    if (route.known) set_unknown(route);
+    erase_place(place_of(route.slot, route.pair));
+    unlink(index);
+    --links_[route.slot].count;
+    --count_;
+    route.newer = free_;
+    free_ = index;
+}
+
+// Moves back what stands behind the hole, so that every entry is still reached from its home without meeting an empty place.
+void RouteTable::erase_place(std::size_t place) noexcept {
+    const std::size_t mask = index_.size() - 1;
+    std::size_t hole = place;
+    for (std::size_t at = (hole + 1) & mask; index_[at] != none; at = (at + 1) & mask) {
+        const Route& route = routes_[index_[at]];
+        if (((at - home(route.slot, route.pair)) & mask) < ((at - hole) & mask)) continue;
+        index_[hole] = index_[at];
+        hole = at;
+    }
+    index_[hole] = none;
+}
+
+void RouteTable::forget_system(SystemId system) noexcept {
+    for (std::size_t component = 0; component < 256; ++component) {
+        const auto pair = static_cast<Pair>(system.value << 8 | component);
+        const Words set = &pair_links_[pair * words_];
+        for (std::size_t w = 0; w < words_; ++w)
+            each_in_word(set[w], static_cast<Slot>(64 * w),
+                         [&](Slot slot) { set_unknown(routes_[index_[place_of(slot, pair)]]); });
+    }
+}
+
+void RouteTable::expire_now(std::int64_t now_ns, Change& change) noexcept {
+    next_expiry_ns_ = never;
+    for (Link& link : links_) {
+        while (link.oldest != none && now_ns - routes_[link.oldest].heard_ns >= link.timeout_ns) {
+            change.expired += routes_[link.oldest].known ? 1 : 0;
+            remove(link.oldest);
+        }
+        if (link.oldest != none)
+            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].heard_ns + link.timeout_ns);
+    }
+}
+
+}  // namespace mavloom::route

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What was learned: which system and component was heard on which link, when, and how often. Looked up by sets of links per (system) and
+// (system, component); forgotten exactly at each link's timeout. Fixed memory: a link has at most `per_link` routes and all together `most`, and
+// the stalest gives way. Private to module route; one owner thread.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/base/ids.hpp"
+#include "route/link_set.hpp"
+
+namespace mavloom::route {
+
+using Pair = std::uint16_t;  // system * 256 + component
+[[nodiscard]] constexpr Pair pair_of(Source source) noexcept {
+    return static_cast<Pair>(source.system.value << 8 | source.component.value);
+}
+[[nodiscard]] constexpr Source source_of(Pair pair) noexcept {
+    return {SystemId{static_cast<std::uint8_t>(pair >> 8)}, ComponentId{static_cast<std::uint8_t>(pair)}};
+}
+
+struct Route {
+    std::int64_t heard_ns;  // steady clock
+    std::uint64_t frames;
+    std::uint32_t older, newer;  // routes of the same link by age
+    std::uint32_t boot_ms;       // the newest SYSTEM_TIME.time_boot_ms
+    Slot slot;
+    Pair pair;
+    bool known;     // false: forgotten by a reboot, kept for its count
+    bool has_boot;  // boot_ms is set
+};
+
+class RouteTable {
+public:
+    struct Change {
+        std::uint32_t learned = 0, expired = 0, evicted = 0;
+    };
+
+    RouteTable(std::size_t most, std::size_t per_link);
+
+    // The number of words that a set of links takes; keeps what was learned.
+    void resize(std::size_t words);
+    void add_link(Slot slot, Nanoseconds timeout);
+    void remove_link(Slot slot) noexcept;
+
+    // Forgets what is older than its link's timeout. To be called before the sets are used.
+    void expire(MonoTime now, Change& change) noexcept {
+        if (now.time_since_epoch().count() >= next_expiry_ns_) expire_now(now.time_since_epoch().count(), change);
+    }
+    // A frame of this source was heard. The reference is valid until the next call.
+    Route& learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
+    void forget_system(SystemId system) noexcept;
+
+    [[nodiscard]] ConstWords links_of(Pair pair) const noexcept { return &pair_links_[pair * words_]; }
+    [[nodiscard]] ConstWords links_of(SystemId system) const noexcept { return &system_links_[system.value * words_]; }
+
+    // Calls f(const Route&, timeout) for every known route, link by link.
+    template <class F>
+    void each_known(F&& f) const {
+        for (const Link& link : links_)
+            for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
+                if (routes_[i].known) f(routes_[i], link.timeout_ns);
+    }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+    struct Link {
+        std::uint32_t oldest = none, newest = none;
+        std::uint32_t count = 0;
+        std::int64_t timeout_ns = 0;
+    };
+
+    [[nodiscard]] std::size_t home(Slot slot, Pair pair) const noexcept {
+        return ((slot << 16 | pair) * 0x9e3779b1u) >> shift_;
+    }
+    [[nodiscard]] std::size_t place_of(Slot slot, Pair pair) const noexcept;
+    Route& insert(Slot slot, Pair pair, std::size_t place, Change& change) noexcept;
+    void make_room(Slot slot, Change& change) noexcept;
+    void set_known(Route& route) noexcept;
+    void set_unknown(Route& route) noexcept;
+    void append(std::uint32_t index) noexcept;
+    void unlink(std::uint32_t index) noexcept;
+    void remove(std::uint32_t index) noexcept;
+    void erase_place(std::size_t place) noexcept;
+    void expire_now(std::int64_t now_ns, Change& change) noexcept;
+
+    std::size_t most_, per_link_, words_ = 1;
+    std::size_t used_ = 0;       // of routes_; the first so many were in use at some time
+    std::uint32_t free_ = none;  // a list by `newer`
+    std::size_t count_ = 0;
+    std::unique_ptr<Route[]> routes_;   // pages are touched as they are needed
+    std::vector<std::uint32_t> index_;  // open addressing by (slot, pair)
+    unsigned shift_;
+    std::vector<Link> links_;  // by slot
+    std::vector<std::uint64_t> pair_links_, system_links_;
+    std::vector<std::uint16_t> system_counts_;  // known routes per system and slot
+    std::int64_t next_expiry_ns_ = never;       // not later than the first that is due
+};
+
+}  // namespace mavloom::route
