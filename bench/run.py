@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, each beside its peer: ./run bench [parse|decode|listen ...]"""
+"""Runs the benchmarks behind docs/performance.md, one after the other, each beside its peer: ./run bench [parse|decode|listen|route ...]
+Options that are not known here go to the one benchmark that is named: ./run bench route --quick"""
 import argparse
 import pathlib
 import platform
@@ -17,6 +18,7 @@ def commands(program, build):
         "parse": [[folder / "parse_bench", FLIGHT, chunk] for chunk in ("4096", "65536", "256")],
         "decode": [[sys.executable, HERE / "decode.py", "--program", program]],
         "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
+        "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
     }
 
 
@@ -25,7 +27,9 @@ def main():
     parser.add_argument("--program", default="build/release/bin/mavloom")
     parser.add_argument("--build", default="build/release")
     parser.add_argument("what", nargs="*", help="some of them; all without")
-    options = parser.parse_args()
+    options, more = parser.parse_known_args()
+    if more and len(options.what) != 1:
+        parser.error(f"{' '.join(more)}: for which benchmark?")
     table = commands(options.program, options.build)
     if unknown := set(options.what) - set(table):
         parser.error(f"no benchmark {', '.join(sorted(unknown))}; there are {', '.join(table)}")
@@ -34,7 +38,7 @@ def main():
     for what in options.what or table:
         for command in table[what]:
             print(f"\n== {what}: {' '.join(str(part) for part in command[1:])}", flush=True)
-            status = max(status, subprocess.run([str(part) for part in command]).returncode)
+            status = max(status, subprocess.run([str(part) for part in [*command, *more]]).returncode)
     return status
 
 

@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""bench route: routers under load, whole processes, in turns: same sockets, same frames, every frame that arrives compared with what was sent.
+Ratios are to the bare loop of the same round. CPU is that of the router's process, user and system, for each frame delivered. Status 4 where mavloom
+lost what the bare loop of the same round delivered, or delivered what was not sent."""
+import argparse
+import json
+import pathlib
+import statistics
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "bench" / "route"))
+import peers as routers  # noqa: E402
+from measure import Kit, Load, NoAnswer, measure  # noqa: E402
+
+LOADS = [
+    Load("10k", "1 to 1, 10,000 single-frame datagrams/s", 10_000, sink_rest_us=0),
+    Load("100k", "1 to 1, 100,000 single-frame datagrams/s", 100_000),
+    Load("8x300k", "1 to 1, 8 frames a datagram, 300,000 frames/s", 300_000, per_datagram=8),
+    Load("8x1M", "1 to 1, 8 frames a datagram, 1,000,000 frames/s", 1_000_000, per_datagram=8, longest_s=5),
+    Load("1to4", "1 to 4, 100,000 frames/s in", 100_000, outs=4),
+    Load("1to16", "1 to 16, 100,000 frames/s in", 100_000, outs=16),
+]
+LINKS = Load("links", "250 systems of 5 components on 64 links, 1,000 frames/s in, each to the 63 other links", 1_000, outs=0, links=64,
+             systems=250, components=5)
+HIGHEST = Load("highest", "1 to 1, highest rate of single-frame datagrams without loss", 50_000)
+HIGHEST_CEILING, PROBES = 1_600_000, 14
+BARE, OURS = "bare loop", "mavloom"
+
+# Filters that every frame passes, of each kind, so that both routers deliver the same.
+FILTERS = ['in_block = "PARAM_VALUE,MISSION_ITEM_INT,FILE_TRANSFER_PROTOCOL,sys:251,sys:252,comp:200,comp:201"',
+           'in_allow = "HEARTBEAT,ATTITUDE,ATTITUDE_QUATERNION,LOCAL_POSITION_NED,GLOBAL_POSITION_INT,SERVO_OUTPUT_RAW,ATTITUDE_TARGET,'
+           'POSITION_TARGET_LOCAL_NED,ALTITUDE"',
+           'out_block = "STATUSTEXT,LOG_DATA,sys:253,comp:202"',
+           'out_allow = "comp:1,comp:2,comp:3,comp:4,comp:5"']
+
+
+def link_routers(program):
+    return [routers.MavloomConfigured(program, OURS, [], []),
+            routers.MavloomConfigured(program, "mavloom, filters and dedup", ["dedup_ms = 500"], FILTERS)]
+
+
+# ---- the turns
+
+class Bench:
+    def __init__(self, kit, options):
+        self.kit, self.seconds, self.rounds = kit, options.seconds, options.rounds
+        self.as_json, self.failed = options.json, False
+
+    def say(self, line):
+        print(line, file=sys.stderr if self.as_json else sys.stdout, flush=True)
+
+    def once(self, peer, load, rate=None):
+        """One measurement, or None where the router did not forward."""
+        try:
+            result = measure(self.kit, peer, load, self.seconds, rate)
+        except NoAnswer as why:
+            self.say(f"  {why}")
+            return None
+        if self.as_json:
+            print(json.dumps(result), flush=True)
+        return result
+
+    def turns(self, load, peers):
+        """Rounds of all peers, each round beginning with another one: [{peer's name: result}]."""
+        taken = []
+        for number in range(self.rounds):
+            shift = number % len(peers)
+            results = {peer.name: self.once(peer, load) for peer in peers[shift:] + peers[:shift]}
+            taken.append({name: result for name, result in results.items() if result})
+        return taken
+
+    def judge(self, taken):
+        """Our own losses and wrong deliveries, where the floor of the round had none."""
+        for results in taken:
+            ours, floor = results.get(OURS), results.get(BARE)
+            wrong = ours and any(ours[what] for what in ("damaged", "duplicates", "echoes"))
+            if not ours or wrong or (ours["lost"] and not (floor and floor["lost"])):
+                self.failed = True
+
+
+# ---- the tables
+
+def median_of(taken, name, what):
+    values = [results[name][what] for results in taken if name in results and results[name][what] is not None]
+    return statistics.median(values) if values else None
+
+
+def ratios_of(taken, name, base, what):
+    return [results[name][what] / results[base][what] for results in taken
+            if name in results and base in results and results[name][what] and results[base][what]]
+
+
+def cell(value, form):
+    return "-" if value is None else format(value, form)
+
+
+def spread(ratios):
+    return "-" if not ratios else f"{statistics.median(ratios):.2f} ({min(ratios):.2f}, {max(ratios):.2f})"
+
+
+def wrongs(taken, name):
+    """What arrived and should not have, and what the load itself did not manage, over all rounds."""
+    all_of = [results[name] for results in taken if name in results]
+    words = [f"{what} {sum(result[what] for result in all_of)}" for what in ("damaged", "duplicates", "echoes", "reordered", "lost_at_sink")
+             if any(result[what] for result in all_of)]
+    slowest = min((result["rate"] / result["asked_rate"] for result in all_of), default=1)
+    if slowest < 0.99:
+        words.append(f"load reached {slowest:.0%}")
+    return words
+
+
+def table(say, taken, peers, base):
+    say(f"  {'router':<28} {'CPU us/frame':>12} {'times ' + base + ' (lowest, highest)':>36} {'lost %':>9} {'median us':>10} {'p99 us':>10} "
+        f"{'RssAnon KiB':>12}  notes")
+    for peer in peers:
+        if not any(peer.name in results for results in taken):
+            say(f"  {peer.name:<28} gave no answer")
+            continue
+        notes = wrongs(taken, peer.name) + ([peer.note] if peer.note else [])
+        early, late = (median_of(taken, peer.name, what) for what in ("rss_anon_kib_early", "rss_anon_kib"))
+        say(f"  {peer.name:<28} {cell(median_of(taken, peer.name, 'cpu_us_per_frame'), '.3f'):>12} "
+            f"{spread(ratios_of(taken, peer.name, base, 'cpu_us_per_frame')):>36} "
+            f"{cell(median_of(taken, peer.name, 'loss_percent'), '.3f'):>9} {cell(median_of(taken, peer.name, 'median_us'), ',.0f'):>10} "
+            f"{cell(median_of(taken, peer.name, 'p99_us'), ',.0f'):>10} {late - early:>+5,.0f} {late:>6,.0f}  {'; '.join(notes)}")
+
+
+def run_table(bench, load, peers, base):
+    bench.say(f"\n{load.title}, {bench.rounds} rounds of {min(bench.seconds, load.longest_s):g} s")
+    taken = bench.turns(load, peers)
+    table(bench.say, taken, peers, base)
+    for name in (OURS, "mavloom, filters and dedup"):
+        for what in ("cpu_us_per_frame", "median_us", "p99_us"):
+            if bench.as_json and name != base and (ratios := ratios_of(taken, name, base, what)):
+                print(json.dumps({"load": load.key, "peer": name, "against": base, "of": what, "ratio": statistics.median(ratios),
+                                  "lowest": min(ratios), "highest": max(ratios)}), flush=True)
+    bench.judge(taken)
+
+
+# ---- the highest rate
+
+class Search:
+    """The highest rate without loss of one router, by doubling and then halving the interval."""
+
+    def __init__(self, peer, precision):
+        self.peer, self.precision = peer, precision
+        self.low, self.high, self.capped, self.dead = 0, None, False, False
+
+    @property
+    def next_rate(self):
+        if not self.low:
+            return HIGHEST.rate if self.high is None else self.high // 2
+        return min(2 * self.low, HIGHEST_CEILING) if self.high is None else (self.low + self.high) // 2
+
+    @property
+    def done(self):
+        found = self.low and self.high is not None and self.high <= self.low * self.precision
+        return self.dead or self.capped or found or self.low >= HIGHEST_CEILING or self.next_rate < 500
+
+    def learn(self, rate, result):
+        if result is None:
+            self.dead = True
+        elif result["lost"]:
+            self.high = rate
+        elif result["rate"] < 0.98 * rate:
+            self.low, self.capped = max(self.low, int(result["rate"])), True  # the load generator's own limit
+        else:
+            self.low = rate
+
+
+def find_highest(bench, peers, precision):
+    bench.say(f"\n{HIGHEST.title} over {bench.seconds:g} s, found within {100 * (precision - 1):.0f} %")
+    searches = [Search(peer, precision) for peer in peers]
+    for _ in range(PROBES):
+        for search in searches:
+            if not search.done:
+                rate = search.next_rate
+                search.learn(rate, bench.once(search.peer, HIGHEST, rate))
+    floor = next((search.low for search in searches if search.peer.name == BARE), 0)
+    for search in searches:
+        ratio = f"{search.low / floor:6.2f} times the bare loop's" if floor else ""
+        bench.say(f"  {search.peer.name:<28} {search.low:12,}/s {ratio}{'; no more could be sent' if search.capped else ''}")
+        if bench.as_json:
+            print(json.dumps({"load": HIGHEST.key, "peer": search.peer.name, "highest_rate": search.low, "at_least": search.capped}), flush=True)
+
+
+# ---- the command
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/mavloom")
+    parser.add_argument("--tools", type=pathlib.Path, help="folder of route_generator and the others; default beside the program's build")
+    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers", help="where peers are, or are installed")
+    parser.add_argument("--flight", type=pathlib.Path, default=ROOT / "tests/data/px4_gcs_flight.tlog")
+    parser.add_argument("--quick", action="store_true", help="2 s and 2 rounds, the highest rate within 10 %%: a look, no figures to publish")
+    parser.add_argument("--seconds", type=float, help="length of each load; default 10")
+    parser.add_argument("--rounds", type=int, help="default 5")
+    parser.add_argument("--only", default="", help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{HIGHEST.key}")
+    parser.add_argument("--without", default="", help="peers to leave out: mavrouter,mavproxy")
+    parser.add_argument("--json", action="store_true", help="one JSON object a line: each measurement, then ratios; the tables on standard error")
+    options = parser.parse_args()
+    options.tools = options.tools or options.program.resolve().parent.parent / "bench" / "bin"
+    options.seconds = options.seconds or (2 if options.quick else 10)
+    options.rounds = options.rounds or (2 if options.quick else 5)
+    keys = [load.key for load in (*LOADS, LINKS, HIGHEST)]
+    options.only = [word for word in options.only.split(",") if word] or keys
+    if unknown := set(options.only) - set(keys):
+        parser.error(f"no load {', '.join(sorted(unknown))}; there are {', '.join(keys)}")
+    return options
+
+
+def main():
+    options = parse_options()
+    bench = Bench(Kit(options.tools, options.flight), options)
+    peers, missing = routers.at_hand(options.program, options.tools, options.peers, options.without.lower().split(","))
+    for why in missing:
+        bench.say(f"bench route: {why}")
+    for load in LOADS:
+        if load.key in options.only:
+            run_table(bench, load, peers, BARE)
+    if LINKS.key in options.only:
+        run_table(bench, LINKS, link_routers(options.program), OURS)
+    if HIGHEST.key in options.only:
+        find_highest(bench, peers, 1.1 if options.quick else 1.05)
+    return 4 if bench.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The floor of `bench route`: reads datagrams from one port and sends them to others, by recvmmsg and sendmmsg, and looks at nothing. With
+// `gather` the datagrams of a turn share datagrams of up to 1280 bytes, as a router may that knows where frames end.
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t batch = 64, slot_bytes = 2048, shared_bytes = 1280;
+
+sockaddr_in loopback(const char* port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(std::atoi(port)));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+}
+
+int open_socket(int (*attach)(int, const sockaddr*, socklen_t), const char* port) {
+    const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), size = 32 << 20;
+    ::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &size, sizeof size);
+    ::setsockopt(fd, SOL_SOCKET, SO_SNDBUFFORCE, &size, sizeof size);
+    const sockaddr_in address = loopback(port);
+    return attach(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? fd : -1;
+}
+
+class Loop {
+public:
+    explicit Loop(bool gather) : gather_(gather), memory_(batch * slot_bytes) {
+        for (std::size_t i = 0; i < batch; ++i) {
+            parts_[i] = {memory_.data() + i * slot_bytes, slot_bytes};
+            in_[i].msg_hdr.msg_iov = &parts_[i];
+            in_[i].msg_hdr.msg_iovlen = 1;
+        }
+    }
+
+    // Blocks until there is something, then takes all that is there, up to a batch.
+    int receive(int fd) {
+        for (auto& part : parts_) part.iov_len = slot_bytes;
+        const int count = ::recvmmsg(fd, in_.data(), batch, MSG_WAITFORONE, nullptr);
+        for (int i = 0; i < count; ++i)
+            parts_[static_cast<std::size_t>(i)].iov_len = in_[static_cast<std::size_t>(i)].msg_len;
+        return count;
+    }
+
+    // What was received as datagrams to send; how many they are.
+    std::size_t arrange(std::size_t received) {
+        std::size_t datagrams = 0, bytes = 0;
+        for (std::size_t i = 0; i < received; ++i) {
+            if (gather_ && datagrams != 0 && bytes + parts_[i].iov_len <= shared_bytes) {
+                ++out_[datagrams - 1].msg_hdr.msg_iovlen;
+                bytes += parts_[i].iov_len;
+                continue;
+            }
+            out_[datagrams].msg_hdr.msg_iov = &parts_[i];
+            out_[datagrams++].msg_hdr.msg_iovlen = 1;
+            bytes = parts_[i].iov_len;
+        }
+        return datagrams;
+    }
+
+    void send(int fd, std::size_t datagrams) {
+        for (std::size_t sent = 0; sent < datagrams;) {
+            const int count = ::sendmmsg(fd, &out_[sent], static_cast<unsigned>(datagrams - sent), 0);
+            if (count > 0) sent += static_cast<std::size_t>(count);
+            if (count < 0 && errno != EINTR && errno != ECONNREFUSED) return;
+        }
+    }
+
+private:
+    bool gather_;
+    std::vector<char> memory_;
+    std::array<iovec, batch> parts_{};
+    std::array<mmsghdr, batch> in_{}, out_{};
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc < 4) {
+        fmt::print(stderr, "usage: route_bare_loop PORT single|gather TO_PORT...\n");
+        return 2;
+    }
+    const int in = open_socket(::bind, argv[1]);
+    std::vector<int> out;
+    for (int i = 3; i < argc; ++i) out.push_back(open_socket(::connect, argv[i]));
+    if (in < 0) return 1;
+    Loop loop(std::string_view(argv[2]) == "gather");
+    for (;;) {
+        const int received = loop.receive(in);
+        if (received <= 0) continue;
+        const std::size_t datagrams = loop.arrange(static_cast<std::size_t>(received));
+        for (const int fd : out) loop.send(fd, datagrams);
+    }
+}

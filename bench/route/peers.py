@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""The routers of `bench route`: how each is got and how it is started. Peers are programs of their own; nothing of them is linked or copied."""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MAVROUTER_VERSION = "0.1.6"
+NOT_AT_HAND = "mavlink-router, mavp2p and mavlink-server are in no package registry: not measured"
+
+
+class Missing(Exception):
+    """Why a peer cannot be had here."""
+
+
+class Peer:
+    """A router. command() -> argv of a process that reads UDP datagrams at in_port and sends what it forwards to each of out_ports."""
+    note = ""
+
+    def __init__(self, name):
+        self.name = name
+
+    def command(self, in_port, out_ports, folder):
+        raise NotImplementedError
+
+
+class BareLoop(Peer):
+    def __init__(self, name, program, mode):
+        super().__init__(name)
+        self.program, self.mode = program, mode
+
+    def command(self, in_port, out_ports, folder):
+        return [self.program, in_port, self.mode, *out_ports]
+
+
+class Mavloom(Peer):
+    """`mavloom route` with its defaults."""
+
+    def __init__(self, program, name="mavloom"):
+        super().__init__(name)
+        self.program = program
+
+    def command(self, in_port, out_ports, folder):
+        return [self.program, "route", "--name", f"bench-{os.getpid()}", f"udpin://127.0.0.1:{in_port}",
+                *(f"udpout://127.0.0.1:{port}" for port in out_ports)]
+
+
+class MavloomConfigured(Mavloom):
+    """`mavloom route` for the many links: every peer of one udpin endpoint is a link; `router` and `endpoint` are lines of TOML."""
+
+    def __init__(self, program, name, router, endpoint):
+        super().__init__(program, name)
+        self.router, self.endpoint = router, endpoint
+
+    def command(self, in_port, out_ports, folder):
+        lines = ["[router]", *self.router, "[[endpoint]]", f'url = "udpin://127.0.0.1:{in_port}"', *self.endpoint]
+        for port in out_ports:
+            lines += ["[[endpoint]]", f'url = "udpout://127.0.0.1:{port}"']
+        file = pathlib.Path(folder, "mavloom.toml")
+        file.write_text("\n".join(lines) + "\n")
+        return [self.program, "route", "--name", f"bench-{os.getpid()}", "--config", file]
+
+
+class Mavrouter(Peer):
+    """Its configuration is that of its own stress test (bus_capacity) with the endpoints exchanged."""
+    note = "keeps one frame of a datagram"
+
+    def __init__(self, program):
+        super().__init__("mavrouter")
+        self.program = program
+
+    def command(self, in_port, out_ports, folder):
+        lines = ["[general]", "bus_capacity = 20000"]
+        for mode, ports in (("server", [in_port]), ("client", out_ports)):
+            for port in ports:
+                lines += ["[[endpoint]]", 'type = "udp"', f'address = "127.0.0.1:{port}"', f'mode = "{mode}"']
+        file = pathlib.Path(folder, "mavrouter.toml")
+        file.write_text("\n".join(lines) + "\n")
+        return [self.program, "--config", file]
+
+
+class Mavproxy(Peer):
+    """As lean as it goes: no modules, no logs, no console."""
+    note = "without modules"
+
+    def __init__(self, python):
+        super().__init__("MAVProxy")
+        self.python = python
+
+    def command(self, in_port, out_ports, folder):
+        return [self.python, self.python.with_name("mavproxy.py"), "--daemon", "--non-interactive", "--no-state", "--default-modules=",
+                "--force-connected", "--nowait", f"--master=udpin:127.0.0.1:{in_port}",
+                *(f"--out=udpout:127.0.0.1:{port}" for port in out_ports)]
+
+
+def run_quietly(command, what):
+    """Runs an installer; its output is shown only where it fails."""
+    print(f"bench route: {what}", file=sys.stderr, flush=True)
+    done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode:
+        raise Missing(f"{what} failed: {done.stdout.strip().splitlines()[-1:]}")
+
+
+def mavrouter(folder):
+    program = folder / "mavrouter" / "bin" / "mavrouter"
+    if not program.is_file():
+        cargo = shutil.which("cargo")
+        if not cargo:
+            raise Missing("no cargo to build it with (Debian: cargo-web)")
+        run_quietly([cargo, "install", "mavrouter", "--version", MAVROUTER_VERSION, "--locked", "--root", folder / "mavrouter"],
+                    "cargo install mavrouter, which takes some minutes")
+    return Mavrouter(program)
+
+
+def mavproxy(folder):
+    python = folder / "mavproxy" / "bin" / "python"
+    if not python.with_name("mavproxy.py").is_file():
+        run_quietly([sys.executable, "-m", "venv", folder / "mavproxy"], f"Python environment {folder / 'mavproxy'}")
+        run_quietly([python, "-m", "pip", "install", "--quiet", "--no-input", "--no-deps", "-r", ROOT / "packaging" / "python-bench.txt"],
+                    "pip install MAVProxy")
+    return Mavproxy(python)
+
+
+def at_hand(program, tools, folder, without=()):
+    """(peers in the order of the table, why the others are missing)."""
+    peers = [BareLoop("bare loop", tools / "route_bare_loop", "single"), BareLoop("bare loop, gathering", tools / "route_bare_loop", "gather"),
+             Mavloom(program)]
+    missing = [NOT_AT_HAND]
+    for name, find in (("mavrouter", mavrouter), ("MAVProxy", mavproxy)):
+        if name.lower() in without:
+            continue
+        try:
+            peers.append(find(folder))
+        except Missing as why:
+            missing.append(f"{name} is left out: {why}")
+    return peers, missing

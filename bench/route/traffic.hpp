@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The frames of `bench route`: frames of the recorded flight that carry a number and their send time in the first 16 bytes of the payload, with
+// the right checksum. Whoever has the same recording can tell from a received frame whether it arrived whole and unchanged. Immutable after
+// load(), safe from any thread; allocates in load() only.
+#pragma once
+
+#include <time.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/base/bytes.hpp"
+
+namespace mavloom::bench {
+
+inline constexpr std::size_t max_frame_bytes = 64;
+
+struct Received {
+    enum class Kind : std::uint8_t { whole, damaged, foreign };
+    Kind kind = Kind::damaged;
+    std::size_t size = 0;  // what the frame takes of the datagram; the rest of it where nothing can be told
+    std::uint64_t number = 0;
+    std::uint64_t sent_ns = 0;
+};
+
+class Traffic {
+public:
+    // `systems` times `components` sources take turns; 1 times 1 is the recorded vehicle alone. System s speaks on link s modulo `links`.
+    [[nodiscard]] static std::optional<Traffic> load(const char* flight, unsigned systems, unsigned components,
+                                                     unsigned links);
+
+    // Frame `number`; its size.
+    std::size_t write(std::span<std::uint8_t, max_frame_bytes> out, std::uint64_t number,
+                      std::uint64_t time_ns) const noexcept;
+    // What `bytes`, the unread rest of a datagram, begins with.
+    [[nodiscard]] Received check(ByteView bytes) const noexcept;
+    [[nodiscard]] unsigned link_of(std::uint64_t number) const noexcept {
+        return static_cast<unsigned>(number % sources() % systems_ % links_);
+    }
+    [[nodiscard]] unsigned links() const noexcept { return links_; }
+
+private:
+    struct Pattern {
+        std::array<std::uint8_t, max_frame_bytes> bytes{};
+        std::size_t size = 0;
+        std::uint8_t crc_extra = 0;
+    };
+
+    [[nodiscard]] unsigned sources() const noexcept { return systems_ * components_; }
+    std::size_t fill(std::span<std::uint8_t, max_frame_bytes> out, std::uint64_t number,
+                     std::uint64_t time_ns) const noexcept;
+
+    std::vector<Pattern> patterns_;
+    unsigned systems_ = 1, components_ = 1, links_ = 1;
+};
+
+// CLOCK_MONOTONIC, the same for all processes.
+[[nodiscard]] inline std::uint64_t now_ns() noexcept {
+    timespec t{};
+    ::clock_gettime(CLOCK_MONOTONIC, &t);
+    return static_cast<std::uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<std::uint64_t>(t.tv_nsec);
+}
+
+// "3,4,5": sockets that the harness opened, or ports.
+[[nodiscard]] std::vector<int> numbers_in(std::string_view list);
+
+}  // namespace mavloom::bench

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""The instrument of `bench route` itself: a router that loses, damages and repeats frames in known numbers is reported with these numbers. Nothing
+here asserts a time."""
+import pathlib
+import sys
+
+import pytest
+
+import harness
+
+sys.path.insert(0, str(harness.ROOT / "bench" / "route"))
+import measure  # noqa: E402
+import peers  # noqa: E402
+
+# Forwards to the ports given, or without any between all its peers. Counts the load's datagrams, not the heartbeats (id 0) that find out whether it is up.
+FAULTY_ROUTER = """
+import socket, sys
+sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+sock.bind(("127.0.0.1", int(sys.argv[1])))
+fixed = [("127.0.0.1", int(port)) for port in sys.argv[2:]]
+peers, number = {}, 0
+while True:
+    data, sender = sock.recvfrom(65536)
+    peers[sender] = True
+    copies = 1
+    if data[7]:
+        copies = 0 if number % 10 == 9 else 2 if number % 50 == 25 else 1
+        if number % 100 == 0:
+            data = data[:20] + bytes([data[20] ^ 1]) + data[21:]
+        number += 1
+    for to in fixed or [peer for peer in peers if peer != sender]:
+        for _ in range(copies):
+            sock.sendto(data, to)
+"""
+
+
+class FaultyRouter(peers.Peer):
+    def command(self, in_port, out_ports, folder):
+        return [sys.executable, "-c", FAULTY_ROUTER, in_port, *out_ports]
+
+
+@pytest.fixture
+def kit(program):
+    return measure.Kit(program.resolve().parents[1] / "bench" / "bin", harness.DATA / "px4_gcs_flight.tlog")
+
+
+@pytest.mark.parametrize("outs, copies", [(1, 1), (2, 2), (0, 3)])
+def test_reports_what_a_router_loses_damages_and_repeats(kit, outs, copies):
+    links, systems = (1, 1) if outs else (4, 5)
+    load = measure.Load("faulty", "", 1000, outs=outs, links=links, systems=systems, components=2)
+    result = measure.measure(kit, FaultyRouter("faulty"), load, 1)
+    assert (result["sent"], result["expected"]) == (1000, 1000 * copies)
+    assert result["lost"] == (100 + 10) * copies  # dropped, and damaged
+    assert (result["damaged"], result["duplicates"]) == (10 * copies, 20 * copies)
+    assert (result["delivered"], result["echoes"], result["foreign"]) == (890 * copies, 0, 0)
+
+
+@pytest.mark.parametrize("mode, per_datagram", [("single", 1), ("gather", 1), ("single", 8)])
+def test_the_bare_loop_delivers_all(kit, mode, per_datagram):
+    load = measure.Load("bare", "", 2000, per_datagram=per_datagram, outs=2)
+    result = measure.measure(kit, peers.BareLoop("bare loop", pathlib.Path(kit.tools, "route_bare_loop"), mode), load, 1)
+    assert (result["sent"], result["delivered"], result["lost"]) == (2000, 4000, 0)
+    assert (result["damaged"], result["duplicates"], result["reordered"], result["foreign"]) == (0, 0, 0, 0)
+    assert result["cpu_us_per_frame"] > 0
+
+
+def test_a_router_that_does_not_run_is_named(kit):
+    class Broken(peers.Peer):
+        def command(self, in_port, out_ports, folder):
+            return ["sh", "-c", "echo no such option >&2; exit 2"]
+    with pytest.raises(measure.NoAnswer, match="broken: status 2; it said: 'no such option'"):
+        measure.measure(kit, Broken("broken"), measure.Load("none", "", 1000), 1)
