@@ -41,7 +41,10 @@ class Sender {
 public:
     Sender(const Traffic& traffic, std::vector<int> fds, std::size_t per_datagram)
         : traffic_(traffic), fds_(std::move(fds)), per_datagram_(per_datagram) {
-        for (std::size_t i = 0; i < batch; ++i) messages_[i].msg_hdr = {.msg_iov = &datagrams_[i], .msg_iovlen = 1};
+        for (std::size_t i = 0; i < batch; ++i) {
+            messages_[i].msg_hdr.msg_iov = &datagrams_[i];
+            messages_[i].msg_hdr.msg_iovlen = 1;
+        }
     }
 
     // The frames [from, to), those of one link in one call as far as they follow each other.
