@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <numeric>
 #include <string>
 
 #include "traffic.hpp"
@@ -22,7 +23,7 @@ using mavloom::bench::Received;
 using mavloom::bench::Traffic;
 
 constexpr std::size_t batch = 64, slot_bytes = 2048;
-constexpr int quiet_ms = 400;
+constexpr int tick_ms = 100, quiet_ticks = 20;
 constexpr std::uint64_t longest_wait_ns = 20'000'000'000;  // for a router that still sends what it has queued
 
 // Times in buckets of 1/64 of their size at most.
@@ -73,7 +74,29 @@ public:
         }
     }
 
+    // All that is there.
     void drain(Port& port, unsigned link) {
+        while (take_batch(port, link) == static_cast<int>(batch)) {}
+    }
+
+    [[nodiscard]] bool complete(const std::vector<Port>& ports) const {
+        const auto distinct = std::accumulate(ports.begin(), ports.end(), std::uint64_t{0},
+                                              [](std::uint64_t sum, const Port& port) { return sum + port.distinct; });
+        return distinct == frames_ * (ports.size() - (mesh_ ? 1 : 0));
+    }
+
+    void print(const std::vector<Port>& ports) const {
+        std::string distinct;
+        for (const Port& port : ports) distinct += fmt::format("{}{}", distinct.empty() ? "" : ",", port.distinct);
+        fmt::print(
+            "{{\"distinct\":[{}],\"datagrams\":{},\"duplicates\":{},\"reordered\":{},\"echoes\":{},\"damaged\":{},"
+            "\"foreign\":{},\"median_us\":{:.1f},\"p99_us\":{:.1f}}}\n",
+            distinct, counts_.datagrams, counts_.duplicates, counts_.reordered, counts_.echoes, counts_.damaged,
+            counts_.foreign, latency_.quantile_us(0.5), latency_.quantile_us(0.99));
+    }
+
+private:
+    int take_batch(Port& port, unsigned link) {
         const int count = ::recvmmsg(port.fd, messages_.data(), batch, MSG_DONTWAIT, nullptr);
         const std::uint64_t now = now_ns();
         for (int i = 0; i < count; ++i) {
@@ -90,20 +113,9 @@ public:
                 at += frame.size;
             }
         }
+        return count;
     }
 
-    void print(const std::vector<Port>& ports) const {
-        std::string distinct;
-        for (const Port& port : ports) distinct += fmt::format("{}{}", distinct.empty() ? "" : ",", port.distinct);
-        fmt::print(
-            "{{\"distinct\":[{}],\"datagrams\":{},\"duplicates\":{},\"reordered\":{},\"echoes\":{},\"damaged\":{},"
-            "\"foreign\":{},"
-            "\"median_us\":{:.1f},\"p99_us\":{:.1f}}}\n",
-            distinct, counts_.datagrams, counts_.duplicates, counts_.reordered, counts_.echoes, counts_.damaged,
-            counts_.foreign, latency_.quantile_us(0.5), latency_.quantile_us(0.99));
-    }
-
-private:
     void count_frame(Port& port, unsigned link, const Received& frame, std::uint64_t now) {
         if (frame.kind == Received::Kind::foreign) {
             ++counts_.foreign;
@@ -139,7 +151,7 @@ bool input_ended() {
     return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-// Until the input has ended and the sockets are quiet. After each look it rests, so that a fast load wakes it in batches.
+// Until the input has ended and all is there, or nothing comes any more. After each look it rests, so that a fast load wakes it in batches.
 void receive(Sink& sink, std::vector<Port>& ports, useconds_t rest_us) {
     const int epoll = ::epoll_create1(EPOLL_CLOEXEC);
     for (std::size_t i = 0; i < ports.size(); ++i) {
@@ -148,16 +160,17 @@ void receive(Sink& sink, std::vector<Port>& ports, useconds_t rest_us) {
     }
     std::array<epoll_event, batch> ready{};
     std::uint64_t ended_at = 0;
-    for (int full = 0;;) {
-        const int count = ::epoll_wait(epoll, ready.data(), batch, quiet_ms);
+    for (int busy = 0, quiet = 0;;) {
+        const int count = ::epoll_wait(epoll, ready.data(), batch, tick_ms);
         for (int i = 0; i < count; ++i) {
             const auto index = ready[static_cast<std::size_t>(i)].data.u64;
             sink.drain(ports[index], static_cast<unsigned>(index));
         }
-        full = count > 0 ? full + 1 : 0;
-        if (count <= 0 || full % 1024 == 0) {
+        quiet = count > 0 ? 0 : quiet + 1;
+        if (quiet != 0 || ++busy % 1024 == 0) {
             if (ended_at == 0 && input_ended()) ended_at = now_ns();
-            if (ended_at != 0 && (count == 0 || now_ns() - ended_at > longest_wait_ns)) break;
+            const bool late = ended_at != 0 && now_ns() - ended_at > longest_wait_ns;
+            if (late || (ended_at != 0 && quiet >= (sink.complete(ports) ? 1 : quiet_ticks))) break;
         }
         if (count > 0 && rest_us != 0) ::usleep(rest_us);
     }
