@@ -33,7 +33,7 @@ bool Scanner::holds_known_frame(ByteView bytes) const noexcept {
         if (length > bytes.size() - at) continue;
         const auto frame = FrameView::unchecked(bytes.subspan(at, length));
         const MessageInfo* info = table_->find(frame.id());
-        if (info != nullptr && checksum_agrees(frame, *info)) return true;
+        if (info != nullptr && checksum_agrees(frame, bytes.size() - at, *info)) return true;
     }
     return false;
 }

@@ -35,10 +35,19 @@ consteval std::array<std::array<std::uint16_t, 256>, 8> make_crc_slices() {
 
 inline constexpr auto crc_slices = make_crc_slices();
 
-using CrcFunction = std::uint16_t (*)(std::uint16_t crc, const std::uint8_t* bytes, std::size_t size) noexcept;
-extern const CrcFunction crc_fastest;
-
 }  // namespace detail
+
+struct CrcImplementation {
+    std::string_view name;
+    std::uint16_t (*update)(std::uint16_t crc, const std::uint8_t* bytes, std::size_t size) noexcept;
+    bool (*check)(std::uint16_t expected, const std::uint8_t* bytes, std::size_t size, std::size_t readable) noexcept;
+};
+// The forms that run on this processor, the portable one first: for tests and benchmarks.
+[[nodiscard]] std::span<const CrcImplementation> crc_implementations() noexcept;
+
+namespace detail {
+extern const CrcImplementation crc_fastest;
+}
 
 // The checksum after one more byte.
 [[nodiscard]] constexpr std::uint16_t crc_update(std::uint16_t crc, std::uint8_t byte) noexcept {
@@ -47,18 +56,27 @@ extern const CrcFunction crc_fastest;
 
 // The checksum after `bytes`, by the fastest form that this processor has.
 [[nodiscard]] inline std::uint16_t crc_update(std::uint16_t crc, ByteView bytes) noexcept {
-    return detail::crc_fastest(crc, bytes.data(), bytes.size());
+    return detail::crc_fastest.update(crc, bytes.data(), bytes.size());
+}
+
+// The checksum that `byte` turned into `after`.
+[[nodiscard]] constexpr std::uint16_t crc_before(std::uint16_t after, std::uint8_t byte) noexcept {
+    // A table entry is t << 8 ^ t << 3 ^ t >> 4 with t = index ^ index << 4 in eight bits; its high byte gives t, and t the index.
+    const unsigned high = after >> 8;
+    const unsigned t = (high ^ high >> 5) & 0xff;
+    const unsigned index = (t ^ t << 4) & 0xff;
+    return static_cast<std::uint16_t>((index ^ byte) | ((after ^ t << 3 ^ t >> 4) & 0xff) << 8);
+}
+
+// Whether the checksum over `covered`, then `crc_extra`, is `received`: cheaper than working it out. `covered` is not empty; the first
+// `readable` bytes from its begin on, at least covered.size(), may be read.
+[[nodiscard]] inline bool crc_agrees(ByteView covered, std::size_t readable, std::uint8_t crc_extra,
+                                     std::uint16_t received) noexcept {
+    return detail::crc_fastest.check(crc_before(received, crc_extra), covered.data(), covered.size(), readable);
 }
 
 // The CRC_EXTRA byte that turns the checksum `before` (header and payload) into `received`, or -1 where none of the 256 does: two byte
 // values differ in the table's high byte, so there is at most one.
 [[nodiscard]] int crc_extra_between(std::uint16_t before, std::uint16_t received) noexcept;
-
-struct CrcImplementation {
-    std::string_view name;
-    detail::CrcFunction update;
-};
-// The forms that run on this processor, the portable one first: for tests and benchmarks.
-[[nodiscard]] std::span<const CrcImplementation> crc_implementations() noexcept;
 
 }  // namespace mavloom::wire

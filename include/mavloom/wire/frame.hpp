@@ -62,7 +62,7 @@ public:
     [[nodiscard]] Source source() const noexcept { return {system(), component()}; }
     [[nodiscard]] MessageId id() const noexcept {
         if (!is_v2()) return MessageId{data_[5]};
-        return MessageId{data_[7] | std::uint32_t{data_[8]} << 8 | std::uint32_t{data_[9]} << 16};
+        return MessageId{load_le<std::uint32_t>(data_ + 6) >> 8};  // three bytes from data_[7] on
     }
     [[nodiscard]] std::size_t header_length() const noexcept { return is_v2() ? header_length_v2 : header_length_v1; }
     [[nodiscard]] std::uint8_t payload_length() const noexcept { return data_[1]; }

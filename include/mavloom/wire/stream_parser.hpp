@@ -73,28 +73,34 @@ private:
 
     [[nodiscard]] ByteView pending() const noexcept { return {kept_.data(), pending_}; }
 
-    // Decides every start that lies in the kept bytes, with as much of the chunk as that takes; returns the rest of the chunk.
+    // Decides every start that lies in the kept bytes, with as little of the chunk as that takes; returns the rest, to be scanned in place.
     template <class Sink>
     ByteView feed_pending(ByteView chunk, Sink&& sink) {
         settled_ = false;
         const std::size_t old = pending_;
-        const std::size_t borrowed = std::min(chunk.size(), kept_.size() - old);
-        std::memcpy(kept_.data() + old, chunk.data(), borrowed);
         std::size_t at = 0;
-        std::size_t used = 1;
-        // Frame by frame, so that what begins in the chunk is scanned there.
-        while (at < old && used != 0) {
-            const ByteView rest{kept_.data() + at, old + borrowed - at};
-            used = scanner_.scan_one(rest, detail::End::open, sink);
+        while (at < old) {
+            const ByteView borrowed = chunk.first(std::min(wanted(at), chunk.size()));
+            keep(borrowed);
+            chunk = chunk.subspan(borrowed.size());
+            const std::size_t used = scanner_.scan_one(pending().subspan(at), detail::End::open, sink);
+            if (used == 0 && chunk.empty()) {
+                consume(at);
+                return {};
+            }
             at += used;
         }
-        if (at >= old) {
-            pending_ = 0;
-            return chunk.subspan(at - old);
-        }
-        std::memmove(kept_.data(), kept_.data() + at, old + borrowed - at);
-        pending_ = old + borrowed - at;
-        return chunk.subspan(borrowed);
+        const std::size_t unused = pending_ - at;
+        pending_ = 0;
+        return {chunk.data() - unused, chunk.size() + unused};
+    }
+
+    // How many more bytes the start at `at` needs: to tell its length, then to be whole, and one of look-ahead for an unknown id.
+    [[nodiscard]] std::size_t wanted(std::size_t at) const noexcept {
+        const ByteView start = pending().subspan(at);
+        const std::size_t length = frame_length(start);
+        const std::size_t all = length == 0 ? std::size_t{3} : length + 1;
+        return all > start.size() ? all - start.size() : 0;
     }
 
     void keep(ByteView rest) noexcept {

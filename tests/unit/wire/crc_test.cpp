@@ -47,6 +47,33 @@ TEST(Crc, AllFormsAgreeByteByByteAtEveryLength) {
     }
 }
 
+// Each length with just its own bytes readable, and with a whole group of 64 more; a single wrong bit is never accepted.
+TEST(Crc, AllFormsCheckWhatTheByteByByteFormComputes) {
+    Bytes bytes(400);
+    std::uint32_t state = 54321;
+    for (auto& b : bytes) b = static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24);
+
+    for (std::size_t size = 1; size <= 300; ++size) {
+        std::uint16_t plain = crc_seed;
+        for (const auto b : ByteView{bytes}.first(size)) plain = crc_update(plain, b);
+        for (const auto& form : crc_implementations()) {
+            for (const std::size_t readable : {size, size + 64}) {
+                ASSERT_TRUE(form.check(plain, bytes.data(), size, readable)) << form.name << ' ' << size;
+                for (unsigned bit = 0; bit < 16; ++bit)
+                    ASSERT_FALSE(form.check(static_cast<std::uint16_t>(plain ^ 1u << bit), bytes.data(), size, readable))
+                        << form.name << ' ' << size;
+            }
+        }
+    }
+}
+
+TEST(Crc, BeforeUndoesOneByteForEveryChecksum) {
+    for (unsigned crc = 0; crc < 0x10000; ++crc) {
+        const auto byte = static_cast<std::uint8_t>(crc * 7 >> 3);
+        ASSERT_EQ(crc_before(crc_update(static_cast<std::uint16_t>(crc), byte), byte), crc);
+    }
+}
+
 TEST(CrcExtra, IsFoundForEveryByteAndOnlyThen) {
     for (unsigned before : {0x0000u, 0x1234u, 0xffffu, 0x80a5u}) {
         std::set<std::uint16_t> reachable;

@@ -87,9 +87,11 @@ private:
         return wire::frame_length({p, size});
     }
 
-    [[nodiscard]] static bool checksum_agrees(const FrameView& frame, const MessageInfo& info) noexcept {
+    // `readable` bytes from the frame's begin on may be read.
+    [[nodiscard]] static bool checksum_agrees(const FrameView& frame, std::size_t readable,
+                                              const MessageInfo& info) noexcept {
         const auto covered = frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length());
-        return crc_update(crc_update(crc_seed, covered), info.crc_extra) == frame.checksum();
+        return crc_agrees(covered, readable - 1, info.crc_extra, frame.checksum());
     }
 
     [[nodiscard]] Candidate examine(const std::uint8_t* p, std::size_t size, End end) noexcept {
@@ -101,7 +103,7 @@ private:
         const MessageInfo* info = table_->find(frame.id());
         if (info == nullptr) [[unlikely]]
             return examine_unknown(frame, ByteView{p + length, size - length}, end);
-        if (!checksum_agrees(frame, *info)) return {Candidate::Kind::bad_checksum, length, info};
+        if (!checksum_agrees(frame, size, *info)) return {Candidate::Kind::bad_checksum, length, info};
         if ((frame.incompat_flags() & ~incompat_signed) != 0) return {Candidate::Kind::unknown_flags, length, info};
         return {Candidate::Kind::frame, length, info};
     }
