@@ -92,10 +92,10 @@ void Engine::Impl::index_links() {
 
 std::uint32_t Engine::Impl::group_index(const Link& link) {
     const auto same = [&](const Group& group) { return group.id == link.policy.group; };
-    const auto at = std::find_if(groups_.begin(), groups_.end(), same);
-    if (at == groups_.end())
+    const auto index = std::find_if(groups_.begin(), groups_.end(), same) - groups_.begin();
+    if (index == std::ssize(groups_))
         groups_.push_back({.id = link.policy.group, .mode = link.policy.group_mode, .members{}, .order{}});
-    return static_cast<std::uint32_t>(at - groups_.begin());
+    return static_cast<std::uint32_t>(index);
 }
 
 // All sets that follow from the links and their policies.

@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/route/engine.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mavloom/dialect/dialect.hpp"
 #include "mavloom/route/essential.hpp"
+#include "unit/route/route_frames.hpp"
 
 namespace mavloom::route {
 namespace {
+
+using namespace std::chrono_literals;
+using test::Bytes;
+using test::Id;
+using test::make_frame;
+using test::make_unknown;
+using test::Network;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::Pair;
+using testing::UnorderedElementsAre;
+
+constexpr Id gcs{255, 190};
+constexpr Id vehicle{1, 1};
 
 TEST(Essential, KnowsWhatSomebodyWaitsFor) {
     EXPECT_TRUE(is_essential(MessageId{0}));
@@ -22,6 +37,512 @@ TEST(Engine, TakesEachLinkOnce) {
     EXPECT_FALSE(sut.add_link(LinkId{1}, {}));
     EXPECT_FALSE(sut.add_link(LinkId{0}, {}));
     EXPECT_EQ(sut.links(), 1u);
+}
+
+TEST(Engine, RefusesLinksBeyondItsBound) {
+    Network sut;
+    sut.links(Engine::max_links);
+
+    EXPECT_FALSE(sut.engine.add_link(LinkId{999999}, {}));
+    EXPECT_EQ(sut.send(1, "ATTITUDE", vehicle).size(), Engine::max_links - 1);
+    sut.engine.remove_link(LinkId{7});
+    EXPECT_TRUE(sut.engine.add_link(LinkId{999999}, {}));
+    EXPECT_EQ(sut.send(1, "ATTITUDE", vehicle).back(), 999999u);
+}
+
+TEST(Engine, AnswersUnknownLinkForALinkThatIsGone) {
+    Network sut;
+    sut.links(3);
+    sut.hears(2, vehicle);
+    sut.engine.remove_link(LinkId{2});
+
+    EXPECT_THAT(sut.hears(2, vehicle), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::unknown_link);
+    EXPECT_EQ(sut.engine.counters().unknown_link.value(), 1u);
+    EXPECT_EQ(sut.engine.counters(LinkId{2}), nullptr);
+    EXPECT_THAT(sut.command(1, gcs, vehicle), IsEmpty());
+}
+
+TEST(Engine, LinkInTheSlotOfAnotherInheritsNothing) {
+    Network sut;
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(2));
+    sut.engine.remove_link(LinkId{2});
+    sut.link();
+
+    EXPECT_THAT(sut.pass(3, frame), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::nowhere);  // its source is on 1; no echo, for link 3 was never sent it
+    EXPECT_EQ(sut.counters(3).echo.value(), 0u);
+}
+
+TEST(Engine, KeepsWhatItKnowsWhenTheSixtyFifthLinkComes) {
+    Network sut;
+    sut.links(64);
+    sut.hears(64, vehicle);
+    const Bytes frame = make_frame("ATTITUDE", gcs);
+    ASSERT_EQ(sut.pass(1, frame).size(), 63u);
+
+    sut.links(2);
+
+    EXPECT_THAT(sut.command(66, {7, 7}, vehicle), ElementsAre(64));
+    EXPECT_THAT(sut.pass(64, frame), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+    EXPECT_EQ(sut.hears(65, {3, 3}).size(), 65u);
+}
+
+TEST(Engine, RouteIsForgottenExactlyAtItsTimeout) {
+    Network sut({.route_timeout = 60s});
+    sut.links(2);
+    sut.hears(2, vehicle);
+
+    sut.wait(60s - 1ns);
+    EXPECT_THAT(sut.command(1, gcs, vehicle), ElementsAre(2));
+    sut.wait(1ns);
+    EXPECT_THAT(sut.command(1, gcs, vehicle), IsEmpty());
+    EXPECT_EQ(sut.engine.counters().routes_expired.value(), 1u);
+}
+
+TEST(Engine, LinkMayHaveATimeoutOfItsOwn) {
+    Network sut({.route_timeout = 10s});
+    sut.link();
+    sut.link({.route_timeout = 120s});
+    sut.hears(2, vehicle);
+    sut.wait(119s);
+
+    EXPECT_THAT(sut.command(1, gcs, vehicle), ElementsAre(2));
+}
+
+TEST(Engine, RebootForgetsTheRoutesOfASystemAndKeepsTheCount) {
+    Network sut;
+    sut.links(3);
+    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 100000}});
+    sut.hears(2, {1, 154});
+    ASSERT_THAT(sut.command(3, gcs, {1, 0}), ElementsAre(1, 2));
+
+    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 1200}});
+
+    EXPECT_THAT(sut.command(3, gcs, {1, 0}), ElementsAre(1));
+    EXPECT_EQ(sut.engine.counters().reboots.value(), 1u);
+    ASSERT_EQ(sut.engine.routes(sut.now).size(), 2u);
+    EXPECT_EQ(sut.engine.routes(sut.now)[0].source, Source(vehicle));
+    EXPECT_EQ(sut.engine.routes(sut.now)[0].frames, 2u);
+}
+
+TEST(Engine, FramesThatOvertookEachOtherAreNoReboot) {
+    Network sut;
+    sut.links(2);
+    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 100000}});
+    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 99000}});
+
+    EXPECT_EQ(sut.engine.counters().reboots.value(), 0u);
+}
+
+TEST(Engine, ManualControlGoesToItsTargetOnly) {
+    Network sut;
+    sut.links(3);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.send(1, "MANUAL_CONTROL", gcs, {{"target", 1}, {"x", 5}}), ElementsAre(2));
+    EXPECT_THAT(sut.send(1, "MANUAL_CONTROL", gcs, {{"target", 9}, {"x", 5}}), IsEmpty());
+}
+
+TEST(Engine, TargetWhereTheFrameCameFromGoesNowhere) {
+    Network sut({.unknown_target = UnknownTarget::flood});
+    sut.links(3);
+    sut.hears(1, vehicle);
+
+    EXPECT_THAT(sut.command(1, {1, 154}, vehicle), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::nowhere);
+}
+
+TEST(Engine, UnknownIdIsBroadcastAndTeachesNothing) {
+    Network sut;
+    sut.links(3);
+
+    EXPECT_THAT(sut.pass(1, make_unknown({33, 1})), ElementsAre(2, 3));
+    EXPECT_TRUE(sut.engine.routes(sut.now).empty());
+    sut.hears(2, {33, 1});
+    EXPECT_THAT(sut.pass(1, make_unknown({33, 1}, 1)), ElementsAre(3));
+}
+
+TEST(Engine, FilteredFrameTeachesNothing) {
+    Network sut;
+    sut.link({.in = test::make_filter({.systems = {7}}, {})});
+    sut.link();
+    sut.hears(1, vehicle);
+
+    EXPECT_TRUE(sut.engine.routes(sut.now).empty());
+    EXPECT_EQ(sut.counters(1).filtered.value(), 1u);
+}
+
+TEST(Engine, OwnIdIsConsumedAndItsSystemIsNot) {
+    Network sut({.own = Source{SystemId{1}, ComponentId{191}}});
+    sut.links(2);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.command(1, gcs, {1, 191}), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::consumed);
+    EXPECT_THAT(sut.command(1, gcs, {1, 0}), ElementsAre(2));
+}
+
+TEST(Engine, DuplicateOnAnotherLinkIsDroppedAndTeachesItsRoute) {
+    Network sut({.dedup = 250ms});
+    sut.links(3);
+    sut.hears(2, vehicle);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(3));
+    sut.wait(249ms);
+
+    EXPECT_THAT(sut.pass(2, frame), IsEmpty());
+
+    EXPECT_EQ(sut.verdict, Verdict::duplicate);
+    EXPECT_EQ(sut.counters(2).duplicate.value(), 1u);
+    EXPECT_EQ(sut.engine.routes(sut.now)[1].frames, 2u);
+}
+
+TEST(Engine, DedupEndsWithItsWindow) {
+    Network sut({.dedup = 250ms});
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(2));
+    sut.wait(100ms);
+    EXPECT_THAT(sut.pass(1, frame), IsEmpty());
+    sut.wait(150ms);
+
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(2));
+}
+
+TEST(Engine, WithoutDedupASenderMayRepeatItself) {
+    Network sut;
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(2));
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(2));
+}
+
+TEST(Engine, EchoEndsAfterTwoSeconds) {
+    Network sut;
+    sut.links(2);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    sut.pass(1, frame);
+    sut.wait(2s - 1ns);
+    EXPECT_THAT(sut.pass(2, frame), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+    sut.wait(1ns);
+
+    sut.pass(2, frame);
+
+    EXPECT_EQ(sut.verdict, Verdict::nowhere);  // its source is on 1
+}
+
+TEST(Engine, EchoOfOurOwnFrameIsKnown) {
+    Network sut;
+    sut.links(2);
+    const Bytes heartbeat = make_frame("HEARTBEAT", {1, 191});
+    sut.engine.note_sent(wire::FrameView::unchecked(heartbeat), LinkId{2}, sut.now);
+
+    EXPECT_THAT(sut.pass(2, heartbeat), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+}
+
+TEST(Engine, SenderThatDoesNotCountIsNotTakenForItsOwnCopy) {
+    Network sut;
+    const LinkPolicy air{.group = GroupId{1}};
+    sut.link(air);
+    sut.link(air);
+    sut.link();
+    const Bytes heartbeat = make_frame("HEARTBEAT", vehicle);
+
+    for (int second = 0; second < 5; ++second) {
+        EXPECT_THAT(sut.pass(1, heartbeat), ElementsAre(3));
+        EXPECT_THAT(sut.pass(2, heartbeat), IsEmpty());
+        sut.wait(1s);
+    }
+}
+
+TEST(Engine, PrivateLinkGetsOnlyWhatIsForItsPairsAndGivesNothing) {
+    Network sut;
+    sut.links(2);
+    const auto gimbal = sut.link({.is_private = true});
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.hears(gimbal, {1, 154}), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::private_link);
+    EXPECT_THAT(sut.command(gimbal, {1, 154}, vehicle), IsEmpty());
+    EXPECT_THAT(sut.send(1, "ATTITUDE", gcs), ElementsAre(2));
+    EXPECT_THAT(sut.command(1, gcs, {1, 0}), ElementsAre(2));
+    EXPECT_THAT(sut.command(1, gcs, {1, 155}), ElementsAre(2));
+    EXPECT_THAT(sut.command(1, gcs, {1, 154}), ElementsAre(gimbal));
+}
+
+TEST(Engine, TapGetsEverythingAndContributesNothing) {
+    Network sut({.dedup = 250ms, .own = Source{SystemId{1}, ComponentId{191}}});
+    sut.link({.in = test::make_filter({}, {.messages = {"SYS_STATUS"}})});
+    sut.link();
+    const auto tap = sut.link({.tap = true});
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(2, tap));
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(tap));
+    EXPECT_EQ(sut.verdict, Verdict::duplicate);
+    EXPECT_THAT(sut.pass(2, frame), ElementsAre(tap));
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+    EXPECT_THAT(sut.send(1, "SYS_STATUS", vehicle), ElementsAre(tap));
+    EXPECT_EQ(sut.verdict, Verdict::filtered);
+    EXPECT_THAT(sut.command(1, gcs, {99, 1}), ElementsAre(tap));
+    EXPECT_EQ(sut.verdict, Verdict::unknown_target);
+    EXPECT_THAT(sut.command(1, gcs, {1, 191}), ElementsAre(tap));
+    EXPECT_THAT(sut.hears(tap, {50, 1}), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::tap);
+    EXPECT_THAT(sut.command(1, gcs, {50, 1}), ElementsAre(tap));
+    EXPECT_EQ(sut.verdict, Verdict::unknown_target);
+}
+
+TEST(Engine, GroupOfModeAllSendsOnEveryMember) {
+    Network sut;
+    sut.links(2, {.group = GroupId{1}});
+    sut.link();
+
+    EXPECT_THAT(sut.send(3, "ATTITUDE", gcs), ElementsAre(1, 2));
+    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), ElementsAre(3));
+}
+
+TEST(Engine, PrimaryFallsOverWhenSilentAndComesBack) {
+    Network sut;
+    sut.link({.group = GroupId{1}, .group_mode = GroupMode::primary, .group_order = 2});
+    sut.link({.group = GroupId{1}, .group_mode = GroupMode::primary, .group_order = 1});
+    sut.link();
+    const auto where = [&] { return sut.send(3, "ATTITUDE", gcs, {{"time_boot_ms", ++sut.count}}); };
+
+    EXPECT_THAT(where(), ElementsAre(1, 2));  // nobody was heard yet: all are tried
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+    EXPECT_THAT(where(), ElementsAre(2));
+    sut.wait(2s);
+    sut.hears(1, vehicle);
+    sut.wait(1s);
+    EXPECT_THAT(where(), ElementsAre(1));
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(1));
+    sut.hears(2, vehicle);
+    EXPECT_THAT(where(), ElementsAre(2));
+    EXPECT_THAT(sut.hears(3, gcs), ElementsAre(1, 2));  // HEARTBEAT goes everywhere
+}
+
+TEST(Engine, BestStaysWhileItsLinkIsNoWorse) {
+    Network sut;
+    sut.links(2, {.group = GroupId{1}, .group_mode = GroupMode::best});
+    sut.link();
+    const auto where = [&] { return sut.send(3, "ATTITUDE", gcs, {{"time_boot_ms", ++sut.count}}); };
+    sut.hears(1, vehicle);
+    sut.wait(1ms);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(where(), ElementsAre(2));  // the freshest
+    sut.wait(1ms);
+    sut.hears(1, vehicle);
+    EXPECT_THAT(where(), ElementsAre(2));  // stays
+    sut.engine.set_loss(LinkId{2}, 19);
+    EXPECT_THAT(where(), ElementsAre(2));
+    sut.engine.set_loss(LinkId{2}, 20);
+    EXPECT_THAT(where(), ElementsAre(1));
+    sut.wait(2s);
+    sut.hears(2, vehicle);
+    sut.wait(1s);
+    EXPECT_THAT(where(), ElementsAre(2));  // 1 is silent
+}
+
+TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
+    Network sut;
+    sut.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}}),
+              .group = GroupId{1},
+              .group_mode = GroupMode::primary});
+    sut.link({.group = GroupId{1}, .group_mode = GroupMode::primary, .group_order = 1});
+    sut.link();
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.send(3, "ATTITUDE", gcs), ElementsAre(2));
+    EXPECT_THAT(sut.send(3, "SYS_STATUS", gcs), ElementsAre(1));
+}
+
+LinkPolicy limited(std::vector<RateTerm> terms) {
+    return {.max_rate = *Rates::compile(dialect::default_dialect(), terms)};
+}
+
+TEST(Engine, MaxRateHoldsForEachSourceAndMessage) {
+    Network sut;
+    sut.link();
+    sut.link(limited({{"ATTITUDE", 10}}));
+    int of_first = 0, of_second = 0, of_others = 0;
+    for (std::uint32_t ms = 0; ms < 1000; ms += 20) {
+        of_first += static_cast<int>(sut.send(1, "ATTITUDE", {1, 1}, {{"time_boot_ms", ms}}).size());
+        of_second += static_cast<int>(sut.send(1, "ATTITUDE", {2, 1}, {{"time_boot_ms", ms}}).size());
+        of_others += static_cast<int>(sut.send(1, "ALTITUDE", {1, 1}, {{"time_usec", ms}}).size());
+        sut.wait(20ms);
+    }
+
+    EXPECT_EQ(of_first, 10);
+    EXPECT_EQ(of_second, 10);
+    EXPECT_EQ(of_others, 50);
+    EXPECT_EQ(sut.counters(1).rate_limited.value(), 80u);
+    EXPECT_EQ(sut.counters(2).out_rate_limited.value(), 80u);
+}
+
+TEST(Engine, MaxRateOfAllOthersSparesWhatSomebodyWaitsFor) {
+    Network sut;
+    sut.link();
+    sut.link(limited({{"*", 1}}));
+
+    for (int i = 0; i < 5; ++i) EXPECT_THAT(sut.hears(1, vehicle), ElementsAre(2));
+    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), ElementsAre(2));
+    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), IsEmpty());
+}
+
+TEST(Engine, MaxRateThatNamesAMessageHoldsForIt) {
+    Network sut;
+    sut.link();
+    sut.link(limited({{"HEARTBEAT", 0.1}, {"*", 1000}}));
+
+    EXPECT_THAT(sut.hears(1, vehicle), ElementsAre(2));
+    sut.wait(9s);
+    EXPECT_THAT(sut.hears(1, vehicle), IsEmpty());
+    sut.wait(1s);
+    EXPECT_THAT(sut.hears(1, vehicle), ElementsAre(2));
+}
+
+TEST(Engine, MaxBytesHoldsTelemetryAndLetsCommandsThrough) {
+    Network sut;
+    sut.link();
+    sut.link({.max_bytes_per_s = 1000});
+    sut.hears(2, {9, 9});
+    std::size_t bytes = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const Bytes frame = make_frame("ATTITUDE", vehicle, {{"yawspeed", 0x3f800000}, {"time_boot_ms", i}});
+        if (!sut.pass(1, frame).empty()) bytes += frame.size();
+        sut.wait(10ms);
+    }
+
+    EXPECT_GT(bytes, 9900u);
+    EXPECT_LE(bytes, 10000u + 560u);  // ten seconds, and what may leave at once
+    EXPECT_GT(sut.counters(2).out_bytes_limited.value(), 0u);
+    for (int i = 0; i < 100; ++i) EXPECT_THAT(sut.command(1, gcs, {9, 9}), ElementsAre(2));
+    sut.wait(1s);
+    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), IsEmpty());  // the debt of the commands
+}
+
+TEST(Engine, LimitedLinkDoesNotHoldTheOthers) {
+    Network sut;
+    sut.link();
+    sut.link(limited({{"*", 1}}));
+    sut.link();
+    sut.send(1, "ATTITUDE", vehicle);
+
+    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), ElementsAre(3));
+}
+
+TEST(Engine, HostileSenderLosesItsOwnRoutesOnly) {
+    Network sut;
+    sut.links(3);
+    sut.hears(2, vehicle);
+    for (std::uint32_t pair = 512; pair < 512 + 3000; ++pair)
+        sut.pass(1, make_frame("HEARTBEAT", Id{static_cast<std::uint8_t>(pair >> 8), static_cast<std::uint8_t>(pair)}));
+
+    EXPECT_EQ(sut.engine.routes(sut.now).size(), Engine::max_routes_per_link + 1);
+    EXPECT_EQ(sut.engine.counters().routes_evicted.value(), 3000 - Engine::max_routes_per_link);
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2));
+}
+
+TEST(Engine, SourcesOnAThousandLinksStayWithinTheBound) {
+    Network sut;
+    sut.links(1000);
+    for (std::uint32_t link = 1; link <= 1000; ++link)
+        for (std::uint8_t i = 0; i < 100; ++i) {
+            const Bytes frame = make_frame("HEARTBEAT", Id{static_cast<std::uint8_t>(1 + link % 250), i},
+                                           {{"custom_mode", link}});
+            (void)sut.engine.route(wire::FrameView::unchecked(frame), LinkId{link}, sut.now);
+        }
+
+    EXPECT_EQ(sut.engine.routes(sut.now).size(), Engine::max_routes);
+    EXPECT_EQ(sut.engine.counters().routes_evicted.value(), 100000 - Engine::max_routes);
+}
+
+TEST(Engine, RouteListTellsLinkSourceAgeAndFrames) {
+    Network sut;
+    sut.links(2);
+    sut.hears(2, vehicle);
+    sut.hears(2, vehicle);
+    sut.wait(3s);
+    sut.hears(1, gcs);
+
+    const auto routes = sut.engine.routes(sut.now);
+
+    ASSERT_EQ(routes.size(), 2u);
+    EXPECT_EQ(routes[0].link, LinkId{2});
+    EXPECT_EQ(routes[0].source, Source(vehicle));
+    EXPECT_EQ(routes[0].age, 3s);
+    EXPECT_EQ(routes[0].frames, 2u);
+    EXPECT_EQ(routes[1].source, Source(gcs));
+}
+
+TEST(Engine, RedundantLinksOfOneGroupAreNoDuplicateIds) {
+    Network sut;
+    sut.links(2, {.group = GroupId{1}});
+    sut.link();
+    for (int i = 0; i < 10; ++i) {
+        sut.hears(1, vehicle);
+        sut.hears(2, vehicle);
+    }
+
+    EXPECT_TRUE(sut.engine.duplicate_ids().empty());
+}
+
+TEST(Engine, ExplainsEveryLinkOfABroadcast) {
+    Network sut;
+    sut.link();                                                             // 1
+    sut.links(2, {.group = GroupId{1}, .group_mode = GroupMode::primary});  // 2, 3
+    sut.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}})});   // 4
+    sut.link({.is_private = true});                                         // 5
+    sut.link({.tap = true});                                                // 6
+    sut.link();                                                             // 7: the same sender
+    sut.link(limited({{"ATTITUDE", 0.001}}));                               // 8
+    sut.link({.max_bytes_per_s = 0});                                       // 9
+    sut.hears(2, {9, 9});
+    sut.hears(3, {9, 9});
+    sut.hears(7, vehicle);
+    sut.send(1, "ATTITUDE", vehicle);
+    for (int i = 0; i < 20; ++i) sut.send(1, "ALTITUDE", vehicle, {{"bottom_clearance", 1}});
+
+    const auto why = sut.explain(1, make_frame("ATTITUDE", vehicle, {{"yawspeed", 0x3f800000}}));
+
+    EXPECT_EQ(sut.verdict, Verdict::forwarded);
+    EXPECT_THAT(why, UnorderedElementsAre(
+                         Pair(1, Reason::ingress), Pair(2, Reason::sent), Pair(3, Reason::other_member),
+                         Pair(4, Reason::filtered), Pair(5, Reason::private_link), Pair(6, Reason::tap),
+                         Pair(7, Reason::source_here), Pair(8, Reason::rate_limited), Pair(9, Reason::bytes_limited)));
+}
+
+TEST(Engine, ExplainsATargetedFrameAndADroppedOne) {
+    Network sut;
+    sut.links(2, {.group = GroupId{1}});
+    sut.links(2);
+    sut.hears(2, vehicle);
+    sut.hears(3, vehicle);
+    const Bytes command = make_frame("COMMAND_LONG", gcs, {{"target_system", 1}, {"target_component", 1}});
+
+    EXPECT_THAT(sut.explain(1, command), UnorderedElementsAre(Pair(1, Reason::ingress), Pair(2, Reason::same_group),
+                                                              Pair(3, Reason::sent), Pair(4, Reason::other_target)));
+    EXPECT_THAT(sut.explain(3, command), UnorderedElementsAre(Pair(1, Reason::dropped), Pair(2, Reason::dropped),
+                                                              Pair(3, Reason::dropped), Pair(4, Reason::dropped)));
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+}
+
+TEST(Engine, EveryVerdictAndReasonHasAText) {
+    for (int v = 0; v <= static_cast<int>(Verdict::unknown_link); ++v)
+        EXPECT_FALSE(verdict_name(static_cast<Verdict>(v)).empty()) << v;
+    for (int r = 0; r <= static_cast<int>(Reason::bytes_limited); ++r)
+        EXPECT_FALSE(reason_text(static_cast<Reason>(r)).empty()) << r;
 }
 
 }  // namespace
