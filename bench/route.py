@@ -113,7 +113,7 @@ def wrongs(taken, name):
 
 def table(say, taken, peers, base):
     say(f"  {'router':<28} {'CPU us/frame':>12} {'times ' + base + ' (lowest, highest)':>36} {'lost %':>9} {'median us':>10} {'p99 us':>10} "
-        f"{'RssAnon KiB':>12}  notes")
+        f"{'RssAnon KiB, growth':>20}  notes")
     for peer in peers:
         if not any(peer.name in results for results in taken):
             say(f"  {peer.name:<28} gave no answer")
@@ -123,18 +123,25 @@ def table(say, taken, peers, base):
         say(f"  {peer.name:<28} {cell(median_of(taken, peer.name, 'cpu_us_per_frame'), '.3f'):>12} "
             f"{spread(ratios_of(taken, peer.name, base, 'cpu_us_per_frame')):>36} "
             f"{cell(median_of(taken, peer.name, 'loss_percent'), '.3f'):>9} {cell(median_of(taken, peer.name, 'median_us'), ',.0f'):>10} "
-            f"{cell(median_of(taken, peer.name, 'p99_us'), ',.0f'):>10} {late - early:>+5,.0f} {late:>6,.0f}  {'; '.join(notes)}")
+            f"{cell(median_of(taken, peer.name, 'p99_us'), ',.0f'):>10} {late:>11,.0f}, {late - early:>+7,.0f}  {'; '.join(notes)}")
+
+
+def print_ratios(load, taken, peers, base):
+    for peer in peers:
+        for what in ("cpu_us_per_frame", "median_us", "p99_us"):
+            if peer.name != base and (ratios := ratios_of(taken, peer.name, base, what)):
+                print(json.dumps({"load": load.key, "peer": peer.name, "against": base, "of": what, "ratio": statistics.median(ratios),
+                                  "lowest": min(ratios), "highest": max(ratios)}), flush=True)
 
 
 def run_table(bench, load, peers, base):
-    bench.say(f"\n{load.title}, {bench.rounds} rounds of {min(bench.seconds, load.longest_s):g} s")
+    bench.say(f"\n{load.title}; rounds: {bench.rounds}, of {min(bench.seconds, load.longest_s):g} s")
     taken = bench.turns(load, peers)
     table(bench.say, taken, peers, base)
-    for name in (OURS, "mavloom, filters and dedup"):
-        for what in ("cpu_us_per_frame", "median_us", "p99_us"):
-            if bench.as_json and name != base and (ratios := ratios_of(taken, name, base, what)):
-                print(json.dumps({"load": load.key, "peer": name, "against": base, "of": what, "ratio": statistics.median(ratios),
-                                  "lowest": min(ratios), "highest": max(ratios)}), flush=True)
+    if ratios := ratios_of(taken, OURS, "mavrouter", "cpu_us_per_frame"):
+        bench.say(f"  mavloom's CPU for a frame is {spread(ratios)} times mavrouter's")
+    if bench.as_json:
+        print_ratios(load, taken, peers, base)
     bench.judge(taken)
 
 
@@ -180,7 +187,8 @@ def find_highest(bench, peers, precision):
     floor = next((search.low for search in searches if search.peer.name == BARE), 0)
     for search in searches:
         ratio = f"{search.low / floor:6.2f} times the bare loop's" if floor else ""
-        bench.say(f"  {search.peer.name:<28} {search.low:12,}/s {ratio}{'; no more could be sent' if search.capped else ''}")
+        rate = f"{search.low:,}/s" if search.low else f"below {search.high:,}/s" if search.high else "gave no answer"
+        bench.say(f"  {search.peer.name:<28} {rate:>16} {ratio}{'; no more could be sent' if search.capped else ''}")
         if bench.as_json:
             print(json.dumps({"load": HIGHEST.key, "peer": search.peer.name, "highest_rate": search.low, "at_least": search.capped}), flush=True)
 

@@ -3,6 +3,7 @@
 handed to them, so that ports are the kernel's choice and every router gets the same."""
 import dataclasses
 import json
+import math
 import pathlib
 import re
 import select
@@ -28,7 +29,7 @@ class Load:
     links: int = 1
     systems: int = 1
     components: int = 1
-    longest_s: float = 10
+    longest_s: float = math.inf
     sink_rest_us: int = 250  # a far side that wakes for each datagram would cost more than what is measured
     tick_us: int = 100
 
