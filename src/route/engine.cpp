@@ -162,19 +162,19 @@ void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
     if (others == 0) [[likely]]
         return;
     Turns& turns = turns_[p.source];
-    if (turns.last == p.slot) return;
-    const bool last_knows = turns.last != no_slot && has(where, turns.last);
-    const bool one_group = last_knows && p.link.group != no_group && links[turns.last]->group == p.link.group;
+    if (turns.last == p.link.id) return;
+    const Slot last = slot_of(turns.last);
+    const bool last_knows = last != no_slot && has(where, last);
+    const bool one_group = last_knows && p.link.group != no_group && links[last]->group == p.link.group;
     if (one_group) return;
     turns.count = last_knows ? static_cast<std::uint8_t>(turns.count + 1) : std::uint8_t{1};
     if (turns.count >= turns_of_duplicates && !turns.told) {
         turns.told = true;
         counters.duplicate_ids.add();
-        if (duplicates.size() < max_duplicate_ids)
-            duplicates.push_back({source_of(p.source), links[turns.last]->id, p.link.id});
+        if (duplicates.size() < max_duplicate_ids) duplicates.push_back({source_of(p.source), turns.last, p.link.id});
     }
     turns.count = std::min(turns.count, turns_of_duplicates);
-    turns.last = p.slot;
+    turns.last = p.link.id;
 }
 
 Verdict Engine::Impl::to_everybody() noexcept {

@@ -11,6 +11,7 @@
 #include "route/link_set.hpp"
 #include "route/recent_frames.hpp"
 #include "route/route_table.hpp"
+#include "route/zeroed_array.hpp"
 
 namespace mavloom::route {
 
@@ -65,9 +66,9 @@ private:
         std::vector<std::uint64_t> links;  // that have it
     };
     struct Turns {
-        Slot last = no_slot;
-        std::uint8_t count = 0;
-        bool told = false;
+        LinkId last;  // 0: none
+        std::uint8_t count;
+        bool told;
     };
     // A frame on its way through.
     struct Passage {
@@ -121,8 +122,8 @@ private:
     std::vector<Group> groups_;
     bool chooses_members_ = false;  // a group is `best` or `primary`
     std::vector<OutFilter> filters_;
-    std::vector<Turns> turns_;            // by pair
-    std::vector<std::uint32_t> unknown_;  // frames dropped, by pair
+    ZeroedArray<Turns> turns_;            // by pair
+    ZeroedArray<std::uint32_t> unknown_;  // frames dropped, by pair
     std::vector<std::uint64_t> candidates_, scratch_;
     std::vector<LinkId> out_;
     MonoTime now_{};

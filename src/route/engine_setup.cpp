@@ -70,8 +70,6 @@ void Engine::Impl::remove_link(LinkId id) {
     if (slot == no_slot) return;
     routes_.remove_link(slot);
     recent_.forget(slot);
-    for (Turns& turns : turns_)
-        if (turns.last == slot) turns.last = no_slot;
     links[slot].reset();
     ids_[slot] = LinkId{};
     --link_count;

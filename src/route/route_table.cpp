@@ -16,16 +16,16 @@ RouteTable::RouteTable(std::size_t most, std::size_t per_link)
     : most_(most),
       per_link_(per_link),
       routes_(new Route[most]),
-      index_(std::bit_ceil(2 * most), none),
+      index_(std::bit_ceil(2 * most)),
       shift_(32u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
     resize(1);
 }
 
 void RouteTable::resize(std::size_t words) {
     words_ = words;
-    pair_links_.assign(pairs * words, 0);
-    system_links_.assign(systems * words, 0);
-    system_counts_.assign(systems * words * 64, 0);
+    pair_links_ = ZeroedArray<std::uint64_t>(pairs * words);
+    system_links_ = ZeroedArray<std::uint64_t>(systems * words);
+    system_counts_ = ZeroedArray<std::uint16_t>(systems * words * 64);
     for (const Link& link : links_)
         for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
             if (routes_[i].known) set_known(routes_[i]);
@@ -45,7 +45,7 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
     std::uint32_t index = link.newest;
     if (index == none || routes_[index].pair != pair) {
         const std::size_t place = place_of(slot, pair);
-        index = index_[place];
+        index = index_[place] - 1;
         if (index == none) {
             index = static_cast<std::uint32_t>(&insert(slot, pair, place, change) - routes_.get());
         } else {
@@ -67,7 +67,7 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
 // Where the route's index stands, or the empty place where it would.
 std::size_t RouteTable::place_of(Slot slot, Pair pair) const noexcept {
     std::size_t at = home(slot, pair);
-    while (index_[at] != none && (routes_[index_[at]].slot != slot || routes_[index_[at]].pair != pair))
+    while (index_[at] != 0 && (routes_[index_[at] - 1].slot != slot || routes_[index_[at] - 1].pair != pair))
         at = (at + 1) & (index_.size() - 1);
     return at;
 }
@@ -92,7 +92,7 @@ Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& chang
                            .pair = pair,
                            .known = false,
                            .has_boot = false};
-    index_[place] = index;
+    index_[place] = index + 1;
     append(index);
     ++links_[slot].count;
     ++count_;
@@ -152,13 +152,13 @@ void RouteTable::remove(std::uint32_t index) noexcept {
 void RouteTable::erase_place(std::size_t place) noexcept {
     const std::size_t mask = index_.size() - 1;
     std::size_t hole = place;
-    for (std::size_t at = (hole + 1) & mask; index_[at] != none; at = (at + 1) & mask) {
-        const Route& route = routes_[index_[at]];
+    for (std::size_t at = (hole + 1) & mask; index_[at] != 0; at = (at + 1) & mask) {
+        const Route& route = routes_[index_[at] - 1];
         if (((at - home(route.slot, route.pair)) & mask) < ((at - hole) & mask)) continue;
         index_[hole] = index_[at];
         hole = at;
     }
-    index_[hole] = none;
+    index_[hole] = 0;
 }
 
 void RouteTable::forget_system(SystemId system) noexcept {
@@ -167,7 +167,7 @@ void RouteTable::forget_system(SystemId system) noexcept {
         const Words set = &pair_links_[pair * words_];
         for (std::size_t w = 0; w < words_; ++w)
             each_in_word(set[w], static_cast<Slot>(64 * w),
-                         [&](Slot slot) { set_unknown(routes_[index_[place_of(slot, pair)]]); });
+                         [&](Slot slot) { set_unknown(routes_[index_[place_of(slot, pair)] - 1]); });
     }
 }
 

@@ -12,6 +12,7 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
 #include "route/link_set.hpp"
+#include "route/zeroed_array.hpp"
 
 namespace mavloom::route {
 
@@ -95,11 +96,11 @@ private:
     std::uint32_t free_ = none;  // a list by `newer`
     std::size_t count_ = 0;
     std::unique_ptr<Route[]> routes_;   // pages are touched as they are needed
-    std::vector<std::uint32_t> index_;  // open addressing by (slot, pair)
+    ZeroedArray<std::uint32_t> index_;  // open addressing by (slot, pair): index into routes_ plus one
     unsigned shift_;
     std::vector<Link> links_;  // by slot
-    std::vector<std::uint64_t> pair_links_, system_links_;
-    std::vector<std::uint16_t> system_counts_;  // known routes per system and slot
+    ZeroedArray<std::uint64_t> pair_links_, system_links_;
+    ZeroedArray<std::uint16_t> system_counts_;  // known routes per system and slot
     std::int64_t next_expiry_ns_ = never;       // not later than the first that is due
 };
 

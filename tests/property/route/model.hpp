@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+// The routing rules once more, naively: lists, linear scans, nothing remembered but what happened. Written from the rules' text, not from the
+// engine.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "unit/route/route_frames.hpp"
+
+namespace mavloom::route::test {
+
+struct ModelPolicy {
+    Terms in_allow, in_block, out_allow, out_block;
+    std::uint32_t group = 0;
+    GroupMode mode = GroupMode::all;
+    std::uint32_t order = 0;
+    bool tap = false, is_private = false;
+    std::optional<Nanoseconds> attitude_interval, other_interval;
+    std::optional<std::uint64_t> bytes_per_s;
+    std::optional<Nanoseconds> route_timeout;
+};
+
+class Model {
+public:
+    explicit Model(const Options& options) : options_(options) {}
+
+    struct Result {
+        Verdict verdict = Verdict::nowhere;
+        std::map<std::uint32_t, Reason> why;
+
+        [[nodiscard]] Ids links() const {
+            Ids ids;
+            for (const auto& [id, reason] : why)
+                if (reason == Reason::sent || reason == Reason::tap) ids.push_back(id);
+            return ids;
+        }
+    };
+
+    void add(std::uint32_t id, const ModelPolicy& policy) {
+        Link link;
+        link.policy = policy;
+        link.tokens = std::max(static_cast<double>(policy.bytes_per_s.value_or(0)) / 4, 560.0);
+        if (policy.group != 0 && !policy.tap) {
+            if (!group_modes_.contains(policy.group)) group_modes_[policy.group] = policy.mode;
+            link.policy.mode = group_modes_[policy.group];
+        }
+        if (policy.tap) link.policy.group = 0;
+        links_[id] = link;
+    }
+    void remove(std::uint32_t id) {
+        links_.erase(id);
+        std::erase_if(heard_, [&](const Heard& h) { return h.link == id; });
+        for (Recent& r : recent_) {
+            r.heard.erase(id);
+            r.sent.erase(id);
+        }
+        for (auto& [group, current] : current_)
+            if (current == id) current = 0;
+    }
+    void set_loss(std::uint32_t id, std::uint32_t permille) {
+        if (links_.contains(id)) links_[id].loss = permille;
+    }
+
+    Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now) {
+        const auto frame = wire::FrameView::unchecked(bytes);
+        now_ = now;
+        Result result;
+        if (!links_.contains(ingress)) {
+            result.verdict = Verdict::unknown_link;
+            for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
+            return result;
+        }
+        std::erase_if(heard_, [&](const Heard& h) { return now - h.time >= timeout(h.link); });
+        for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
+        Recent* remembered = nullptr;
+        result.verdict = judge(ingress, bytes, frame, result.why, remembered);
+        if (result.verdict != Verdict::tap) give_to_taps(frame, result.why);
+        if (remembered != nullptr)
+            for (const auto id : result.links()) remembered->sent.insert(id);
+        return result;
+    }
+
+    // link, system, component and the number of frames that taught it.
+    [[nodiscard]] std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> routes(MonoTime now) const {
+        std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> list;
+        for (const Heard& h : heard_)
+            if (h.known && now - h.time < timeout(h.link)) list.emplace(h.link, h.system, h.component, h.frames);
+        return list;
+    }
+
+private:
+    struct Link {
+        ModelPolicy policy{};
+        std::optional<MonoTime> last_heard{};
+        std::uint32_t loss = 0;
+        std::map<std::uint64_t, MonoTime> due{};  // by source and message
+        double tokens = 0;
+        std::optional<MonoTime> filled{};
+    };
+    struct Heard {
+        std::uint32_t link;
+        std::uint8_t system, component;
+        MonoTime time;
+        std::uint64_t frames = 0;
+        bool known = true;
+        std::optional<std::uint32_t> boot_ms{};
+    };
+    struct Recent {
+        Bytes bytes;
+        MonoTime time;
+        std::set<std::uint32_t> heard, sent;
+    };
+    using Why = std::map<std::uint32_t, Reason>;
+
+    [[nodiscard]] Nanoseconds timeout(std::uint32_t link) const {
+        return links_.at(link).policy.route_timeout.value_or(options_.route_timeout);
+    }
+    static bool in(const auto& list, const auto& value) {
+        return std::find(list.begin(), list.end(), value) != list.end();
+    }
+    static bool admits(const Terms& allow, const Terms& block, const wire::FrameView& frame) {
+        const auto id = std::to_string(frame.id().value);
+        const auto system = frame.system().value, component = frame.component().value;
+        if (!allow.messages.empty() && !in(allow.messages, id)) return false;
+        if (!allow.systems.empty() && !in(allow.systems, system)) return false;
+        if (!allow.components.empty() && !in(allow.components, component)) return false;
+        return !in(block.messages, id) && !in(block.systems, system) && !in(block.components, component);
+    }
+    [[nodiscard]] bool is_fresh(std::uint32_t link, std::uint8_t system, int component) const {
+        return std::any_of(heard_.begin(), heard_.end(), [&](const Heard& h) {
+            return h.known && h.link == link && h.system == system && (component < 0 || h.component == component);
+        });
+    }
+    [[nodiscard]] bool is_fresh_anywhere(std::uint8_t system, int component) const {
+        return std::any_of(links_.begin(), links_.end(),
+                           [&](const auto& l) { return is_fresh(l.first, system, component); });
+    }
+
+    Verdict judge(std::uint32_t ingress, const Bytes& bytes, const wire::FrameView& frame, Why& why,
+                  Recent*& remembered) {
+        Link& link = links_[ingress];
+        if (link.policy.tap) return Verdict::tap;
+        if (!admits(link.policy.in_allow, link.policy.in_block, frame)) return Verdict::filtered;
+        const auto same = [&](const Recent& r) { return r.bytes == bytes; };
+        if (const auto r = std::find_if(recent_.begin(), recent_.end(), same); r != recent_.end()) {
+            const auto age = now_ - r->time;
+            if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) return Verdict::echo;
+            const bool again = r->heard.contains(ingress);
+            const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
+                return link.policy.group != 0 && links_[id].policy.group == link.policy.group;
+            });
+            if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
+                r->heard.insert(ingress);
+                if (!again) learn(ingress, frame);
+                return Verdict::duplicate;
+            }
+            recent_.erase(r);
+        }
+        recent_.push_back({bytes, now_, {ingress}, {}});
+        remembered = &recent_.back();
+        learn(ingress, frame);
+        if (link.policy.is_private) return Verdict::private_link;
+        return decide(ingress, frame, why);
+    }
+
+    void learn(std::uint32_t ingress, const wire::FrameView& frame) {
+        links_[ingress].last_heard = now_;
+        const auto system = frame.system().value, component = frame.component().value;
+        if (system == 0 || info(frame) == nullptr) return;
+        const auto same = [&](const Heard& h) {
+            return h.link == ingress && h.system == system && h.component == component;
+        };
+        if (std::none_of(heard_.begin(), heard_.end(), same)) heard_.push_back({ingress, system, component, now_});
+        Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
+        if (frame.id().value == 2) {
+            Bytes payload = mavloom::test::copy(frame.payload());
+            payload.resize(12);
+            const auto boot_ms = load_le<std::uint32_t>(&payload[8]);
+            if (heard.boot_ms && *heard.boot_ms > boot_ms + std::uint64_t{1000})
+                for (Heard& h : heard_)
+                    if (h.system == system) h.known = false;
+            heard.boot_ms = boot_ms;
+        }
+        heard.known = true;
+        heard.time = now_;
+        ++heard.frames;
+    }
+
+    static const wire::MessageInfo* info(const wire::FrameView& frame) {
+        return dialect::default_dialect().wire_table().find(frame.id());
+    }
+    static std::uint8_t target(const wire::FrameView& frame, std::string_view field_name) {
+        const auto* message = dialect::default_dialect().find(frame.id());
+        const auto* field = message == nullptr ? nullptr : message->find(field_name);
+        return field != nullptr && field->offset < frame.payload().size() ? frame.payload()[field->offset]
+                                                                          : std::uint8_t{0};
+    }
+
+    Verdict decide(std::uint32_t ingress, const wire::FrameView& frame, Why& why) {
+        const auto system = std::max(target(frame, "target_system"), target(frame, "target"));
+        const auto component = target(frame, "target_component");
+        const bool exact = component != 0 && is_fresh_anywhere(system, component);
+        bool broadcast = system == 0;
+        if (!broadcast) {
+            if (options_.own == Source{SystemId{system}, ComponentId{component}}) return Verdict::consumed;
+            if (!is_fresh_anywhere(system, -1)) {
+                if (options_.unknown_target == UnknownTarget::drop) return Verdict::unknown_target;
+                broadcast = true;
+            } else if (component != 0 && !exact && options_.unknown_component == UnknownComponent::drop) {
+                return Verdict::unknown_target;
+            }
+        }
+        for (auto& [id, link] : links_) {
+            const auto& policy = link.policy;
+            if (policy.tap) continue;
+            const bool has_target = !broadcast && is_fresh(id, system, exact ? component : -1);
+            if (policy.is_private && !(exact && has_target)) why[id] = Reason::private_link;
+            else if (!broadcast && !has_target) why[id] = Reason::other_target;
+            else if (policy.group != 0 && policy.group == links_[ingress].policy.group) why[id] = Reason::same_group;
+            else if (is_fresh(id, frame.system().value, frame.component().value)) why[id] = Reason::source_here;
+            else why[id] = Reason::sent;
+            if (id == ingress) why[id] = Reason::ingress;
+        }
+        return narrow(frame, why);
+    }
+
+    static bool any_sent(const Why& why) {
+        return std::any_of(why.begin(), why.end(), [](const auto& w) { return w.second == Reason::sent; });
+    }
+
+    Verdict narrow(const wire::FrameView& frame, Why& why) {
+        if (!any_sent(why)) return Verdict::nowhere;
+        for (auto& [id, reason] : why)
+            if (reason == Reason::sent && !admits(links_[id].policy.out_allow, links_[id].policy.out_block, frame))
+                reason = Reason::filtered;
+        if (!any_sent(why)) return Verdict::filtered;
+        if (frame.id().value != 0)
+            for (const auto& [group, mode] : group_modes_)
+                if (mode != GroupMode::all) choose(group, mode, why);
+        for (auto& [id, reason] : why)
+            if (reason == Reason::sent) reason = limit(links_[id], frame, Reason::sent);
+        return any_sent(why) ? Verdict::forwarded : Verdict::rate_limited;
+    }
+
+    void choose(std::uint32_t group, GroupMode mode, Why& why) {
+        std::vector<std::uint32_t> members, alive;
+        for (const auto& [id, reason] : why)
+            if (reason == Reason::sent && links_[id].policy.group == group) members.push_back(id);
+        if (members.size() < 2) return;
+        for (const auto id : members)
+            if (links_[id].last_heard && now_ - *links_[id].last_heard < std::chrono::seconds{3}) alive.push_back(id);
+        if (alive.empty()) return;
+        std::stable_sort(alive.begin(), alive.end(),
+                         [&](auto a, auto b) { return links_[a].policy.order < links_[b].policy.order; });
+        std::uint32_t chosen = alive.front();
+        if (mode == GroupMode::best) {
+            std::stable_sort(alive.begin(), alive.end(), [&](auto a, auto b) {
+                return std::pair{links_[a].loss, -links_[a].last_heard->time_since_epoch()} <
+                       std::pair{links_[b].loss, -links_[b].last_heard->time_since_epoch()};
+            });
+            chosen = alive.front();
+            if (in(alive, current_[group]) && links_[current_[group]].loss < links_[chosen].loss + 20)
+                chosen = current_[group];
+            current_[group] = chosen;
+        }
+        for (const auto id : members)
+            if (id != chosen) why[id] = Reason::other_member;
+    }
+
+    // docs/guide/queues.md has the names of class 0; of those in the test: HEARTBEAT, COMMAND_LONG, SET_MODE.
+    static bool is_spared(const wire::FrameView& frame) {
+        const auto id = frame.id().value;
+        return id == 0 || id == 76 || id == 11;
+    }
+
+    Reason limit(Link& link, const wire::FrameView& frame, Reason otherwise) {
+        std::optional<Nanoseconds> interval;
+        if (frame.id().value == 30 && link.policy.attitude_interval) interval = link.policy.attitude_interval;
+        else if (!is_spared(frame)) interval = link.policy.other_interval;
+        const std::uint64_t key = std::uint64_t{frame.system().value} << 40 |
+                                  std::uint64_t{frame.component().value} << 32 | frame.id().value;
+        const auto due = link.due.find(key);
+        if (interval && due != link.due.end() && now_ < due->second) return Reason::rate_limited;
+        if (link.policy.bytes_per_s) {
+            const auto rate = static_cast<double>(*link.policy.bytes_per_s);
+            if (link.filled)
+                link.tokens = std::min(link.tokens + std::chrono::duration<double>(now_ - *link.filled).count() * rate,
+                                       std::max(rate / 4, 560.0));
+            link.filled = now_;
+            const auto size = static_cast<double>(frame.size());
+            if (!is_spared(frame) && link.tokens < size) return Reason::bytes_limited;
+            link.tokens = std::max(link.tokens - size, -rate);
+        }
+        if (interval) {
+            const bool in_step = due != link.due.end() && now_ - due->second < *interval;
+            link.due[key] = (in_step ? due->second : now_) + *interval;
+        }
+        return otherwise;
+    }
+
+    void give_to_taps(const wire::FrameView& frame, Why& why) {
+        for (auto& [id, link] : links_) {
+            if (!link.policy.tap) continue;
+            why[id] = admits(link.policy.out_allow, link.policy.out_block, frame) ? limit(link, frame, Reason::tap)
+                                                                                  : Reason::filtered;
+        }
+    }
+
+    Options options_;
+    MonoTime now_{};
+    std::map<std::uint32_t, Link> links_;
+    std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
+    std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
+    std::vector<Heard> heard_;
+    std::vector<Recent> recent_;
+};
+
+}  // namespace mavloom::route::test
