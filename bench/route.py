@@ -5,6 +5,7 @@ Ratios are to the bare loop of the same round. CPU is that of the router's proce
 lost what the bare loop of the same round delivered, or delivered what was not sent."""
 import argparse
 import json
+import os
 import pathlib
 import statistics
 import sys
@@ -206,6 +207,7 @@ def parse_options():
     parser.add_argument("--rounds", type=int, help="default 5")
     parser.add_argument("--only", default="", help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{HIGHEST.key}")
     parser.add_argument("--without", default="", help="peers to leave out: mavrouter,mavproxy")
+    parser.add_argument("--nice", type=int, default=0, help="priority of load, routers and far side alike: -10 (root) on a machine that does other things")
     parser.add_argument("--json", action="store_true", help="one JSON object a line: each measurement, then ratios; the tables on standard error")
     options = parser.parse_args()
     options.tools = options.tools or options.program.resolve().parent.parent / "bench" / "bin"
@@ -220,6 +222,7 @@ def parse_options():
 
 def main():
     options = parse_options()
+    os.nice(options.nice)
     bench = Bench(Kit(options.tools, options.flight), options)
     peers, missing = routers.at_hand(options.program, options.tools, options.peers, options.without.lower().split(","))
     for why in missing:
