@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A recording that may go on in new files: by size, by time, or never. A frame is never split, a file never replaced. Time is the frames' own
+// receive time: a new segment begins with the first frame that is `every` or more later than its segment's first one; frames that are earlier
+// (another link's, a clock set back) stay in the segment that is open. Nothing is read from a clock here.
+// One owner thread; opening a segment allocates, `write` within one does not. Waits for the disk when it closes a segment: not for a loop that
+// serves sockets. Follows docs/formats/tlog.md.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "mavloom/record/tlog_writer.hpp"
+
+namespace mavloom::record {
+
+struct Rotation {
+    std::uint64_t bytes = 0;           // a segment is never larger, unless a single record is; 0: no bound
+    std::chrono::nanoseconds every{};  // 0: no bound
+    [[nodiscard]] bool rotates() const noexcept { return bytes != 0 || every != std::chrono::nanoseconds{}; }
+};
+
+class RotatingWriter {
+public:
+    // Without rotation writes exactly `path`, as TlogWriter does. With it, each segment is `path`'s stem plus the UTC time of its first frame,
+    // flight-20231114T221320.000Z.tlog, the first one opened by the first frame; a name that is taken gets _2, _3, ... A folder that cannot be
+    // written, and rotation of a device or FIFO, are errors here.
+    [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
+
+    // An error means that this record was not taken: see TlogWriter::write. A new segment may fail to open, and the one behind us to close.
+    [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
+    [[nodiscard]] SetupResult<void> flush();
+    [[nodiscard]] SetupResult<void> close();
+
+    // As it was given to `create`.
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+    // The file that is written; empty before the first segment.
+    [[nodiscard]] std::filesystem::path segment_path() const;
+    // Where an existing file went; empty if there was none.
+    [[nodiscard]] std::filesystem::path renamed_to() const;
+    [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
+    // Of all segments.
+    [[nodiscard]] std::uint64_t records() const noexcept;
+    [[nodiscard]] std::uint64_t size() const noexcept;
+
+private:
+    RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
+
+    [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
+    [[nodiscard]] SetupResult<void> begin_segment(WallTime time);
+    [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
+
+    std::filesystem::path path_;
+    Rotation rotation_;
+    std::optional<TlogWriter> writer_;
+    WallTime begin_{};  // of the segment: its first frame's time
+    std::uint64_t segments_ = 0;
+    std::uint64_t closed_records_ = 0, closed_bytes_ = 0;  // of the segments before
+};
+
+}  // namespace mavloom::record

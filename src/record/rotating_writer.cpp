@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/rotating_writer.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+
+namespace mavloom::record {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Found out before the first frame, which may come hours later.
+SetupResult<void> check_place(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+        return setup_error(SetupCode::usage, fmt::format("{} is no file: it cannot be rotated", path.string()));
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (::stat(folder.c_str(), &status) != 0 || ::access(folder.c_str(), W_OK | X_OK) != 0)
+        return system_error(fmt::format("cannot create files in {}", folder.string()), errno);
+    if (!S_ISDIR(status.st_mode))
+        return system_error(fmt::format("cannot create files in {}", folder.string()), ENOTDIR);
+    return {};
+}
+
+// 20231114T221320.000Z: sorts as the times do.
+std::string name_of(WallTime time) {
+    constexpr std::int64_t latest_ms = static_cast<std::int64_t>(time_limit_us / 1000) - 1;
+    const auto ms = std::clamp<std::int64_t>(unix_us(time) / 1000, 0, latest_ms);
+    const std::time_t seconds = ms / 1000;
+    std::tm utc{};
+    ::gmtime_r(&seconds, &utc);
+    return fmt::format("{:04}{:02}{:02}T{:02}{:02}{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                       utc.tm_hour, utc.tm_min, utc.tm_sec, ms % 1000);
+}
+
+}  // namespace
+
+SetupResult<RotatingWriter> RotatingWriter::create(const fs::path& path, Rotation rotation) {
+    RotatingWriter all(path, rotation);
+    if (rotation.rotates()) {
+        if (auto checked = check_place(path); !checked) return tl::unexpected(std::move(checked.error()));
+        return all;
+    }
+    auto writer = TlogWriter::create(path);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    all.writer_.emplace(std::move(*writer));
+    all.segments_ = 1;
+    return all;
+}
+
+bool RotatingWriter::is_due(WallTime time, std::size_t record_bytes) const noexcept {
+    if (!rotation_.rotates()) return false;
+    if (!writer_) return true;
+    if (rotation_.bytes != 0 && writer_->records() != 0 && writer_->size() + record_bytes > rotation_.bytes)
+        return true;
+    return rotation_.every != Nanoseconds{} && time > begin_ && time - begin_ >= rotation_.every;
+}
+
+fs::path RotatingWriter::free_name(WallTime time) const {
+    const auto stem = fmt::format("{}-{}", path_.stem().string(), name_of(time));
+    const auto extension = path_.extension().string();
+    auto name = path_;
+    struct stat status {};
+    name.replace_filename(stem + extension);
+    for (int n = 2; ::lstat(name.c_str(), &status) == 0; ++n)
+        name.replace_filename(fmt::format("{}_{}{}", stem, n, extension));
+    return name;
+}
+
+// The new one is open before the old one is closed: where it cannot be opened, nothing has changed.
+SetupResult<void> RotatingWriter::begin_segment(WallTime time) {
+    auto next = TlogWriter::create(free_name(time));
+    if (!next) return tl::unexpected(std::move(next.error()));
+    SetupResult<void> closed;
+    if (writer_) {
+        closed = writer_->close();
+        closed_records_ += writer_->records();
+        closed_bytes_ += writer_->size();
+    }
+    writer_.emplace(std::move(*next));
+    begin_ = time;
+    ++segments_;
+    return closed;
+}
+
+SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
+    if (is_due(time, time_length + frame.size()))
+        if (auto begun = begin_segment(time); !begun) return begun;
+    return writer_->write(time, frame);
+}
+
+SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }
+SetupResult<void> RotatingWriter::close() { return writer_ ? writer_->close() : SetupResult<void>{}; }
+
+fs::path RotatingWriter::segment_path() const { return writer_ ? writer_->path() : fs::path{}; }
+fs::path RotatingWriter::renamed_to() const { return writer_ ? writer_->renamed_to() : fs::path{}; }
+std::uint64_t RotatingWriter::records() const noexcept { return closed_records_ + (writer_ ? writer_->records() : 0); }
+std::uint64_t RotatingWriter::size() const noexcept { return closed_bytes_ + (writer_ ? writer_->size() : 0); }
+
+}  // namespace mavloom::record

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/rotating_writer.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "mavloom/record/tlog_reader.hpp"
+#include "support/bytes.hpp"
+#include "support/golden_frames.hpp"
+#include "support/golden_table.hpp"
+#include "support/temp_dir.hpp"
+
+namespace mavloom::record {
+namespace {
+
+using namespace std::chrono_literals;
+using test::content_of;
+using test::TempDir;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr WallTime begin = wall_from_us(1'700'000'000'000'000);  // 2023-11-14 22:13:20 UTC
+constexpr std::size_t heartbeat_record_bytes = 29;
+
+wire::FrameView heartbeat() { return wire::FrameView::unchecked(test::heartbeat_v2); }
+
+RotatingWriter created(const std::filesystem::path& path, Rotation rotation) {
+    auto writer = RotatingWriter::create(path, rotation);
+    if (!writer) throw std::runtime_error(writer.error().text);
+    return std::move(*writer);
+}
+
+std::vector<std::string> names_in(const TempDir& dir) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(dir.path()))
+        names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+void record(RotatingWriter& writer, std::initializer_list<Nanoseconds> times) {
+    for (const auto time : times) ASSERT_TRUE(writer.write(begin + time, heartbeat()).has_value());
+    ASSERT_TRUE(writer.close().has_value());
+}
+
+TEST(RotatingWriter, WritesExactlyThePathWithoutRotation) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+
+    record(writer, {0s, 3600s, 86400s});
+
+    EXPECT_THAT(names_in(dir), ElementsAre("x.tlog"));
+    EXPECT_EQ(writer.segments(), 1u);
+    EXPECT_EQ(writer.size(), 3 * heartbeat_record_bytes);
+}
+
+// Case P6 of the routing rules.
+TEST(RotatingWriter, TwoFramesElevenTenthsApartWithSegmentsOfASecondAreTwoFiles) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1s});
+
+    record(writer, {0s, 1100ms});
+
+    EXPECT_THAT(names_in(dir), ElementsAre("x-20231114T221320.000Z.tlog", "x-20231114T221321.100Z.tlog"));
+    EXPECT_EQ(content_of(dir / "x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / "x-20231114T221321.100Z.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(writer.segments(), 2u);
+    EXPECT_EQ(writer.records(), 2u);
+    EXPECT_EQ(writer.size(), 2 * heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, AFrameJustBelowTheIntervalStays) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1s});
+
+    record(writer, {0s, 999'999'999ns});
+    EXPECT_EQ(writer.segments(), 1u);
+}
+
+TEST(RotatingWriter, AFrameExactlyAtTheIntervalIsTheNextSegmentsFirst) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1s});
+
+    record(writer, {0s, 1s});
+    EXPECT_EQ(writer.segments(), 2u);
+}
+
+TEST(RotatingWriter, EarlierFramesStayInTheOpenSegment) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1s});
+
+    record(writer, {0s, 5s, 1s, -3600s, 5500ms});
+
+    EXPECT_THAT(names_in(dir), ElementsAre("x-20231114T221320.000Z.tlog", "x-20231114T221325.000Z.tlog"));
+    EXPECT_EQ(content_of(dir / "x-20231114T221325.000Z.tlog").size(), 4 * heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, NoSegmentIsLargerThanAskedAndNoFrameIsSplit) {
+    const TempDir dir;
+    const std::filesystem::path source = MAVLOOM_TEST_DATA "/px4_gcs_flight.tlog";
+    auto reader = TlogReader::open(source, test::golden_table());
+    auto writer = created(dir / "x.tlog", {.bytes = 10'000});
+    std::vector<std::filesystem::path> files;
+
+    while (const auto record = reader->next()) {
+        ASSERT_TRUE(writer.write(record->time, record->frame).has_value());
+        if (files.empty() || files.back() != writer.segment_path()) files.push_back(writer.segment_path());
+    }
+    ASSERT_TRUE(writer.close().has_value());
+
+    std::vector<std::uint8_t> joined;
+    for (const auto& file : files) {
+        const auto content = content_of(file);
+        EXPECT_LE(content.size(), 10'000u);
+        joined.insert(joined.end(), content.begin(), content.end());
+        auto segment = TlogReader::open(file, test::golden_table());
+        while (segment->next()) {}
+        EXPECT_EQ(segment->counters().lost_bytes.value(), 0u);
+    }
+    EXPECT_TRUE(joined == content_of(source));
+    EXPECT_EQ(writer.segments(), files.size());
+    EXPECT_EQ(names_in(dir).size(), files.size());
+}
+
+TEST(RotatingWriter, ANameThatIsTakenIsLeftAlone) {
+    const TempDir dir;
+    for (int run = 0; run < 3; ++run) {
+        auto writer = created(dir / "x.tlog", {.every = 1h});
+        record(writer, {0s});
+    }
+
+    EXPECT_THAT(names_in(dir), ElementsAre("x-20231114T221320.000Z.tlog", "x-20231114T221320.000Z_2.tlog",
+                                           "x-20231114T221320.000Z_3.tlog"));
+}
+
+TEST(RotatingWriter, MakesNoFileWithoutAFrame) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1h});
+
+    ASSERT_TRUE(writer.flush().has_value());
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_THAT(names_in(dir), ElementsAre());
+    EXPECT_TRUE(writer.segment_path().empty());
+}
+
+TEST(RotatingWriter, AFolderThatIsMissingIsFoundAtOnce) {
+    const TempDir dir;
+    const auto writer = RotatingWriter::create(dir / "missing/x.tlog", {.every = 1h});
+
+    ASSERT_FALSE(writer.has_value());
+    EXPECT_EQ(writer.error().code, SetupCode::not_found);
+    EXPECT_THAT(writer.error().text, HasSubstr("missing"));
+}
+
+TEST(RotatingWriter, ADeviceIsNotRotated) {
+    const auto writer = RotatingWriter::create("/dev/null", {.bytes = 4096});
+
+    ASSERT_FALSE(writer.has_value());
+    EXPECT_EQ(writer.error().code, SetupCode::usage);
+}
+
+TEST(RotatingWriter, AFolderThatGoesAwayIsAnErrorAndKeepsTheOpenSegment) {
+    const TempDir dir;
+    std::filesystem::create_directory(dir / "sub");
+    auto writer = created(dir / "sub/x.tlog", {.every = 1s});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    std::filesystem::rename(dir / "sub", dir / "other");
+
+    EXPECT_FALSE(writer.write(begin + 2s, heartbeat()).has_value());
+
+    EXPECT_TRUE(writer.close().has_value());
+    EXPECT_EQ(writer.records(), 1u);
+    EXPECT_EQ(content_of(dir / "other/x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
+}
+
+}  // namespace
+}  // namespace mavloom::record
