@@ -135,7 +135,7 @@ SetupResult<void> open_sources(const Common& common, const Options& options, run
         if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
     }
     for (const auto& info : sources.links().endpoints())
-        if (info.endpoint.address.port == 0)
+        if (info.endpoint.address.port == 0 && info.local_port != 0)
             say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return {};
 }

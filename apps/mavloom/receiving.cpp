@@ -93,7 +93,7 @@ SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Commo
         if (auto added = (*receiver)->add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
     for (const auto& info : (*receiver)->endpoints())
-        if (info.endpoint.address.port == 0)
+        if (info.endpoint.address.port == 0 && info.local_port != 0)
             say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return receiver;
 }

@@ -58,6 +58,12 @@ Address Address::with_port(std::uint16_t port) const noexcept {
     return copy;
 }
 
+Address Address::with_scope(std::uint32_t interface) const noexcept {
+    Address copy = *this;
+    if (is_v6()) copy.storage_.v6.sin6_scope_id = interface;
+    return copy;
+}
+
 bool Address::is_any() const noexcept {
     if (is_v4()) return storage_.v4.sin_addr.s_addr == INADDR_ANY;
     return is_v6() && IN6_IS_ADDR_UNSPECIFIED(&storage_.v6.sin6_addr);

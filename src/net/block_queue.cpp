@@ -240,9 +240,10 @@ void BlockQueue::pop(Position until) noexcept {
     }
 }
 
-std::size_t BlockQueue::pieces(std::span<iovec> room) const noexcept {
+std::size_t BlockQueue::pieces(std::span<iovec> room, std::size_t max_bytes) const noexcept {
     Position from = front();
-    const std::size_t count = gather(from, SIZE_MAX, room).pieces;
+    const std::size_t most = max_bytes < SIZE_MAX - begun_ ? max_bytes + begun_ : SIZE_MAX;
+    const std::size_t count = gather(from, most, room).pieces;
     if (count != 0) room[0] = {static_cast<std::uint8_t*>(room[0].iov_base) + begun_, room[0].iov_len - begun_};
     return count;
 }

@@ -112,6 +112,46 @@ void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
     pieces_ += pieces;
 }
 
+static void set_hops(int fd, bool v6, std::uint8_t hops) noexcept {
+    set_option(fd, IPPROTO_IP, IP_MULTICAST_TTL, hops);
+    if (v6) set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_HOPS, hops);
+    if (hops == 0) return;  // for groups only: nothing else leaves with none
+    set_option(fd, IPPROTO_IP, IP_TTL, hops);
+    if (v6) set_option(fd, IPPROTO_IPV6, IPV6_UNICAST_HOPS, hops);
+}
+
+static SetupResult<void> bind_to_device(int fd, const std::string& device) {
+    if (device.empty()) return {};
+    if (setsockopt(fd, SOL_SOCKET, SO_BINDTODEVICE, device.c_str(), static_cast<socklen_t>(device.size())) == 0)
+        return {};
+    return system_error(fmt::format("cannot use the interface '{}'", device), errno);
+}
+
+// Own datagrams loop back, so that other programs of this machine hear them.
+static SetupResult<void> choose_group_interface(int fd, bool v6, std::uint32_t index) {
+    set_option(fd, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
+    if (v6) set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, 1);
+    if (index == 0) return {};
+    ip_mreqn v4{};
+    v4.imr_ifindex = static_cast<int>(index);
+    const int v6_index = static_cast<int>(index);
+    const int failed = v6 ? setsockopt(fd, IPPROTO_IPV6, IPV6_MULTICAST_IF, &v6_index, sizeof v6_index)
+                          : setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &v4, sizeof v4);
+    if (failed != 0) return system_error("cannot send to groups by this interface", errno);
+    return {};
+}
+
+static SetupResult<void> join(int fd, const Address& group, std::uint32_t index) {
+    group_req request{};
+    request.gr_interface = index;
+    std::memcpy(&request.gr_group, group.data(), group.size());
+    const int level = group.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP};
+    if (setsockopt(fd, level, MCAST_JOIN_GROUP, &request, sizeof request) != 0) {
+        return system_error(fmt::format("cannot join the group {}", group.host_text()), errno);
+    }
+    return {};
+}
+
 SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& options) {
     UdpSocket socket;
     socket.fd_ = Fd(::socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -124,8 +164,18 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
                    1);
     }
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
+    if (options.broadcast) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1);
+    if (options.group) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
+    if (options.ttl) set_hops(fd, local.is_v6(), *options.ttl);
+    if (auto done = bind_to_device(fd, options.device); !done) return tl::unexpected(std::move(done).error());
+    if (auto done = choose_group_interface(fd, local.is_v6(), options.group_interface); !done)
+        return tl::unexpected(std::move(done).error());
     if (::bind(fd, local.data(), local.size()) != 0)
         return system_error(fmt::format("cannot bind UDP {}", local.text()), errno);
+    if (options.group) {
+        if (auto done = join(fd, *options.group, options.group_interface); !done)
+            return tl::unexpected(std::move(done).error());
+    }
     auto bound = local_address(fd);
     if (!bound) return tl::unexpected(std::move(bound).error());
     socket.local_ = *bound;

@@ -5,6 +5,7 @@
 
 #include "runtime/links_core.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_serial.hpp"
 #include "runtime/links_tcp.hpp"
 #include "runtime/links_udp.hpp"
 
@@ -56,7 +57,10 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
     switch (opening.endpoint.scheme) {
         case Scheme::udpin: return open_udpin(std::move(opening));
         case Scheme::udpout: return open_udpout(std::move(opening));
+        case Scheme::udpbcast: return open_udpbcast(std::move(opening));
+        case Scheme::udpmcast: return open_udpmcast(std::move(opening));
         case Scheme::tcpin: return open_tcpin(std::move(opening));
+        case Scheme::serial: return open_serial(std::move(opening));
         default: return open_tcpout(std::move(opening));
     }
 }
@@ -65,7 +69,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     impl_->core.refresh_now();
     if (auto checked = check_supported(endpoint); !checked) return tl::unexpected(std::move(checked).error());
     for (const auto& other : impl_->endpoints) {
-        if (other && other->info.endpoint.label() == endpoint.label() && endpoint.address.port != 0) {
+        const bool own_port_each = endpoint.scheme != Scheme::serial && endpoint.address.port == 0;
+        if (other && other->info.endpoint.label() == endpoint.label() && !own_port_each) {
             return setup_error(SetupCode::usage,
                                fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
         }

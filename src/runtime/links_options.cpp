@@ -15,8 +15,11 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
     switch (endpoint.scheme) {
         case Scheme::udpin:
         case Scheme::udpout:
+        case Scheme::udpbcast:
+        case Scheme::udpmcast:
         case Scheme::tcpin:
-        case Scheme::tcpout: break;
+        case Scheme::tcpout:
+        case Scheme::serial: break;
         case Scheme::tlog:
             return usage(endpoint,
                          "a recording is no link: it is read and written by listen, relay, record and replay");
@@ -34,13 +37,15 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
         {"out_block", !o.out_block.empty()},
         {"tap", o.tap},
         {"private", o.is_private},
-        {"iface", !o.iface.empty()},
-        {"ttl", o.ttl.has_value()},
-        {"low_latency", o.low_latency},
     };
     for (const auto& [name, set] : not_yet) {
         if (set) return usage(endpoint, fmt::format("option {}= is not available in this version", name));
     }
+    if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
+        return usage(endpoint, "ttl=0 keeps the datagrams of a group on this machine; others need 1 to 255");
+    const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);
+    if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
+        return usage(endpoint, "all who are heard here are one link; max_peers= has no meaning");
     constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // offsets within a queue have 32 bits
     if (o.queue_bytes > most_queue_bytes) return usage(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
@@ -48,7 +53,8 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
 
 SetupResult<void> check_destination(const Endpoint& endpoint) {
     const auto& [host, port] = endpoint.address;
-    const bool udp = endpoint.scheme == Scheme::udpout;
+    const bool broadcast = endpoint.scheme == Scheme::udpbcast;
+    const bool udp = endpoint.scheme == Scheme::udpout || broadcast;
     if (host.empty()) return usage(endpoint, "a destination needs a host, as in 127.0.0.1");
     if (port == 0) return usage(endpoint, "port 0 is no destination; name the port that the far side listens on");
     const auto address = net::Address::parse(host, port);
@@ -63,7 +69,7 @@ SetupResult<void> check_destination(const Endpoint& endpoint) {
     }
     if (address->is_multicast())
         return usage(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
-    if (address->is_broadcast())
+    if (address->is_broadcast() && !broadcast)
         return usage(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
     return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// udpin and udpout: a socket with its peers, each peer a link. Private to module runtime; one owner thread.
+// udpin, udpout, udpbcast and udpmcast: a socket with its peers, each peer a link. Private to module runtime; one owner thread.
 #pragma once
 
 #include <memory>
@@ -96,8 +96,13 @@ private:
     std::uint32_t last_drops_ = 0;
 };
 
-// Both make the endpoint at once or say why not.
+// What the options of an endpoint ask of its sockets.
+[[nodiscard]] net::UdpOptions udp_options(const EndpointOptions& endpoint);
+
+// They make the endpoint at once or say why not.
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening);
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening);
+[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening);
+[[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening);
 
 }  // namespace mavloom::runtime::detail

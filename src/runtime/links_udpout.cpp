@@ -79,8 +79,7 @@ SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
 
 SetupResult<void> UdpOut::open_port(const net::Address& address) {
     if (port_ && port_->socket().local().family() == address.family()) return {};
-    net::UdpOptions options;
-    options.receive_buffer_bytes = info.endpoint.options.rcvbuf_bytes;
+    net::UdpOptions options = udp_options(info.endpoint.options);
     options.report_refused = true;
     const auto any = net::Address::parse(address.is_v4() ? "0.0.0.0" : "::", 0);
     if (!port_) port_ = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);

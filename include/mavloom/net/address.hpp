@@ -28,6 +28,9 @@ public:
     [[nodiscard]] int family() const noexcept { return storage_.base.sa_family; }
     [[nodiscard]] std::uint16_t port() const noexcept;
     [[nodiscard]] Address with_port(std::uint16_t port) const noexcept;
+    // The interface of a link-local IPv6 address ("%eth0") by its index; 0: none. IPv4 has none.
+    [[nodiscard]] std::uint32_t scope() const noexcept { return is_v6() ? storage_.v6.sin6_scope_id : 0; }
+    [[nodiscard]] Address with_scope(std::uint32_t interface) const noexcept;
 
     [[nodiscard]] bool is_any() const noexcept;        // 0.0.0.0 or ::
     [[nodiscard]] bool is_multicast() const noexcept;  // 224.0.0.0/4 or ff00::/8

@@ -62,9 +62,10 @@ public:
     [[nodiscard]] Gathered gather(Position& from, std::size_t max_bytes, std::span<iovec> room) const noexcept;
     void pop(Position until) noexcept;
 
-    // Streams: everything from the first unsent byte on, as far as `room` goes; `consume` takes off what the kernel took and returns the
-    // blocks that are thereby whole. `rewind` makes the next stream begin with the whole block.
-    [[nodiscard]] std::size_t pieces(std::span<iovec> room) const noexcept;
+    // Streams: everything from the first unsent byte on, as far as `room` goes, and no block more than fits `max_bytes` (the first always);
+    // `consume` takes off what the kernel took and returns the blocks that are thereby whole. `rewind` makes the next stream begin with the
+    // whole block.
+    [[nodiscard]] std::size_t pieces(std::span<iovec> room, std::size_t max_bytes = SIZE_MAX) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
     void rewind() noexcept;
 

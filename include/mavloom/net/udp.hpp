@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mavloom/base/bytes.hpp"
@@ -80,6 +82,12 @@ struct UdpOptions {
     std::uint64_t receive_buffer_bytes = 32u << 20;
     bool v6_only = false;         // else a socket on :: also hears IPv4
     bool report_refused = false;  // learn of closed ports (ICMP) also without connecting: sends then fail once with `refused`
+    bool broadcast = false;           // may send to broadcast addresses
+    std::string device;               // sends and hears by this interface only (SO_BINDTODEVICE); empty: by all
+    std::optional<std::uint8_t> ttl;  // hops; 0 only for groups: this machine
+    // A multicast group to hear; others of this machine may hear it too. `local` is then the group, so that nothing else is heard.
+    std::optional<Address> group;
+    std::uint32_t group_interface = 0;  // by which groups are heard and sent to; 0: as the routes say
 };
 
 class UdpSocket {

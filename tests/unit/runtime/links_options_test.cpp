@@ -21,10 +21,7 @@ struct Refusal {
 
 TEST(LinksOptions, NothingIsSilentlyIgnored) {
     for (const auto& [url, says] : {
-             Refusal{"serial:///dev/ttyACM0?baud=57600", "serial:// is not available in this version"},
              Refusal{"shm://ring", "shm:// is not available in this version"},
-             Refusal{"udpbcast://255.255.255.255:14550", "udpbcast:// is not available in this version"},
-             Refusal{"udpmcast://239.255.145.50:14550", "udpmcast:// is not available in this version"},
              Refusal{"tlog://flight.tlog", "a recording is no link"},
              Refusal{"udpin://127.0.0.1:1?group=air", "group= is not available"},
              Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is not available"},
@@ -33,7 +30,9 @@ TEST(LinksOptions, NothingIsSilentlyIgnored) {
              Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is not available"},
              Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is not available"},
              Refusal{"udpin://127.0.0.1:1?private=true", "private= is not available"},
-             Refusal{"udpin://127.0.0.1:1?ttl=3", "ttl= is not available"},
+             Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps the datagrams of a group"},
+             Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no meaning"},
+             Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no meaning"},
              Refusal{"udpin://127.0.0.1:1?queue_bytes=2000000000", "queue_bytes= goes up to 1 GiB"},
          }) {
         Node node;
