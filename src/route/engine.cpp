@@ -65,12 +65,24 @@ Decision Engine::Impl::route(const wire::FrameView& frame, const wire::MessageIn
     const Verdict verdict = judge(p);
     link.counters.frames.add();
     count(link.counters, verdict);
-    if (verdict != Verdict::forwarded) std::fill_n(candidates_.begin(), words_, std::uint64_t{0});
-    if (verdict != Verdict::tap) add_taps(p);
+    if (verdict != Verdict::forwarded) each_word(words_, [&](std::size_t w) { candidates_[w] = 0; });
+    if (has_taps_ && verdict != Verdict::tap) add_taps(p);
     if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
+    return {verdict, list_candidates(link)};
+}
+
+// A link's frames mostly go to the same many: that list is kept.
+std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
+    if (from.listed != 0 && equal(candidates_.data(), from.listed_set.data(), words_))
+        return {from.list.data(), from.listed};
     std::size_t n = 0;
     each(candidates_.data(), words_, [&](Slot to) { out_[n++] = ids_[to]; });
-    return {verdict, {out_.data(), n}};
+    if (n >= worth_a_list && n <= from.list.size()) {
+        std::copy_n(out_.begin(), n, from.list.begin());
+        assign(from.listed_set.data(), candidates_.data(), words_);
+        from.listed = n;
+    }
+    return {out_.data(), n};
 }
 
 // Leaves in candidates_ where the frame goes, taps aside.
@@ -89,7 +101,8 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
     if (!any(candidates_.data(), words_)) return Verdict::nowhere;
     apply_filters(p);
     if (!any(candidates_.data(), words_)) return Verdict::filtered;
-    apply_groups(p);
+    if (chooses_members_) apply_groups(p);
+    if (!has_limits_) return Verdict::forwarded;
     apply_limits(p);
     return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
 }
@@ -99,7 +112,8 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
     const std::uint64_t hash = hash_of(p.frame.bytes(), options.seed);
-    if (recent_.find(hash, p.recent)) {
+    const bool found = recent_.find(hash, p.recent);
+    if (found) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
             verdict = Verdict::echo;
@@ -116,12 +130,12 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
             return true;
         }
     }
-    remember(p, hash);
+    remember(p, hash, found);
     return false;
 }
 
-void Engine::Impl::remember(Passage& p, std::uint64_t hash) noexcept {
-    if (recent_.put(hash, p.now, window_, p.recent)) counters.recent_evicted.add();
+void Engine::Impl::remember(Passage& p, std::uint64_t hash, bool found) noexcept {
+    if (recent_.put(hash, p.now, window_, found, p.recent)) counters.recent_evicted.add();
     insert(recent_.heard(p.recent), p.slot);
     p.is_remembered = true;
 }
@@ -157,8 +171,8 @@ void Engine::Impl::learn(Passage& p) noexcept {
 void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
     const ConstWords where = routes_.links_of(p.source);
     std::uint64_t others = 0;
-    for (std::size_t w = 0; w < words_; ++w)
-        others |= where[w] & ~(w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0);
+    each_word(words_,
+              [&](std::size_t w) { others |= where[w] & ~(w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0); });
     if (others == 0) [[likely]]
         return;
     Turns& turns = turns_[p.source];
@@ -211,7 +225,7 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
             ++unknown_[pair_of(target)];
             return Verdict::unknown_target;
         }
-        for (std::size_t w = 0; w < words_; ++w) candidates_[w] = of_system[w] & ~private_[w];
+        each_word(words_, [&](std::size_t w) { candidates_[w] = of_system[w] & ~private_[w]; });
     }
     if (reasons_ != nullptr) [[unlikely]] {
         each(ordinary_.data(), words_, [&](Slot slot) {
@@ -225,11 +239,11 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
 }
 
 void Engine::Impl::leave_out(ConstWords set, Reason reason) noexcept {
-    for (std::size_t w = 0; w < words_; ++w) {
+    each_word(words_, [&](std::size_t w) {
         if (reasons_ != nullptr) [[unlikely]]
             each_in_word(candidates_[w] & set[w], static_cast<Slot>(64 * w), [&](Slot slot) { note(slot, reason); });
         candidates_[w] &= ~set[w];
-    }
+    });
 }
 
 void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
@@ -252,7 +266,7 @@ void Engine::Impl::apply_filters(const Passage& p) noexcept {
 
 // HEARTBEAT goes on every link of a group: so each side hears which of them live.
 void Engine::Impl::apply_groups(const Passage& p) noexcept {
-    if (!chooses_members_ || p.id == heartbeat_id) return;
+    if (p.id == heartbeat_id) return;
     for (Group& group : groups_) {
         if (group.mode == GroupMode::all) continue;
         std::size_t size = 0;
@@ -377,8 +391,9 @@ void Engine::Impl::note_sent(const wire::FrameView& frame, LinkId link, MonoTime
     now_ = std::max(now, now_);
     const std::uint64_t hash = hash_of(frame.bytes(), options.seed);
     std::size_t at = 0;
-    if (!recent_.find(hash, at) || now_ - recent_.time(at) >= echo_window)
-        if (recent_.put(hash, now_, window_, at)) counters.recent_evicted.add();
+    const bool found = recent_.find(hash, at);
+    if (!found || now_ - recent_.time(at) >= echo_window)
+        if (recent_.put(hash, now_, window_, found, at)) counters.recent_evicted.add();
     insert(recent_.sent(at), slot);
 }
 

@@ -41,6 +41,10 @@ public:
         MonoTime last_heard{};
         std::uint32_t loss_permille = 0;
         LinkCounters counters{};
+        // The last long list of where its frames went.
+        std::size_t listed = 0;  // 0: none
+        std::vector<std::uint64_t> listed_set{};
+        std::vector<LinkId> list{};
     };
 
     const wire::MessageTable& table;
@@ -52,6 +56,8 @@ public:
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
+    static constexpr std::size_t worth_a_list = 8;
+    static constexpr std::size_t most_listed = 1024;  // links: with more of them the lists would take too much memory
     static constexpr std::uint8_t turns_of_duplicates = 4;  // A, B, A, B: nobody who moves does that within the timeout
 
     struct Group {
@@ -83,9 +89,10 @@ private:
         std::size_t recent = 0;  // its place among the recent frames
     };
 
+    [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
     [[nodiscard]] Verdict judge(Passage& p) noexcept;
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
-    void remember(Passage& p, std::uint64_t hash) noexcept;
+    void remember(Passage& p, std::uint64_t hash, bool found) noexcept;
     void learn(Passage& p) noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
@@ -120,6 +127,7 @@ private:
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_;  // sets of links
     std::vector<Group> groups_;
+    bool has_taps_ = false, has_limits_ = false;
     bool chooses_members_ = false;  // a group is `best` or `primary`
     std::vector<OutFilter> filters_;
     ZeroedArray<Turns> turns_;            // by pair

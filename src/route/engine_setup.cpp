@@ -107,6 +107,9 @@ void Engine::Impl::rebuild() {
     for (Slot slot = 0; slot < links.size(); ++slot) {
         if (links[slot] == nullptr) continue;
         Link& link = *links[slot];
+        link.listed = 0;
+        link.listed_set.resize(words_);
+        link.list.resize(words_ * 64 <= most_listed ? words_ * 64 : 0);
         route::insert(link.policy.tap          ? taps_.data()
                       : link.policy.is_private ? private_.data()
                                                : ordinary_.data(),
@@ -130,6 +133,8 @@ void Engine::Impl::rebuild() {
         const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
         return rank(a) < rank(b);
     };
+    has_taps_ = any(taps_.data(), words_);
+    has_limits_ = any(limited_.data(), words_);
     chooses_members_ = false;
     for (Group& group : groups_) {
         std::sort(group.order.begin(), group.order.end(), preferred);

@@ -18,18 +18,34 @@ inline bool has(ConstWords set, Slot slot) noexcept { return (set[slot / 64] >> 
 inline void insert(Words set, Slot slot) noexcept { set[slot / 64] |= std::uint64_t{1} << (slot % 64); }
 inline void erase(Words set, Slot slot) noexcept { set[slot / 64] &= ~(std::uint64_t{1} << (slot % 64)); }
 
+// Calls f(w) for every word. Up to 64 links are one word, and that is what is made quick.
+template <class F>
+[[gnu::always_inline]] inline void each_word(std::size_t words, F&& f) {
+    if (words == 1) [[likely]] {
+        f(std::size_t{0});
+        return;
+    }
+    for (std::size_t w = 0; w < words; ++w) f(w);
+}
+
 inline bool any(ConstWords set, std::size_t words) noexcept {
     std::uint64_t all = 0;
-    for (std::size_t w = 0; w < words; ++w) all |= set[w];
+    each_word(words, [&](std::size_t w) { all |= set[w]; });
     return all != 0;
 }
 inline bool intersect(ConstWords a, ConstWords b, std::size_t words) noexcept {
     std::uint64_t all = 0;
-    for (std::size_t w = 0; w < words; ++w) all |= a[w] & b[w];
+    each_word(words, [&](std::size_t w) { all |= a[w] & b[w]; });
     return all != 0;
 }
 inline void assign(Words to, ConstWords from, std::size_t words) noexcept {
-    for (std::size_t w = 0; w < words; ++w) to[w] = from[w];
+    each_word(words, [&](std::size_t w) { to[w] = from[w]; });
+}
+
+inline bool equal(ConstWords a, ConstWords b, std::size_t words) noexcept {
+    std::uint64_t differs = 0;
+    each_word(words, [&](std::size_t w) { differs |= a[w] ^ b[w]; });
+    return differs == 0;
 }
 
 // Calls f(slot) for every member, in rising order.
@@ -39,7 +55,7 @@ void each_in_word(std::uint64_t bits, Slot first, F&& f) {
 }
 template <class F>
 void each(ConstWords set, std::size_t words, F&& f) {
-    for (std::size_t w = 0; w < words; ++w) each_in_word(set[w], static_cast<Slot>(64 * w), f);
+    each_word(words, [&](std::size_t w) { each_in_word(set[w], static_cast<Slot>(64 * w), f); });
 }
 
 }  // namespace mavloom::route

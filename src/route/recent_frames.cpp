@@ -42,7 +42,8 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
     for (std::size_t i = 0; i < entries_.size() && capacity != 0; ++i) {
         if (entries_[i].hash == 0) continue;
         std::size_t at = 0;
-        grown.put(entries_[i].hash, entries_[i].time, Nanoseconds{}, at);
+        const bool found = grown.find(entries_[i].hash, at);
+        grown.put(entries_[i].hash, entries_[i].time, Nanoseconds{}, found, at);
         assign(grown.heard(at), heard(i), kept);
         assign(grown.sent(at), sent(i), kept);
     }
@@ -50,7 +51,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
 }
 
 bool RecentFrames::find(std::uint64_t hash, std::size_t& index) const noexcept {
-    const std::size_t first = bucket(hash);
+    const std::size_t first = index = bucket(hash);
     for (std::size_t i = first; i < first + ways; ++i) {
         if (entries_[i].hash != hash) continue;
         index = i;
@@ -59,17 +60,16 @@ bool RecentFrames::find(std::uint64_t hash, std::size_t& index) const noexcept {
     return false;
 }
 
-bool RecentFrames::put(std::uint64_t hash, MonoTime now, Nanoseconds window, std::size_t& index) noexcept {
+bool RecentFrames::put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept {
     bool gave_way = false;
-    if (!find(hash, index)) {
-        index = bucket(hash);
-        for (std::size_t i = index + 1; i < bucket(hash) + ways; ++i)
-            if (entries_[index].hash != 0 && (entries_[i].hash == 0 || entries_[i].time < entries_[index].time))
-                index = i;
+    if (!found) {
+        const std::size_t first = index;
+        for (std::size_t i = first + 1; i < first + ways; ++i)
+            if (entries_[i].time < entries_[index].time) index = i;
         gave_way = entries_[index].hash != 0 && now - entries_[index].time < window;
     }
     entries_[index] = {hash, now};
-    std::fill_n(heard(index), 2 * words_, std::uint64_t{0});
+    each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
     return gave_way;
 }
 

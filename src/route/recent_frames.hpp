@@ -21,10 +21,11 @@ public:
     void resize(std::size_t capacity, std::size_t words);
     [[nodiscard]] bool active() const noexcept { return !entries_.empty(); }
 
-    // False where the frame is not known. `index` is where it is, valid until the next call of `put` or `resize`.
+    // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.
     [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
-    // Begins anew for this frame: heard and sent nowhere. True if one younger than `window` had to give way.
-    bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, std::size_t& index) noexcept;
+    // Begins anew for the frame that was `found` at `index`, or was not: heard and sent nowhere. True if one younger than `window` had to give
+    // way.
+    bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept;
 
     [[nodiscard]] MonoTime time(std::size_t index) const noexcept { return entries_[index].time; }
     [[nodiscard]] Words heard(std::size_t index) noexcept { return &sets_[2 * words_ * index]; }
@@ -39,7 +40,7 @@ private:
 
     struct Entry {
         std::uint64_t hash = 0;  // 0: empty
-        MonoTime time{};
+        MonoTime time = MonoTime::min();
     };
 
     [[nodiscard]] std::size_t bucket(std::uint64_t hash) const noexcept {

@@ -34,7 +34,7 @@ ModelPolicy policy_of(const Step& s) {
     ModelPolicy policy;
     const Terms by_message{.messages = {"0", "30", "703710"}}, by_system{.systems = {1, 2}},
         by_component{.components = {154}};
-    const Terms none;
+    const Terms none{};
     const Terms* const terms[] = {&none, &none, &none, &by_message, &by_system, &by_component};
     policy.in_allow = *pick(terms, s[1]);
     policy.in_block = *pick(terms, s[2]);
@@ -88,13 +88,17 @@ Bytes frame_of(const Step& s) {
 // A network whose answers are compared with the model's after every step.
 class Life {
 public:
-    explicit Life(const Options& options)
+    // The first `still` links are private and hear nothing: they only take places.
+    explicit Life(const Options& options, std::uint32_t still = 0)
         : routing_(dialect::default_dialect().wire_table(), options),
           explaining_(dialect::default_dialect().wire_table(), options),
-          model_(options) {}
+          model_(options),
+          still_(still) {
+        while (last_ < still) add_link({.is_private = true});
+    }
 
     void step(const Step& s) {
-        const std::uint32_t link = 1 + s[1] % (last_ + 1);
+        const std::uint32_t link = still_ + 1 + s[1] % (last_ - still_ + 1);
         switch (s[0] % 32) {
             case 20:
             case 21:
@@ -112,15 +116,17 @@ public:
         }
     }
     void add(const Step& s) {
-        if (last_ == 12) return;
-        const auto policy = policy_of(s);
+        if (last_ < still_ + 12) add_link(policy_of(s));
+    }
+
+private:
+    void add_link(const ModelPolicy& policy) {
         const LinkId id{++last_};
         RC_ASSERT(routing_.add_link(id, compiled(policy)));
         RC_ASSERT(explaining_.add_link(id, compiled(policy)));
         model_.add(last_, policy);
     }
 
-private:
     void again(std::uint32_t link, const Step& s) {
         const Bytes frame = frames_[frames_.size() - 1 - s[2] % std::min<std::size_t>(frames_.size(), 3)];
         pass(link, frame);
@@ -165,6 +171,7 @@ private:
     std::vector<Bytes> frames_;
     MonoTime now_{std::chrono::hours{1}};
     std::uint32_t last_ = 0;
+    std::uint32_t still_;
 };
 
 Options options_of(std::uint8_t bits) {
@@ -192,6 +199,14 @@ RC_GTEST_PROP(Engine, DecidesAsTheModelDoesWithPlainLinks, (std::uint8_t bits)) 
     Life sut(options_of(bits));
     for (int i = 0; i < 4; ++i) sut.add({0, 0, 0, 0, 0, 3, 0});
     for (const Step& step : life()) sut.step(step);
+}
+
+RC_GTEST_PROP(Engine, DecidesAsTheModelDoesBeyondSixtyFourLinks, (std::uint8_t bits)) {
+    Life sut(options_of(bits), 59);
+    for (int i = 0; i < 8; ++i) sut.add({0, 0, 0, 0, 0, 3, 0});
+    for (const Step& step :
+         *rc::gen::container<std::vector<Step>>(40, rc::gen::container<Step>(rc::gen::arbitrary<std::uint8_t>())))
+        sut.step(step);
 }
 
 }  // namespace

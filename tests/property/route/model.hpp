@@ -17,14 +17,14 @@
 namespace mavloom::route::test {
 
 struct ModelPolicy {
-    Terms in_allow, in_block, out_allow, out_block;
+    Terms in_allow{}, in_block{}, out_allow{}, out_block{};
     std::uint32_t group = 0;
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
     bool tap = false, is_private = false;
-    std::optional<Nanoseconds> attitude_interval, other_interval;
-    std::optional<std::uint64_t> bytes_per_s;
-    std::optional<Nanoseconds> route_timeout;
+    std::optional<Nanoseconds> attitude_interval{}, other_interval{};
+    std::optional<std::uint64_t> bytes_per_s{};
+    std::optional<Nanoseconds> route_timeout{};
 };
 
 class Model {
