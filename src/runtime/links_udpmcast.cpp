@@ -74,9 +74,11 @@ SetupResult<void> UdpMulticast::join() {
         if (!index) return tl::unexpected(index.error());
         options.group_interface = *index;
     }
-    if (auto done = sending_.open(*net::Address::parse(group_.address.is_v4() ? "0.0.0.0" : "::", 0), options); !done)
-        return done;
-    own_port_ = sending_.socket().local().port();
+    if (!sending_.socket() || failing_) {
+        const auto any = net::Address::parse(group_.address.is_v4() ? "0.0.0.0" : "::", 0);
+        if (auto done = sending_.open(*any, options); !done) return done;
+        own_port_ = sending_.socket().local().port();
+    }
     options.group = group_.address.with_scope(options.group_interface);
     if (auto done = hearing_.open(*options.group, options); !done) return done;
     info.local_port = group_.address.port();

@@ -47,6 +47,20 @@ TEST(BlockQueue, KeepsOrderAndLiesInOnePiece) {
     EXPECT_EQ(queue.blocks(), 3u);
 }
 
+TEST(BlockQueue, GivesAStreamNoMoreBlocksThanFitYetAlwaysTheFirst) {
+    BlockQueue queue = queue_of(100);
+    for (const auto* text : {"aaaa", "bbbb", "cccc"}) push(queue, text);
+    std::vector<iovec> room(8);
+    const auto next = [&](std::size_t most) { return text_of(std::span(room).first(queue.pieces(room, most))); };
+    EXPECT_EQ(next(8), "aaaabbbb");
+    EXPECT_EQ(next(7), "aaaa");
+    EXPECT_EQ(next(1), "aaaa");
+    EXPECT_EQ(queue.consume(3), 0u);
+    EXPECT_EQ(next(1), "a");
+    EXPECT_EQ(next(5), "abbbb");
+    EXPECT_EQ(next(SIZE_MAX), "abbbbcccc");
+}
+
 TEST(BlockQueue, ReplacesNothingBeforeTheBoundIsReached) {
     BlockQueue queue = queue_of(12);
     for (const auto* text : {"aaa1", "aaa2", "aaa3"}) EXPECT_EQ(push(queue, text, 2, 7).dropped, 0u);
