@@ -135,6 +135,7 @@ CLI::App* declare_one(CLI::App& command, Options& options, const char* name, con
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 30));
     sub->add_flag("--json", options.json, "one JSON object a line");
+    sub->footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));
     return sub;
 }
 

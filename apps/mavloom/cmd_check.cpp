@@ -57,9 +57,14 @@ void print_json(message::TextBuffer& out, const runtime::Config& config, std::st
     }
 }
 
-Exit check(const Options& options) {
+Exit check(const Common& common, const Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
     const auto config = runtime::load_config(options.file, runtime::environment_of(environ));
     if (!config) return fail(Exit::bad_input, config.error().text);
+    if (const auto checked = runtime::check_message_names(*config, options.file, *dialect); !checked)
+        return fail(checked.error());
+    for (const auto& note : config->notes) say(common, note);
     Output output;
     if (options.json) print_json(output.buffer(), *config, options.file);
     else print_text(output.buffer(), *config, options.file);
@@ -68,16 +73,18 @@ Exit check(const Options& options) {
 
 }  // namespace
 
-Run declare_check(CLI::App& command, const Common&) {
+Run declare_check(CLI::App& command, const Common& common) {
     auto options = std::make_shared<Options>();
     command.add_option("file", options->file, "a router's configuration (TOML)")->required()->type_name("FILE");
     command.add_flag("--json", options->json, "one JSON object a line, one for each value");
     command.footer(
         "Prints every effective value and where it came from: default, FILE:LINE, or a variable of the environment "
         "(MAVLOOM_ROUTER_DEDUP_MS\n"
-        "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line.\n\n"
+        "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line. Messages that "
+        "filters and rates\n"
+        "name are looked up in the built-in definitions and those of --dialect.\n\n"
         "Example: mavloom check router.toml");
-    return [options] { return check(*options); };
+    return [options, &common] { return check(common, *options); };
 }
 
 }  // namespace mavloom::app

@@ -134,17 +134,22 @@ Run declare_dialect(CLI::App& command, const Common& common) {
         "Examples: mavloom dialect show ATTITUDE\n"
         "          mavloom dialect show MAV_CMD_NAV_WAYPOINT\n"
         "          mavloom dialect check mine.xml");
-    const auto part = [&](const char* name, const char* description) {
+    const auto part = [&](const char* name, const char* description, const char* examples) {
         auto* added = command.add_subcommand(name, description);
         added->fallthrough();
+        added->footer(examples);
         added->add_flag("--json", options->json, "one JSON object a line");
         return added;
     };
-    auto* list = part("list", "all messages: id, name, payload bytes (without..with extensions), file");
-    auto* show = part("show",
-                      "a message by name or id, an enum, or an entry of an enum, commands with their parameters");
+    auto* list = part("list", "all messages: id, name, payload bytes (without..with extensions), file",
+                      "Examples: mavloom dialect list\n"
+                      "          mavloom dialect list --dialect mine.xml --json");
+    auto* show = part("show", "a message by name or id, an enum, or an entry of an enum, commands with their parameters",
+                      "Examples: mavloom dialect show ATTITUDE\n"
+                      "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
     show->add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT")->required();
-    auto* check = part("check", "read an XML file and what it includes; status 3 when there is a fault");
+    auto* check = part("check", "read an XML file and what it includes; status 3 when there is a fault",
+                       "Example: mavloom dialect check mine.xml");
     check->add_option("FILE", options->file, "message definitions in MAVLink's XML")->required();
     return [&common, options, list, show, check] {
         if (list->parsed()) return run_list(common, *options);

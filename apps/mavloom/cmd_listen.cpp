@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "mavloom/edit/terms.hpp"
 #include "mavloom/message/format.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
@@ -134,7 +135,7 @@ Exit listen(const Common& common, Options& options) {
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     const dialect::Message* csv = nullptr;
     if (!options.csv.empty()) {
-        const auto message = dialect->message(options.csv);
+        const auto message = edit::find_message(*dialect, options.csv);
         if (!message) return fail(SetupError(message.error()).within("--csv"));
         csv = *message;
     }
@@ -150,7 +151,7 @@ Run declare_listen(CLI::App& command, const Common& common) {
     options->receive.declare(command);
     options->selection.declare(command);
     auto* json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
-    command.add_option("--csv", options->csv, "one message as CSV: a header, then a row each")
+    command.add_option("--csv", options->csv, "one message, by name or id, as CSV: a header, then a row each")
         ->type_name("MESSAGE")
         ->excludes(json);
     command.add_flag("--stats", options->stats, "end with a table: rates, gaps, bytes and loss by source and message");

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "command.hpp"
 #include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/runtime/sources.hpp"
+#include "output.hpp"
 #include "signals.hpp"
 #include "traffic_report.hpp"
 
@@ -26,16 +28,22 @@ struct Options {
     edit::Options edit;
     std::string sign_file;
     bool as_v1 = false, as_v2 = false;
+    bool json = false;
 };
 
 class Relay : private runtime::LinkHandler {
 public:
-    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage, bool signs)
-        : common_(common), sources_(sources), destinations_(destinations), stage_(stage), signs_(signs) {}
+    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage,
+          const Options& options)
+        : common_(common),
+          sources_(sources),
+          destinations_(destinations),
+          stage_(stage),
+          signs_(options.edit.sign_key.has_value()),
+          json_(options.json) {}
 
     // Recordings wait for somebody to send to; live sources do not.
     Exit run(MonoTime end) {
-        const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &sources_);
         while (going(end) && !destinations_.failed() && !sources_.finished()) {
             const bool started = started_ || destinations_.all_up();
             if (started != std::exchange(started_, started) && waited_) say(common_, "somebody is there: going on");
@@ -77,6 +85,24 @@ private:
             sources_.links().turn(*this, mono_now() + 5ms);
     }
 
+    std::string summary() const {
+        const auto& c = stage_.counters();
+        return stats_line({{"destinations", destinations_.sums_json()},
+                           {"edit",
+                            {{"frames", c.frames.value()},
+                             {"reencoded", c.reencoded.value()},
+                             {"rewrapped", c.rewrapped.value()},
+                             {"passed_untouched", c.passed_untouched.value()},
+                             {"filtered", c.filtered.value()},
+                             {"rate_limited", c.rate_limited.value()},
+                             {"not_v1", c.not_v1.value()},
+                             {"not_signed", c.not_signed.value()},
+                             {"signature_removed", c.signature_removed.value()},
+                             {"backward", c.backward.value()},
+                             {"unheard_answers", unheard_answers_.value()}}},
+                           {"totals", losses_json(totals_)}});
+    }
+
     Exit finish() {
         sources_.add_to(totals_);
         const auto closed = destinations_.close();
@@ -95,6 +121,8 @@ private:
         say_unless_zero(unheard_answers_, "answers of the far side that no source was there for");
         say_losses(common_, totals_);
         if (!closed) return fail(closed.error());
+        if (json_)
+            if (const auto status = print_at_end(summary(), Exit::done); status != Exit::done) return status;
         if (sources_.finished() && destinations_.lost_any()) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
@@ -108,7 +136,7 @@ private:
     runtime::Sources& sources_;
     Destinations& destinations_;
     edit::Stage& stage_;
-    const bool signs_;
+    const bool signs_, json_;
     runtime::Totals totals_;
     Counter unheard_answers_;
     bool started_ = false, waited_ = false;
@@ -149,11 +177,12 @@ Exit relay(const Common& common, Options& options) {
     auto sources = runtime::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(common, options, *sources); !opened) return fail(opened.error());
+    const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
     auto destinations = Destinations::open(common, options.to, sources->links());
-    if (!destinations) return fail(destinations.error());
+    if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *runtime::parse_duration(options.duration);
-    return Relay(common, *sources, *destinations, **stage, options.edit.sign_key.has_value()).run(end);
+    return Relay(common, *sources, *destinations, **stage, options).run(end);
 }
 
 }  // namespace
@@ -187,6 +216,7 @@ Run declare_relay(CLI::App& command, const Common& common) {
         ->capture_default_str()
         ->type_name("0-255");
     command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
+    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
     command.footer(
         "Without options what comes out is byte for byte what went in. What the far side answers goes "

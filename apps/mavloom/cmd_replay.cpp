@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "command.hpp"
 #include "destinations.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "mavloom/runtime/sources.hpp"
+#include "output.hpp"
 #include "receiving.hpp"
 #include "signals.hpp"
 
@@ -25,6 +28,7 @@ struct Options {
     std::string start, duration;
     Selection selection;
     bool no_wait = false;
+    bool json = false;
 };
 
 class Replayer : private runtime::LinkHandler {
@@ -77,6 +81,20 @@ private:
         talk(fmt::format("\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent()));
     }
 
+    std::string summary() const {
+        const auto& counters = sources_.recordings().front()->reader.counters();
+        runtime::Totals read;
+        read.add(counters);
+        Json totals{{"frames", counters.records.value()}, {"bytes", frame_bytes(counters)}};
+        totals.update(losses_json(read));
+        return stats_line({{"destinations", destinations_.sums_json()}, {"totals", std::move(totals)}});
+    }
+
+    // Of the frames, without the times in front of them.
+    static std::uint64_t frame_bytes(const record::ReadCounters& counters) {
+        return counters.record_bytes.value() - record::time_length * counters.records.value();
+    }
+
     Exit finish() {
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
@@ -85,6 +103,8 @@ private:
             say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file,
                                      counters.damaged_places.value(), counters.lost_bytes.value()));
         if (!closed) return fail(closed.error());
+        if (options_.json)
+            if (const auto status = print_at_end(summary(), Exit::done); status != Exit::done) return status;
         if (destinations_.lost_any() && !options_.no_wait) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
@@ -122,10 +142,10 @@ Exit replay(const Common& common, Options& options) {
 
     auto sources = runtime::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
-    auto destinations = Destinations::open(common, options.to, sources->links());
-    if (!destinations) return fail(destinations.error());
-    const MonoTime forever = MonoTime::max();
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
+    auto destinations = Destinations::open(common, options.to, sources->links());
+    if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
+    const MonoTime forever = MonoTime::max();
     Replayer replayer(common, options, *sources, *destinations);
     const MonoTime latest_start = options.duration.empty() ? forever : mono_now() + length;
     replayer.wait_for_peers(latest_start);
@@ -147,6 +167,7 @@ Run declare_replay(CLI::App& command, const Common& common) {
     command.add_option("--for", options->duration, "end after this time")->type_name("TIME");
     command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
     options->selection.declare(command);
+    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.footer("Example:\n  mavloom replay flight.tlog --to udpout://127.0.0.1:14550 --speed 2");
     return [options, &common] { return replay(common, *options); };
 }

@@ -5,8 +5,36 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace mavloom::app {
+
+SetupResult<record::RotatingWriter> create_recording(const Common& common, const runtime::Endpoint& endpoint,
+                                                     std::string_view option) {
+    const auto& options = endpoint.options;
+    if (options.speed)
+        return setup_error(SetupCode::usage,
+                           fmt::format("{} {}: 'speed' is for a recording that is read; this one is written", option,
+                                       endpoint.label()));
+    auto file = record::RotatingWriter::create(endpoint.path, {options.rotate_bytes, options.rotate_every});
+    if (!file) return tl::unexpected(std::move(file.error()).within(option));
+    if (const auto old = file->renamed_to(); !old.empty())
+        say(common, fmt::format("{} exists and is now {}", endpoint.path, old.string()));
+    return file;
+}
+
+void say_recorded(const Common& common, const record::RotatingWriter& file) {
+    const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
+    say(common,
+        fmt::format("{}: {} frames, {} bytes written{}", file.path().string(), file.records(), file.size(), files));
+}
+
+Json recorded_json(const record::RotatingWriter& file) {
+    return {{"endpoint", file.path().string()},
+            {"frames", file.records()},
+            {"bytes", file.size()},
+            {"files", file.segments()}};
+}
 
 SetupResult<Destinations> Destinations::open(const Common& common, const std::vector<std::string>& addresses,
                                              runtime::Links& links) {
@@ -14,18 +42,15 @@ SetupResult<Destinations> Destinations::open(const Common& common, const std::ve
     for (const auto& address : addresses) {
         const auto endpoint = runtime::parse_endpoint(address);
         if (!endpoint) return tl::unexpected(SetupError(endpoint.error()).within("--to"));
-        if (auto added = all.add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
+        if (auto added = all.add(common, *endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
     for (const auto& info : links.endpoints())
         if (all.has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)
             say(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
-    for (const auto& file : all.files_)
-        if (!file.renamed_to().empty())
-            say(common, fmt::format("{} exists and is now {}", file.path().string(), file.renamed_to().string()));
     return all;
 }
 
-SetupResult<void> Destinations::add(const runtime::Endpoint& endpoint) {
+SetupResult<void> Destinations::add(const Common& common, const runtime::Endpoint& endpoint) {
     const auto& options = endpoint.options;
     if (endpoint.scheme != runtime::Scheme::tlog) {
         const auto id = links_->add(endpoint);
@@ -35,12 +60,9 @@ SetupResult<void> Destinations::add(const runtime::Endpoint& endpoint) {
         nobody_there_.push_back(0);
         return {};
     }
-    if (options.rotate_bytes != 0 || options.rotate_every != Nanoseconds{})
-        return setup_error(SetupCode::usage,
-                           fmt::format("--to {}: rotation is not available in this version", endpoint.label()));
-    auto writer = record::TlogWriter::create(endpoint.path);
-    if (!writer) return tl::unexpected(std::move(writer.error()));
-    files_.push_back(std::move(*writer));
+    auto file = create_recording(common, endpoint, "--to");
+    if (!file) return tl::unexpected(std::move(file.error()));
+    files_.push_back(std::move(*file));
     return {};
 }
 
@@ -132,8 +154,25 @@ void Destinations::say_sums(const Common& common) const {
         if (const auto left = links_->queued_bytes(info.id); left != 0)
             say(common, fmt::format("{}: {} bytes still queued at the end, not sent", name, left));
     }
-    for (const auto& file : files_)
-        say(common, fmt::format("{}: {} frames, {} bytes written", file.path().string(), file.records(), file.size()));
+    for (const auto& file : files_) say_recorded(common, file);
+}
+
+Json Destinations::sums_json() const {
+    auto all = Json::array();
+    const auto endpoints = links_->endpoints();
+    for (std::size_t i = 0; i < endpoints_.size(); ++i) {
+        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &runtime::EndpointInfo::id);
+        const auto sums = sums_of(info);
+        all.push_back({{"endpoint", info.label()},
+                       {"frames", sums.frames},
+                       {"bytes", sums.bytes},
+                       {"dropped", sums.dropped},
+                       {"refused", sums.refused},
+                       {"nobody_there", nobody_there_[i]},
+                       {"queued_bytes", links_->queued_bytes(info.id)}});
+    }
+    for (const auto& file : files_) all.push_back(recorded_json(file));
+    return all;
 }
 
 }  // namespace mavloom::app

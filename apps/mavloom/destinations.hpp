@@ -7,10 +7,19 @@
 #include <vector>
 
 #include "command.hpp"
-#include "mavloom/record/tlog_writer.hpp"
+#include "mavloom/record/rotating_writer.hpp"
 #include "mavloom/runtime/links.hpp"
+#include "traffic_report.hpp"
 
 namespace mavloom::app {
+
+// The recording that a tlog:// destination names, rotated as its options say. Errors begin with `option`.
+[[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const Common& common,
+                                                                   const runtime::Endpoint& endpoint,
+                                                                   std::string_view option);
+// "x.tlog: 12 frames, 348 bytes written", and in how many files.
+void say_recorded(const Common& common, const record::RotatingWriter& file);
+[[nodiscard]] Json recorded_json(const record::RotatingWriter& file);
 
 class Destinations {
 public:
@@ -35,6 +44,8 @@ public:
 
     // "udpout://…: 40087 frames, 1834899 bytes sent" for each, and what did not get there.
     void say_sums(const Common& common) const;
+    // The same as an array: "endpoint", "frames", "bytes" and the rest (docs/guide/relay.md).
+    [[nodiscard]] Json sums_json() const;
     [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
 
 private:
@@ -43,13 +54,13 @@ private:
         std::uint64_t frames = 0, bytes = 0, dropped = 0, refused = 0;
     };
     [[nodiscard]] Sums sums_of(const runtime::EndpointInfo& info) const;
-    [[nodiscard]] SetupResult<void> add(const runtime::Endpoint& endpoint);
+    [[nodiscard]] SetupResult<void> add(const Common& common, const runtime::Endpoint& endpoint);
     void keep(SetupResult<void> result);
 
     runtime::Links* links_;
     std::vector<runtime::EndpointId> endpoints_;
     std::vector<std::size_t> queue_bytes_;
-    std::vector<record::TlogWriter> files_;
+    std::vector<record::RotatingWriter> files_;
     std::optional<SetupError> failure_;
     std::vector<std::uint64_t> nobody_there_;  // frames, by endpoint
     std::uint64_t sent_ = 0;

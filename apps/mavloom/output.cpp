@@ -56,4 +56,10 @@ Output::State Output::flush() {
     return state_;
 }
 
+Exit print_at_end(std::string_view text, Exit otherwise) {
+    Output output;
+    output.buffer().append(text);
+    return output.flush() == Output::State::failed ? fail(output.error()) : otherwise;
+}
+
 }  // namespace mavloom::app

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "command.hpp"
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/message/format.hpp"
@@ -42,5 +43,8 @@ private:
     std::optional<MonoTime> give_up_;  // set at the first wait after a signal
     std::uint64_t lost_lines_ = 0;
 };
+
+// Prints what a command ends with; `otherwise` unless that fails.
+[[nodiscard]] Exit print_at_end(std::string_view text, Exit otherwise);
 
 }  // namespace mavloom::app

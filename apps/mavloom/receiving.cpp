@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "mavloom/edit/terms.hpp"
+
 namespace mavloom::app {
 
 namespace {
@@ -31,13 +33,9 @@ void Selection::declare(CLI::App& command) {
 
 SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
     for (const auto& word : only) {
-        if (const auto id = whole_number<MessageId>(word, 0xff'ffff)) {
-            ids_.push_back(*id);
-            continue;
-        }
-        auto message = dialect.message(word);
-        if (!message) return tl::unexpected(std::move(message.error()).within("--only"));
-        ids_.push_back((*message)->id());
+        auto id = edit::find_message_id(dialect, word);
+        if (!id) return tl::unexpected(std::move(id.error()).within("--only"));
+        ids_.push_back(*id);
     }
     std::ranges::sort(ids_);
     if (from.empty()) return {};

@@ -14,8 +14,6 @@ namespace mavloom::app {
 
 namespace {
 
-using nlohmann::ordered_json;
-
 double milliseconds(Nanoseconds t) { return std::chrono::duration<double, std::milli>(t).count(); }
 
 double loss_percent(const runtime::SourceLoss& loss) {
@@ -75,10 +73,10 @@ std::span<const observe::TrafficRow> rows_of(const runtime::SourceLoss& loss, co
     return std::span(rows).subspan(begin, from - begin);
 }
 
-ordered_json row_json(const observe::TrafficRow& row, const dialect::Dialect& dialect) {
+Json row_json(const observe::TrafficRow& row, const dialect::Dialect& dialect) {
     const auto* message = dialect.find(row.id);
     return {{"id", row.id.value},
-            {"name", message == nullptr ? ordered_json(nullptr) : ordered_json(message->name)},
+            {"name", message == nullptr ? Json(nullptr) : Json(message->name)},
             {"count", row.count},
             {"bytes", row.bytes},
             {"rate_hz", row.rate_hz()},
@@ -111,9 +109,9 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
                          const dialect::Dialect& dialect) {
     const auto rows = traffic.sorted();
     std::size_t from = 0;
-    auto sources = ordered_json::array();
+    auto sources = Json::array();
     for (const auto& loss : receiver.losses()) {
-        auto messages = ordered_json::array();
+        auto messages = Json::array();
         for (const auto& row : rows_of(loss, rows, from)) messages.push_back(row_json(row, dialect));
         sources.push_back({{"link", receiver.link_name(loss.link)},
                            {"sys", loss.source.system.value},
@@ -127,11 +125,19 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
                            {"messages", std::move(messages)}});
     }
     const auto& totals = receiver.totals();
-    ordered_json sums{{"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}};
+    Json sums{{"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}};
+    sums.update(losses_json(totals));
+    return stats_line({{"sources", std::move(sources)}, {"totals", std::move(sums)}});
+}
+
+Json losses_json(const runtime::Totals& totals) {
+    Json sums;
     for (const auto& [name, meaning, value] : losses_of(totals)) sums[std::string(name)] = value;
-    return ordered_json{{"stats", {{"sources", std::move(sources)}, {"totals", std::move(sums)}}}}.dump(
-               -1, ' ', false, ordered_json::error_handler_t::replace) +
-           "\n";
+    return sums;
+}
+
+std::string stats_line(Json stats) {
+    return Json{{"stats", std::move(stats)}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void say_losses(const Common& common, const runtime::Totals& totals) {

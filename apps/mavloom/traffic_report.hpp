@@ -2,6 +2,7 @@
 // The end of `listen --stats` and of other commands that received: what was heard, by link, source and message, and what was lost where.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "command.hpp"
@@ -9,6 +10,13 @@
 #include "mavloom/runtime/receiver.hpp"
 
 namespace mavloom::app {
+
+using Json = nlohmann::ordered_json;
+
+// Every loss by its name, 0 included.
+[[nodiscard]] Json losses_json(const runtime::Totals& totals);
+// {"stats":...} and a newline: how a command's summary stands on stdout.
+[[nodiscard]] std::string stats_line(Json stats);
 
 // A table for people. `receiver` has been joined.
 std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver,

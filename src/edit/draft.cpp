@@ -5,7 +5,7 @@
 
 #include "mavloom/message/builder.hpp"
 #include "mavloom/message/view.hpp"
-#include "mavloom/wire/crc.hpp"
+#include "mavloom/wire/frame_checksum.hpp"
 
 namespace mavloom::edit {
 
@@ -37,11 +37,6 @@ void copy_field(const MessageView& in, const Field& field, MessageBuilder& out) 
     }
 }
 
-std::uint16_t checksum_without_extra(const wire::FrameView& frame) noexcept {
-    return wire::crc_update(wire::crc_seed,
-                            frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length()));
-}
-
 }  // namespace
 
 std::optional<Draft> Draft::of(const wire::FrameView& frame, const dialect::Message* message) noexcept {
@@ -49,7 +44,7 @@ std::optional<Draft> Draft::of(const wire::FrameView& frame, const dialect::Mess
     draft.header_ = {frame.version(), frame.sequence(), frame.source(), frame.compat_flags()};
     const auto payload = frame.payload();
     if (message == nullptr) {
-        const int extra = wire::crc_extra_between(checksum_without_extra(frame), frame.checksum());
+        const int extra = wire::crc_extra_of(frame);
         if (extra < 0) return std::nullopt;
         draft.info_ = {frame.id(), static_cast<std::uint8_t>(extra), frame.payload_length(), frame.payload_length()};
     } else {

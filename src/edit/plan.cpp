@@ -9,13 +9,12 @@
 #include <optional>
 #include <string_view>
 
+#include "mavloom/edit/terms.hpp"
 #include "mavloom/message/builder.hpp"
 
 namespace mavloom::edit {
 
 namespace {
-
-constexpr std::uint32_t max_message_id = 0xffffff;  // 24 bits on the wire
 
 tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
@@ -28,70 +27,77 @@ std::optional<T> number(std::string_view text) {
     return value;
 }
 
-// Calls `each` for every term of every list; terms may also stand in one text, separated by commas.
+// Every term of every list; terms may also stand in one text, separated by commas.
 template <class F>
-SetupResult<void> for_each_term(const std::vector<std::string>& lists, std::string_view option, F&& each) {
-    for (std::string_view list : lists) {
-        while (true) {
-            const auto comma = list.find(',');
-            if (auto done = each(list.substr(0, comma)); !done)
-                return tl::unexpected(std::move(done.error()).within(option));
-            if (comma == std::string_view::npos) break;
-            list.remove_prefix(comma + 1);
-        }
-    }
+SetupResult<void> for_all_terms(const std::vector<std::string>& lists, std::string_view option, F&& each) {
+    for (const std::string& list : lists)
+        if (auto done = for_each_term(list, each); !done) return tl::unexpected(std::move(done.error()).within(option));
     return {};
 }
 
-SetupResult<std::uint32_t> message_id(const dialect::Dialect& dialect, std::string_view name_or_id) {
-    const bool digits = !name_or_id.empty() && name_or_id.find_first_not_of("0123456789") == std::string_view::npos;
-    if (!digits) {
-        const auto message = dialect.message(name_or_id);
-        if (!message) return tl::unexpected(message.error());
-        return (*message)->id().value;
-    }
-    const auto id = number<std::uint32_t>(name_or_id);
-    if (!id || *id > max_message_id)
-        return usage(fmt::format("'{}' is no message id (0 to {})", name_or_id, max_message_id));
-    return *id;
-}
-
-SetupResult<void> add_rate(const dialect::Dialect& dialect, std::string_view term,
+SetupResult<void> add_rate(const dialect::Dialect& dialect, std::string_view text,
                            std::vector<RateLimiter::Rate>& rates, std::optional<Nanoseconds>& others) {
-    const auto colon = term.rfind(':');
-    if (colon == std::string_view::npos)
-        return usage(fmt::format("'{}' has no rate; type for example ATTITUDE:10 or *:50", term));
-    const auto name = term.substr(0, colon);
-    const auto rate_hz = number<double>(term.substr(colon + 1));
-    if (!rate_hz || !std::isfinite(*rate_hz) || *rate_hz <= 0)
-        return usage(fmt::format("'{}': the rate is a number above 0, in Hz", term));
+    const auto term = parse_rate_term(text);
+    if (!term) return tl::unexpected(term.error());
     constexpr double ten_years_ns = 3653 * 86400e9;
-    const Nanoseconds interval{std::llround(std::min(1e9 / *rate_hz, ten_years_ns))};
-    if (name == "*") {
+    const Nanoseconds interval{std::llround(std::min(1e9 / term->rate_hz, ten_years_ns))};
+    if (term->message == "*") {
         if (others) return usage("'*' has two rates");
         others = interval;
         return {};
     }
-    const auto id = message_id(dialect, name);
+    const auto id = find_message_id(dialect, term->message);
     if (!id) return tl::unexpected(id.error());
-    const auto same = [&](const RateLimiter::Rate& rate) { return rate.id == *id; };
-    if (std::any_of(rates.begin(), rates.end(), same)) return usage(fmt::format("'{}' has two rates", name));
-    rates.push_back({*id, interval});
+    const auto same = [&](const RateLimiter::Rate& rate) { return rate.id == id->value; };
+    if (std::any_of(rates.begin(), rates.end(), same)) return usage(fmt::format("'{}' has two rates", term->message));
+    rates.push_back({id->value, interval});
     return {};
+}
+
+// "[3]" at the end of the field's name, if it is there.
+struct ElementName {
+    std::string_view field;
+    std::optional<std::string_view> index;
+};
+
+ElementName split_element(std::string_view name) {
+    const auto bracket = name.find('[');
+    if (bracket == std::string_view::npos || !name.ends_with(']')) return {name, std::nullopt};
+    return {name.substr(0, bracket), name.substr(bracket + 1, name.size() - bracket - 2)};
+}
+
+SetupResult<std::size_t> element_index(const dialect::Field& field, std::string_view name, std::string_view text) {
+    if (!field.is_array() || field.is_text())
+        return usage(fmt::format("{}: {} is no array of numbers", name, field.name));
+    const auto index = number<std::size_t>(text);
+    if (!index || *index >= field.count())
+        return usage(fmt::format("{}: elements are [0] to [{}]", name, field.count() - 1));
+    return *index;
 }
 
 SetupResult<Patch> make_patch(const dialect::Dialect& dialect, std::string_view text) {
     const auto equals = text.find('=');
     if (equals == std::string_view::npos)
         return usage(fmt::format("'{}' has no value; type for example ATTITUDE.roll=0.1", text));
-    const auto handle = dialect.field(text.substr(0, equals));
+    const auto name = text.substr(0, equals), value = text.substr(equals + 1);
+    const auto element = split_element(name);
+    const auto handle = dialect.field(element.field);
     if (!handle) return tl::unexpected(handle.error());
     const auto& field = *handle->field;
     message::MessageBuilder builder(*handle->message);
-    if (auto done = builder.set_from_text(field, text.substr(equals + 1)); !done)
+    std::size_t offset = field.offset, size = field.size();
+    if (element.index) {
+        const auto index = element_index(field, name, *element.index);
+        if (!index) return tl::unexpected(index.error());
+        if (auto done = builder.set_element_from_text(field, value, *index); !done)
+            return tl::unexpected(std::move(done.error()));
+        size /= field.count();
+        offset += *index * size;
+    } else if (auto done = builder.set_from_text(field, value); !done) {
         return tl::unexpected(std::move(done.error()));
-    Patch patch{handle->message->id().value, field.offset, static_cast<std::uint8_t>(field.size())};
-    const auto bytes = builder.payload().subspan(field.offset, field.size());
+    }
+    Patch patch{handle->message->id().value, static_cast<std::uint8_t>(offset), static_cast<std::uint8_t>(size)};
+    const auto bytes = builder.payload().subspan(offset, size);
     std::copy(bytes.begin(), bytes.end(), patch.bytes.begin());
     return patch;
 }
@@ -130,10 +136,10 @@ SystemMap identity_map() noexcept {
 
 SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& options) {
     Plan plan;
-    auto done = for_each_term(options.only, "--only", [&](std::string_view name) -> SetupResult<void> {
-        const auto id = message_id(dialect, name);
+    auto done = for_all_terms(options.only, "--only", [&](std::string_view name) -> SetupResult<void> {
+        const auto id = find_message_id(dialect, name);
         if (!id) return tl::unexpected(id.error());
-        plan.only.push_back(*id);
+        plan.only.push_back(id->value);
         return {};
     });
     if (!done) return tl::unexpected(std::move(done.error()));
@@ -141,12 +147,12 @@ SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& opti
 
     std::vector<RateLimiter::Rate> rates;
     std::optional<Nanoseconds> others;
-    done = for_each_term(options.max_rate, "--max-rate",
+    done = for_all_terms(options.max_rate, "--max-rate",
                          [&](std::string_view term) { return add_rate(dialect, term, rates, others); });
     if (!done) return tl::unexpected(std::move(done.error()));
     plan.limiter = RateLimiter(std::move(rates), others);
 
-    done = for_each_term(options.remap_system, "--remap-system",
+    done = for_all_terms(options.remap_system, "--remap-system",
                          [&](std::string_view term) { return add_remap(term, plan); });
     if (!done) return tl::unexpected(std::move(done.error()));
 

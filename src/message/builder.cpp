@@ -112,8 +112,8 @@ SetupResult<void> set_parsed(MessageBuilder& builder, const Field& field, Parsed
     });
 }
 
-SetupResult<void> set_element_from_text(MessageBuilder& builder, const Field& field, std::string_view text,
-                                        std::size_t index) {
+SetupResult<void> set_one_from_text(MessageBuilder& builder, const Field& field, std::string_view text,
+                                    std::size_t index) {
     if (const auto integer = parse_integer(text)) return set_parsed(builder, field, *integer, index);
     const bool real = field.type == dialect::FieldType::f32 || field.type == dialect::FieldType::f64;
     if (const auto number = parse_number(text); number && real) return builder.set_number(field, *number, index);
@@ -180,7 +180,7 @@ SetupResult<void> MessageBuilder::set_text(const Field& field, std::string_view 
 SetupResult<void> MessageBuilder::set_from_text(const Field& field, std::string_view value) {
     if (field.type == dialect::FieldType::char8) return set_text(field, value);
     value = trim(value);
-    if (!field.is_array()) return set_element_from_text(*this, field, value, 0);
+    if (!field.is_array()) return set_one_from_text(*this, field, value, 0);
     const auto expected = fmt::format("expected [a,b,...] with {} elements", field.count());
     if (!is_bracketed(value)) return refuse(*definition_, field, expected);
     const auto list = value.substr(1, value.size() - 2);
@@ -188,7 +188,11 @@ SetupResult<void> MessageBuilder::set_from_text(const Field& field, std::string_
     if (given != field.count()) return refuse(*definition_, field, fmt::format("{}, not {}", expected, given));
     std::size_t index = 0;
     return for_each_part(list, ',',
-                         [&](std::string_view part) { return set_element_from_text(*this, field, part, index++); });
+                         [&](std::string_view part) { return set_one_from_text(*this, field, part, index++); });
+}
+
+SetupResult<void> MessageBuilder::set_element_from_text(const Field& field, std::string_view value, std::size_t index) {
+    return set_one_from_text(*this, field, trim(value), index);
 }
 
 }  // namespace mavloom::message

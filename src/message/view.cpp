@@ -12,7 +12,8 @@ namespace {
 template <class Integer>
 Integer saturate(double value) noexcept {
     constexpr double low = static_cast<double>(std::numeric_limits<Integer>::min());
-    constexpr double beyond = 2.0 * static_cast<double>(std::numeric_limits<Integer>::max() / 2 + 1);
+    constexpr Integer half = std::numeric_limits<Integer>::max() / 2 + 1;
+    constexpr double beyond = 2.0 * static_cast<double>(half);
     if (value >= beyond) return std::numeric_limits<Integer>::max();
     if (value > low) return static_cast<Integer>(value);
     return value <= low ? std::numeric_limits<Integer>::min() : Integer{0};

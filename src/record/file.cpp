@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,8 +27,9 @@ SetupResult<File> File::open(const std::filesystem::path& path, int flags, std::
     return file;
 }
 
-SetupResult<File> File::open_to_read(const std::filesystem::path& path) {
-    auto file = open(path, O_RDONLY, "read");
+SetupResult<File> File::open_to_read(const std::filesystem::path& path, Empty empty) {
+    auto file = open(path, O_RDONLY | O_NONBLOCK, "read");  // nothing changes for a regular file
+    if (file) file->empty_ = empty;
     if (file && file->regular_)
         (void)::posix_fadvise(file->fd_, 0, 0, POSIX_FADV_SEQUENTIAL);  // only advice: a refusal changes nothing
     return file;
@@ -43,6 +45,7 @@ File& File::operator=(File&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(fd_, other.fd_);
     std::swap(regular_, other.regular_);
+    std::swap(empty_, other.empty_);
     return *this;
 }
 
@@ -50,9 +53,18 @@ File::~File() {
     if (fd_ >= 0) ::close(fd_);
 }
 
+// 0 or errno. A FIFO that no writer has opened yet reads as ended, but polls as empty.
+int File::wait_for_input() const noexcept {
+    pollfd input{fd_, POLLIN, 0};
+    const int ready = ::poll(&input, 1, empty_ == Empty::wait ? -1 : 0);
+    return ready > 0 ? 0 : ready == 0 ? EAGAIN : errno;
+}
+
 SetupResult<std::size_t> File::read(ByteSpan out) {
     std::size_t done = 0;
     while (done < out.size()) {
+        if (!regular_)
+            if (const int error = wait_for_input(); error != 0) return failed("read", error);
         const auto got = ::read(fd_, out.data() + done, out.size() - done);
         if (got == 0) break;
         if (got > 0) done += static_cast<std::size_t>(got);

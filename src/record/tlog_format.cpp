@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mavloom/wire/crc.hpp"
+#include "mavloom/wire/frame_checksum.hpp"
 
 namespace mavloom::record {
 
@@ -13,14 +13,9 @@ bool has_plausible_time(ByteView bytes) noexcept {
     return bytes.size() >= time_length && load_be64(bytes.data()) < time_limit_us;
 }
 
-std::uint16_t checksum_without_extra(const wire::FrameView& frame) noexcept {
-    return wire::crc_update(wire::crc_seed,
-                            frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length()));
-}
-
 // Whether the checksum is good, or for an id without definition could be with some CRC_EXTRA (1 in 256 of random ones can).
 bool is_possible(const wire::FrameView& frame, const wire::MessageInfo* info) noexcept {
-    const auto before = checksum_without_extra(frame);
+    const auto before = wire::checksum_before_extra(frame);
     if (info == nullptr) return wire::crc_extra_between(before, frame.checksum()) >= 0;
     return wire::crc_update(before, info->crc_extra) == frame.checksum();
 }

@@ -23,7 +23,7 @@ SetupResult<TlogIndex> TlogIndex::build(TlogReader& reader, std::uint64_t spacin
         const auto record = reader.next();
         if (record) index.add(*record, spacing);
         else if (record.error() == TlogReader::Stop::failed) return tl::unexpected(reader.error());
-        else if (record.error() == TlogReader::Stop::interrupted) return system_error("cannot index a pipe", EINTR);
+        else if (record.error() == TlogReader::Stop::nothing_yet) return system_error("cannot index a pipe", EINTR);
         else return index;
     }
 }

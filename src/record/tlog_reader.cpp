@@ -14,8 +14,9 @@ namespace mavloom::record {
 TlogReader::TlogReader(File file, std::uint64_t size, const wire::MessageTable& table)
     : file_(std::move(file)), table_(&table), buffer_(std::make_unique<std::uint8_t[]>(buffer_length)), size_(size) {}
 
-SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, const wire::MessageTable& table) {
-    auto file = File::open_to_read(path);
+SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, const wire::MessageTable& table,
+                                         File::Empty empty) {
+    auto file = File::open_to_read(path, empty);
     if (!file) return tl::unexpected(std::move(file.error()));
     const auto size = file->is_regular() ? file->size() : std::uint64_t{0};
     if (!size) return tl::unexpected(size.error());
@@ -42,7 +43,7 @@ std::optional<TlogReader::Stop> TlogReader::fill() {
     end_ -= begin_;
     begin_ = 0;
     const auto got = file_.read({buffer_.get() + end_, buffer_length - end_});
-    if (!got && got.error().sys_errno == EINTR) return Stop::interrupted;
+    if (!got && (got.error().sys_errno == EINTR || got.error().sys_errno == EAGAIN)) return Stop::nothing_yet;
     if (!got) return read_failed(got.error());
     at_end_ = file_.is_regular() ? *got < buffer_length - end_ : *got == 0;
     end_ += *got;

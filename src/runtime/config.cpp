@@ -22,6 +22,14 @@ namespace {
 
 constexpr std::array<std::string_view, 7> place_keys{"url", "scheme", "host", "port", "path", "ring", "name"};
 
+constexpr std::string_view variable_prefix = "MAVLOOM_";
+
+std::string upper(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return result;
+}
+
 std::uint32_t line_of(const toml::node& node) { return static_cast<std::uint32_t>(node.source().begin.line); }
 
 // A value in the words of the endpoint grammar: native types as their text, lists joined by commas, tables as KEY:VALUE. Empty: cannot be one.
@@ -104,7 +112,7 @@ private:
             if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
                 auto hint = did_you_mean(key.str(), known);
                 if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(known, ", "));
-                return bad(line, fmt::format("there is no section {}{}", detail::quoted(key.str()), hint));
+                return bad(line, fmt::format("there is no section {}{}", in_quotes(key.str()), hint));
             }
             const bool is_list = key.str() == "endpoint";
             const auto* list = node.as_array();
@@ -119,23 +127,32 @@ private:
     }
 
     static std::string variable_name(const ConfigKey& key) {
-        auto name = fmt::format("MAVLOOM_{}_{}", key.section, key.name);
-        std::transform(name.begin(), name.end(), name.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-        return name;
+        return fmt::format("{}{}_{}", variable_prefix, upper(key.section), upper(key.name));
     }
 
-    // A misspelt variable would silently do nothing.
-    SetupResult<void> check_environment() const {
+    // A misspelt variable would silently do nothing. Others of this beginning may belong to other programs.
+    SetupResult<void> check_environment() {
         std::vector<std::string> names;
         for (const ConfigKey& key : config_keys()) names.push_back(variable_name(key));
-        const std::vector<std::string_view> known(names.begin(), names.end());
-        for (const auto& variable : environment_)
-            if (std::find(known.begin(), known.end(), variable.first) == known.end())
-                return setup_error(SetupCode::bad_input,
-                                   fmt::format("environment: {} sets nothing{}", shown(variable.first),
-                                               did_you_mean(variable.first, known)));
+        // The common beginning would make everything look near.
+        std::vector<std::string_view> known;
+        for (const std::string_view name : names) known.push_back(name.substr(variable_prefix.size()));
+        for (const auto& [name, value] : environment_) {
+            if (!name.starts_with(variable_prefix) || std::ranges::find(names, name) != names.end()) continue;
+            const auto near = nearest(std::string_view(name).substr(variable_prefix.size()), known);
+            const auto hint = near.empty() ? std::string()
+                                           : fmt::format(", did you mean '{}{}'?", variable_prefix, near);
+            auto what = fmt::format("environment: {} sets nothing{}", shown(name), hint);
+            if (!near.empty() || is_of_a_section(name)) return setup_error(SetupCode::bad_input, std::move(what));
+            config_.notes.push_back(std::move(what));
+        }
         return {};
+    }
+
+    static bool is_of_a_section(std::string_view name) {
+        return std::ranges::any_of(config_sections(), [&](std::string_view section) {
+            return name.substr(variable_prefix.size()).starts_with(upper(section) + "_");
+        });
     }
 
     SetupResult<void> check_keys(std::string_view section, const toml::table& table) const {
@@ -146,7 +163,7 @@ private:
             if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
             auto hint = did_you_mean(key.str(), known);
             if (hint.empty()) hint = fmt::format("; [{}] has {}", section, fmt::join(known, ", "));
-            return bad(line_of(node), fmt::format("[{}] has no key {}{}", section, detail::quoted(key.str()), hint));
+            return bad(line_of(node), fmt::format("[{}] has no key {}{}", section, in_quotes(key.str()), hint));
         }
         return {};
     }
@@ -192,7 +209,7 @@ private:
             auto text = text_of(node);
             if (!text)
                 return bad(line_of(node),
-                           fmt::format("{} has a value of a kind that it cannot have", detail::quoted(key.str())));
+                           fmt::format("{} has a value of a kind that it cannot have", in_quotes(key.str())));
             given.push_back({std::string(key.str()), std::move(*text), Origin::file, line_of(node), {}});
         }
         auto endpoint = place(given, line_of(table));
@@ -249,8 +266,7 @@ private:
             for (const Setting& setting : given)
                 if (const auto hint = did_you_mean(setting.key, place_keys);
                     !hint.empty() && std::find(known.begin(), known.end(), setting.key) == known.end())
-                    return bad(setting.line,
-                               fmt::format("[[endpoint]] has no key {}{}", detail::quoted(setting.key), hint));
+                    return bad(setting.line, fmt::format("[[endpoint]] has no key {}{}", in_quotes(setting.key), hint));
             return bad(line, "an endpoint needs url = \"...\", or scheme and what belongs to it");
         }
         const auto names = scheme_names();
@@ -258,7 +274,7 @@ private:
         if (found == names.end()) {
             auto hint = did_you_mean(scheme->value, names);
             if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
-            return bad(scheme->line, fmt::format("there is no scheme {}{}", detail::quoted(scheme->value), hint));
+            return bad(scheme->line, fmt::format("there is no scheme {}{}", in_quotes(scheme->value), hint));
         }
         Endpoint endpoint;
         endpoint.scheme = static_cast<Scheme>(found - names.begin());
@@ -295,7 +311,7 @@ private:
         for (const Section& other : config_.sections)
             if (other.name == "endpoint" && other.label == section.label)
                 return bad(line, fmt::format("{} stands there twice; give one of them another name = \"...\"",
-                                             detail::quoted(section.label)));
+                                             in_quotes(section.label)));
         for (const auto key : place_keys)
             if (const auto* setting = find(given, key); setting != nullptr && key != "name")
                 section.settings.push_back(*setting);
@@ -327,12 +343,8 @@ Environment environment_of(const char* const* envp) {
         const std::string_view text(*envp);
         const auto equals = text.find('=');
         if (equals == std::string_view::npos) continue;
-        for (const auto section : config_sections()) {
-            auto prefix = fmt::format("MAVLOOM_{}_", section);
-            std::transform(prefix.begin(), prefix.end(), prefix.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-            if (text.starts_with(prefix)) environment.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-        }
+        if (text.starts_with(variable_prefix))
+            environment.emplace_back(text.substr(0, equals), text.substr(equals + 1));
     }
     return environment;
 }

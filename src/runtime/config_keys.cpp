@@ -19,7 +19,7 @@ SetupResult<void> put_choice(std::string_view text, const std::array<std::string
     const auto choice = std::find(choices.begin(), choices.end(), text);
     if (choice == choices.end())
         return usage(
-            fmt::format("{} is none of {}{}", quoted(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
+            fmt::format("{} is none of {}{}", in_quotes(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
     target = static_cast<E>(choice - choices.begin());
     return {};
 }
@@ -33,7 +33,7 @@ SetupResult<void> set_heartbeat(Config& config, std::string_view text) {
     const auto system = parse_integer(text.substr(0, slash), 1, 255);
     const auto component = slash == std::string_view::npos ? system : parse_integer(text.substr(slash + 1), 1, 255);
     if (slash == std::string_view::npos || !system || !component)
-        return usage(fmt::format("{} is neither off nor SYS/COMP, each from 1 to 255", quoted(text)));
+        return usage(fmt::format("{} is neither off nor SYS/COMP, each from 1 to 255", in_quotes(text)));
     config.router.heartbeat.emplace(static_cast<std::uint8_t>(*system), static_cast<std::uint8_t>(*component));
     return {};
 }
@@ -48,13 +48,13 @@ SetupResult<void> set_capacity(Config& config, std::string_view text) {
     constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 40;  // records have up to 64 KiB
     const auto size = parse_size(text);
     if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
-        return usage(fmt::format("{} is no power of two from 64k to 1024G", quoted(text)));
+        return usage(fmt::format("{} is no power of two from 64k to 1024G", in_quotes(text)));
     return put(size, config.ring.capacity_bytes);
 }
 
 SetupResult<void> set_ring_name(Config& config, std::string_view text) {
     if (!is_ring_name(text))
-        return usage(fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", quoted(text)));
+        return usage(fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
     config.ring.name = std::string(text);
     return {};
 }
@@ -65,7 +65,8 @@ SetupResult<void> set_mode(Config& config, std::string_view text) {
                        text.find_first_not_of("01234567") == std::string_view::npos;
     for (const char c : text) mode = mode * 8 + static_cast<std::uint32_t>(c - '0');
     if (!octal)
-        return usage(fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", quoted(text)));
+        return usage(
+            fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", in_quotes(text)));
     config.ring.mode = static_cast<std::uint16_t>(mode);
     return {};
 }

@@ -79,7 +79,7 @@ tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_v
         if (foreign.scheme == scheme) return usage(fmt::format("'{}' {}", scheme, advice_for(foreign.advice, rest)));
     auto hint = did_you_mean(scheme, names);
     if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
-    return usage(fmt::format("there is no scheme {}{}", quoted(scheme), hint));
+    return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
 }
 
 bool ends_with(std::string_view text, std::string_view end) { return text.size() > end.size() && text.ends_with(end); }
@@ -229,7 +229,8 @@ std::string Endpoint::label() const {
 
 SetupResult<Endpoint> parse_endpoint(std::string_view text) {
     auto endpoint = parse(text);
-    if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within(fmt::format("endpoint {}", quoted(text))));
+    if (!endpoint)
+        return tl::unexpected(std::move(endpoint.error()).within(fmt::format("endpoint {}", in_quotes(text))));
     return endpoint;
 }
 

@@ -113,7 +113,8 @@ SetupResult<std::string> percent_decoded(std::string_view text) {
         const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
         const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
         if (low < 0)
-            return usage(fmt::format("{} is no percent escape; type %25 for a percent sign", quoted(text.substr(i, 3))));
+            return usage(
+                fmt::format("{} is no percent escape; type %25 for a percent sign", in_quotes(text.substr(i, 3))));
         if (high == 0 && low == 0) return usage("'%00' has no place here");
         result += static_cast<char>(high * 16 + low);
         i += 2;
@@ -123,7 +124,7 @@ SetupResult<std::string> percent_decoded(std::string_view text) {
 
 SetupResult<std::uint16_t> parse_port(std::string_view text) {
     const auto port = parse_integer(text, 0, 65535);
-    if (!port) return usage(fmt::format("port {} is not a number from 1 to 65535", quoted(text)));
+    if (!port) return usage(fmt::format("port {} is not a number from 1 to 65535", in_quotes(text)));
     return static_cast<std::uint16_t>(*port);
 }
 
@@ -131,7 +132,7 @@ SetupResult<std::string> parse_host(std::string_view text, std::string_view sche
     if (text.empty()) return missing_host(scheme, port);
     const auto suffix = fmt::format(":{}", port_or_example(port));
     if (text.front() == '[') {
-        if (text.back() != ']') return usage(fmt::format("the bracket of {} is not closed", quoted(text)));
+        if (text.back() != ']') return usage(fmt::format("the bracket of {} is not closed", in_quotes(text)));
         const auto inner = percent_decoded(text.substr(1, text.size() - 2));
         if (inner && is_ipv6(*inner)) return *inner;
         const auto raw = text.substr(1, text.size() - 2);
@@ -139,19 +140,19 @@ SetupResult<std::string> parse_host(std::string_view text, std::string_view sche
         if (is_ipv4(raw) || is_host_name(raw))
             return usage(
                 fmt::format("brackets are for IPv6 only; type {}", with_scheme(scheme, std::string(raw) + suffix)));
-        return usage(fmt::format("{} is no IPv6 address", quoted(text)));
+        return usage(fmt::format("{} is no IPv6 address", in_quotes(text)));
     }
     if (is_ipv4(text)) return std::string(text);
     if (text.find(':') != std::string_view::npos) {
         if (is_ipv6(text))
             return usage(fmt::format("an IPv6 address needs brackets; type {}",
                                      with_scheme(scheme, fmt::format("[{}]{}", text, suffix))));
-        return usage(fmt::format("{} is no host", quoted(text)));
+        return usage(fmt::format("{} is no host", in_quotes(text)));
     }
     if (is_digits_and_dots(text))
-        return usage(fmt::format("{} is no IPv4 address; it has four numbers from 0 to 255", quoted(text)));
+        return usage(fmt::format("{} is no IPv4 address; it has four numbers from 0 to 255", in_quotes(text)));
     if (is_host_name(text)) return std::string(text);
-    return usage(fmt::format("{} is no host name or address", quoted(text)));
+    return usage(fmt::format("{} is no host name or address", in_quotes(text)));
 }
 
 SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme) {
@@ -160,7 +161,7 @@ SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view sc
     const auto port_text = text.substr(colon + 1);
     const auto slash = port_text.find('/');
     if (slash != std::string_view::npos)
-        return usage(fmt::format("{} stands behind the port; type {}", quoted(port_text.substr(slash)),
+        return usage(fmt::format("{} stands behind the port; type {}", in_quotes(port_text.substr(slash)),
                                  with_scheme(scheme, text.substr(0, colon + 1 + slash))));
     if (port_text.empty()) return no_port(text.substr(0, colon), scheme);
     // The "1" of "::1" is no port; the "5760" of "::1:5760" was meant as one, although the whole could be an address.
@@ -180,13 +181,13 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
     if (scheme == Scheme::udpmcast) {
         if (kind == AddressKind::multicast) return {};
         return usage(fmt::format("{} is no multicast group; type for example udpmcast://239.255.145.50:{}",
-                                 quoted(address.host), address.port));
+                                 in_quotes(address.host), address.port));
     }
     const bool udp = scheme != Scheme::tcpin && scheme != Scheme::tcpout;
     if (kind == AddressKind::multicast)
         return usage(
-            udp ? fmt::format("{} is a multicast group; type udpmcast://{}", quoted(address.host), to_text(address))
-                : fmt::format("{} is a multicast group; TCP needs the address of one machine", quoted(address.host)));
+            udp ? fmt::format("{} is a multicast group; type udpmcast://{}", in_quotes(address.host), to_text(address))
+                : fmt::format("{} is a multicast group; TCP needs the address of one machine", in_quotes(address.host)));
     if (listens(scheme)) {
         if (kind != AddressKind::limited_broadcast) return {};
         return usage(fmt::format("nothing can listen on 255.255.255.255; type {}://0.0.0.0:{}", name, address.port));
@@ -209,19 +210,20 @@ SetupResult<void> check_path(Scheme scheme, std::string_view path) {
     if (path.find('\0') != std::string_view::npos) return usage("a zero byte has no place in a path");
     if (scheme == Scheme::shm) {
         if (is_ring_name(path)) return {};
-        return usage(fmt::format(
-            "{} is no ring name (letters, digits, '_' and '-', at most 64); type for example shm://main", quoted(path)));
+        return usage(
+            fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64); type for example shm://main",
+                        in_quotes(path)));
     }
     if (scheme == Scheme::tlog) {
         if (path.empty())
             return usage("the path is missing; type for example tlog://flight.tlog or tlog:///tmp/flight.tlog");
-        if (path.back() == '/') return usage(fmt::format("{} is a folder; a recording is a file", quoted(path)));
+        if (path.back() == '/') return usage(fmt::format("{} is a folder; a recording is a file", in_quotes(path)));
         return {};
     }
     if (path.empty()) return usage("the device is missing; type for example serial:///dev/ttyACM0?baud=57600");
     if (path.front() != '/')
         return usage(
-            fmt::format("the device {} needs its whole path; type for example serial:///dev/ttyACM0", quoted(path)));
+            fmt::format("the device {} needs its whole path; type for example serial:///dev/ttyACM0", in_quotes(path)));
     const auto colon = path.rfind(':');
     const auto tail = colon == std::string_view::npos ? std::string_view{} : path.substr(colon + 1);
     if (const auto baud = parse_integer(tail, 1200, 30'000'000))  // by-path names end in short numbers
@@ -244,12 +246,12 @@ SetupResult<std::vector<OptionText>> split_query(std::string_view query) {
         const auto key = item.substr(0, equals);
         if (key.empty()) return usage("an option is missing; options are written ?name=value&name=value");
         if (equals == std::string_view::npos)
-            return usage(fmt::format("option {} has no value; type {}=VALUE", quoted(key), shown(key)));
+            return usage(fmt::format("option {} has no value; type {}=VALUE", in_quotes(key), shown(key)));
         auto value = percent_decoded(item.substr(equals + 1));
-        if (!value) return tl::unexpected(std::move(value.error()).within(fmt::format("option {}", quoted(key))));
+        if (!value) return tl::unexpected(std::move(value.error()).within(fmt::format("option {}", in_quotes(key))));
         const auto same = [&](const OptionText& other) { return other.key == key; };
         if (std::any_of(options.begin(), options.end(), same))
-            return usage(fmt::format("option {} stands there twice", quoted(key)));
+            return usage(fmt::format("option {} stands there twice", in_quotes(key)));
         options.push_back({std::string(key), std::move(*value)});
         if (end == std::string_view::npos) return options;
         query.remove_prefix(end + 1);

@@ -46,21 +46,21 @@ SetupResult<void> set_text(EndpointOptions& options, std::string_view text) {
 SetupResult<std::chrono::nanoseconds> duration_of_at_least(std::string_view text, std::chrono::nanoseconds least,
                                                            std::string_view advice) {
     auto duration = parse_duration(text);
-    if (duration && *duration < least) return usage(fmt::format("{} is too short; {}", quoted(text), advice));
+    if (duration && *duration < least) return usage(fmt::format("{} is too short; {}", in_quotes(text), advice));
     return duration;
 }
 
 SetupResult<std::uint64_t> size_within(std::string_view text, std::uint64_t least, std::uint64_t most) {
     auto size = parse_size(text);
     if (size && (*size < least || *size > most))
-        return usage(fmt::format("{} is out of range ({} to {} bytes)", quoted(text), least, most));
+        return usage(fmt::format("{} is out of range ({} to {} bytes)", in_quotes(text), least, most));
     return size;
 }
 
 SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text) {
     constexpr std::array<std::string_view, 3> modes{"all", "best", "primary"};
     const auto mode = std::find(modes.begin(), modes.end(), text);
-    if (mode == modes.end()) return usage(fmt::format("{} is none of all, best, primary", quoted(text)));
+    if (mode == modes.end()) return usage(fmt::format("{} is none of all, best, primary", in_quotes(text)));
     options.group_mode = static_cast<GroupMode>(mode - modes.begin());
     return {};
 }
@@ -73,7 +73,7 @@ constexpr std::uint64_t most_rcvbuf_bytes = std::numeric_limits<std::int32_t>::m
 SetupResult<void> set_mtu(EndpointOptions& options, std::string_view text) {
     const auto size = parse_size(text);
     if (size && *size != 0 && (*size < longest_frame_bytes || *size > longest_datagram_bytes))
-        return usage(fmt::format("{} is neither 0 (one frame a datagram) nor from 280 to 65507 bytes", quoted(text)));
+        return usage(fmt::format("{} is neither 0 (one frame a datagram) nor from 280 to 65507 bytes", in_quotes(text)));
     return put(size, options.mtu_bytes);
 }
 
@@ -87,14 +87,14 @@ SetupResult<void> set_baud(EndpointOptions& options, std::string_view text) {
 
 SetupResult<void> set_flow(EndpointOptions& options, std::string_view text) {
     if (text == "xonxoff") return usage("'xonxoff' would take bytes out of MAVLink's frames; type none or rtscts");
-    if (text != "none" && text != "rtscts") return usage(fmt::format("{} is neither none nor rtscts", quoted(text)));
+    if (text != "none" && text != "rtscts") return usage(fmt::format("{} is neither none nor rtscts", in_quotes(text)));
     options.flow = std::string(text);
     return {};
 }
 
 SetupResult<void> set_from(EndpointOptions& options, std::string_view text) {
     if (text != "oldest" && text != "newest")
-        return usage(fmt::format("{} is neither oldest nor newest", quoted(text)));
+        return usage(fmt::format("{} is neither oldest nor newest", in_quotes(text)));
     options.from_oldest = text == "oldest";
     return {};
 }
@@ -105,13 +105,13 @@ SetupResult<void> set_speed(EndpointOptions& options, std::string_view text) {
         return {};
     }
     auto speed = parse_positive(text);
-    if (!speed) return usage(fmt::format("{} is neither max nor a number above 0", quoted(text)));
+    if (!speed) return usage(fmt::format("{} is neither max nor a number above 0", in_quotes(text)));
     return put(speed, options.speed);
 }
 
 SetupResult<void> set_group(EndpointOptions& options, std::string_view text) {
     if (!is_ring_name(text))
-        return usage(fmt::format("{} is no group name (letters, digits, '_' and '-', at most 64)", quoted(text)));
+        return usage(fmt::format("{} is no group name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
     options.group = std::string(text);
     return {};
 }
@@ -169,7 +169,7 @@ constexpr std::array options_table{
     Option{"iface", udp_schemes, "",
            [](O& o, std::string_view t) -> SetupResult<void> {
                if (t.size() > 15)
-                   return usage(fmt::format("{} is longer than an interface's name can be (15)", quoted(t)));
+                   return usage(fmt::format("{} is longer than an interface's name can be (15)", in_quotes(t)));
                return set_text<&O::iface>(o, t);
            }},
     Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
@@ -237,7 +237,7 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
         const auto names = option_names_for(endpoint.scheme);
         auto hint = did_you_mean(key, names);
         if (hint.empty()) hint = fmt::format("; {} takes {}", scheme_name(endpoint.scheme), fmt::join(names, ", "));
-        return usage(fmt::format("there is no option {}{}", quoted(key), hint));
+        return usage(fmt::format("there is no option {}{}", in_quotes(key), hint));
     }
     if ((option->schemes & set_of(endpoint.scheme)) == 0)
         return usage(fmt::format("{} does not take the option '{}' ({})", scheme_name(endpoint.scheme), key,
@@ -250,7 +250,7 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
 SetupResult<void> check_source_options(const Endpoint& endpoint) {
     const auto refused = [&](std::string_view key) {
         return usage(fmt::format("{}: '{}' is for a recording that is written; this one is read",
-                                 quoted(endpoint.label()), key));
+                                 in_quotes(endpoint.label()), key));
     };
     if (endpoint.options.rotate_bytes != 0) return refused("rotate_bytes");
     if (endpoint.options.rotate_every != std::chrono::nanoseconds{}) return refused("rotate_every");

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/runtime/endpoint.hpp"
 
 namespace mavloom::runtime::detail {
@@ -29,10 +30,9 @@ inline constexpr SchemeSet address_schemes = udp_schemes | tcp_schemes;
 
 [[nodiscard]] std::span<const std::string_view> scheme_names() noexcept;
 
-// What a user typed, fit for a message: control characters replaced, cut when long.
-[[nodiscard]] std::string shown(std::string_view text);
-// 'text', for the start of a message.
-[[nodiscard]] std::string quoted(std::string_view text);
+using edit::parse_positive;
+using mavloom::in_quotes;
+using mavloom::shown;
 
 // The options that the scheme takes, and the text of the value that stands where none is given (empty: not set).
 [[nodiscard]] std::vector<std::string_view> option_names_for(Scheme scheme);
@@ -73,7 +73,6 @@ SetupResult<void> put(SetupResult<T> parsed, Target& target) {
 }
 
 [[nodiscard]] SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most);
-[[nodiscard]] SetupResult<double> parse_positive(std::string_view text);
 // When a recording goes on in a new file: by size, by time.
 [[nodiscard]] SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text);
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text);

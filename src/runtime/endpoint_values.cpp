@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mavloom/edit/terms.hpp"
 #include "runtime/endpoint_parts.hpp"
 
 namespace mavloom::runtime {
@@ -16,8 +17,6 @@ namespace mavloom::runtime {
 using namespace detail;
 
 namespace {
-
-constexpr std::uint32_t max_message_id = 0xffffff;  // 24 bits on the wire
 
 // The number at the start of `text`, and what follows it. Signs are refused: no value of the grammar is negative.
 template <class T>
@@ -64,73 +63,21 @@ const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
     return unit == units.end() ? nullptr : &*unit;
 }
 
-bool is_message_name(std::string_view text) {
-    return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
-}
-
-bool is_number(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-// A message name as a dialect spells it, or an id.
-SetupResult<std::string> parse_message_term(std::string_view text) {
-    if (!is_message_name(text))
-        return usage(fmt::format("{} is no message name or id; type for example ATTITUDE or 30", quoted(text)));
-    if (is_number(text)) {
-        if (const auto id = parse_integer(text, 0, max_message_id); !id) return tl::unexpected(id.error());
-    }
-    return std::string(text);
-}
-
 SetupResult<void> add_filter_term(FilterTerms& terms, std::string_view text) {
     const auto colon = text.find(':');
     if (colon == std::string_view::npos) {
-        auto message = parse_message_term(text);
+        auto message = edit::parse_message_term(text);
         if (!message) return tl::unexpected(message.error());
         terms.messages.push_back(std::move(*message));
         return {};
     }
     const auto kind = text.substr(0, colon);
     if (kind != "sys" && kind != "comp")
-        return usage(fmt::format("{} is no filter term; type a message name, an id, sys:N or comp:N", quoted(text)));
+        return usage(fmt::format("{} is no filter term; type a message name, an id, sys:N or comp:N", in_quotes(text)));
     const auto id = parse_integer(text.substr(colon + 1), 0, 255);
     if (!id) return tl::unexpected(SetupError(id.error()).within(kind));
     (kind == "sys" ? terms.systems : terms.components).push_back(static_cast<std::uint8_t>(*id));
     return {};
-}
-
-SetupResult<RateTerm> parse_rate(std::string_view text) {
-    const auto colon = text.rfind(':');
-    if (colon == std::string_view::npos)
-        return usage(fmt::format("{} has no rate; type for example ATTITUDE:10 or *:50", quoted(text)));
-    const auto name = text.substr(0, colon);
-    RateTerm term;
-    if (name == "*") {
-        term.message = "*";
-    } else if (auto message = parse_message_term(name)) {
-        term.message = std::move(*message);
-    } else {
-        return tl::unexpected(message.error());
-    }
-    const auto rate = parse_positive(text.substr(colon + 1));
-    if (!rate) return tl::unexpected(SetupError(rate.error()).within(fmt::format("rate of {}", term.message)));
-    term.rate_hz = *rate;
-    return term;
-}
-
-// Calls `each` for the parts of "a,b,c" until one fails; an empty part is an error.
-template <class F>
-SetupResult<void> for_each_term(std::string_view text, F&& each) {
-    while (true) {
-        const auto comma = text.find(',');
-        const auto term = text.substr(0, comma);
-        if (term.empty()) return usage("an empty term between commas");
-        if (auto done = each(term); !done) return done;
-        if (comma == std::string_view::npos) return {};
-        text.remove_prefix(comma + 1);
-    }
 }
 
 }  // namespace
@@ -139,21 +86,23 @@ SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text) {
     const auto number = leading_number<double>(text);
     const Unit* unit = number.ok ? find_unit(duration_units, number.rest) : nullptr;
     if (unit == nullptr || !std::isfinite(number.value))
-        return usage(fmt::format(
-            "{} is no duration; type for example 2, 2s, 500ms, 1m or 1h (seconds unless a unit follows)", quoted(text)));
+        return usage(
+            fmt::format("{} is no duration; type for example 2, 2s, 500ms, 1m or 1h (seconds unless a unit follows)",
+                        in_quotes(text)));
     const double ns = number.value * unit->value;
     constexpr double ten_years_ns = 3653 * 86400e9;  // far below what nanoseconds in 64 bits hold
-    if (ns > ten_years_ns) return usage(fmt::format("{} is longer than ten years", quoted(text)));
+    if (ns > ten_years_ns) return usage(fmt::format("{} is longer than ten years", in_quotes(text)));
     return std::chrono::nanoseconds{std::llround(ns)};
 }
 
 SetupResult<std::uint64_t> parse_size(std::string_view text) {
     const auto number = leading_number<std::uint64_t>(text);
     const Unit* unit = number.ok ? find_unit(size_units, number.rest) : nullptr;
-    if (unit == nullptr) return usage(fmt::format("{} is no size; type for example 65536, 64k or 32MiB", quoted(text)));
+    if (unit == nullptr)
+        return usage(fmt::format("{} is no size; type for example 65536, 64k or 32MiB", in_quotes(text)));
     const auto factor = static_cast<std::uint64_t>(unit->value);
     constexpr std::uint64_t most = std::uint64_t{1} << 62;
-    if (number.value > most / factor) return usage(fmt::format("{} is larger than any disk", quoted(text)));
+    if (number.value > most / factor) return usage(fmt::format("{} is larger than any disk", in_quotes(text)));
     return number.value * factor;
 }
 
@@ -161,35 +110,17 @@ namespace detail {
 
 tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
-std::string shown(std::string_view text) {
-    constexpr std::size_t longest = 120;
-    std::string result(text.substr(0, longest));
-    for (char& c : result)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    if (text.size() > longest) result += "...";
-    return result;
-}
-
-std::string quoted(std::string_view text) { return "'" + shown(text) + "'"; }
-
 SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most) {
     const auto number = leading_number<std::uint64_t>(text);
     if (!number.ok || !number.rest.empty() || number.value < least || number.value > most)
-        return usage(fmt::format("{} is not a whole number from {} to {}", quoted(text), least, most));
-    return number.value;
-}
-
-SetupResult<double> parse_positive(std::string_view text) {
-    const auto number = leading_number<double>(text);
-    if (!number.ok || !number.rest.empty() || !std::isfinite(number.value) || number.value <= 0)
-        return usage(fmt::format("{} is not a number above 0", quoted(text)));
+        return usage(fmt::format("{} is not a whole number from {} to {}", in_quotes(text), least, most));
     return number.value;
 }
 
 SetupResult<bool> parse_bool(std::string_view text) {
     if (text == "true") return true;
     if (text == "false") return false;
-    return usage(fmt::format("{} is neither true nor false", quoted(text)));
+    return usage(fmt::format("{} is neither true nor false", in_quotes(text)));
 }
 
 bool is_ring_name(std::string_view text) noexcept {
@@ -200,15 +131,15 @@ bool is_ring_name(std::string_view text) noexcept {
 
 SetupResult<FilterTerms> parse_filter(std::string_view text) {
     FilterTerms terms;
-    const auto done = for_each_term(text, [&](std::string_view term) { return add_filter_term(terms, term); });
+    const auto done = edit::for_each_term(text, [&](std::string_view term) { return add_filter_term(terms, term); });
     if (!done) return tl::unexpected(done.error());
     return terms;
 }
 
 SetupResult<std::vector<RateTerm>> parse_rates(std::string_view text) {
     std::vector<RateTerm> terms;
-    const auto done = for_each_term(text, [&](std::string_view part) -> SetupResult<void> {
-        auto term = parse_rate(part);
+    const auto done = edit::for_each_term(text, [&](std::string_view part) -> SetupResult<void> {
+        auto term = edit::parse_rate_term(part);
         if (!term) return tl::unexpected(term.error());
         const auto same = [&](const RateTerm& other) { return other.message == term->message; };
         if (std::any_of(terms.begin(), terms.end(), same)) return usage(fmt::format("{} has two rates", term->message));

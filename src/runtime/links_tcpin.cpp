@@ -61,7 +61,7 @@ public:
         for (const auto& peer : peers_) sum += peer->queue.bytes();
         return sum;
     }
-    void on_resolved(net::Resolver::Answer answer) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
     void on_closed(TcpPeer& peer, std::string_view why) override;
     void on_timer(MonoTime now) override;
 
@@ -95,7 +95,7 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
 }
 
 // Only when the look-up took longer than `add` waits.
-void TcpIn::on_resolved(net::Resolver::Answer answer) {
+void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
     auto done = answer ? open(*answer) : tl::unexpected(std::move(answer).error());
     if (!done) core_.notice(info.id, fmt::format("{}: {}", info.endpoint.label(), done.error().text));
 }

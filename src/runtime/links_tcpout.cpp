@@ -44,7 +44,7 @@ public:
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
-    void on_resolved(net::Resolver::Answer answer) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
     void on_closed(TcpPeer& peer, std::string_view why) override;
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
@@ -71,7 +71,7 @@ private:
     bool was_up_ = false, told_failure_ = false;
 };
 
-void TcpOut::on_resolved(net::Resolver::Answer answer) {
+void TcpOut::on_resolved(net::Resolver::Answer&& answer) {
     if (!answer) return fail(answer.error());
     addresses_.assign(answer->rbegin(), answer->rend());
     if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });

@@ -41,7 +41,7 @@ public:
     }
     [[nodiscard]] std::size_t queued_bytes() const override { return everybody_.queue.bytes() + peers_.queued_bytes(); }
     void refresh_kernel_drops() override { port_.refresh_kernel_drops(); }
-    void on_resolved(net::Resolver::Answer answer) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
     void on_send_error(net::IoError error) override;
@@ -77,7 +77,7 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     return {};
 }
 
-void UdpBroadcast::on_resolved(net::Resolver::Answer answer) {
+void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
     if (auto done = start(answer); !done) fail(done.error());
 }
 

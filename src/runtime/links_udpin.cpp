@@ -18,13 +18,13 @@ public:
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
-    SetupResult<void> open(std::vector<net::Address> addresses);
+    SetupResult<void> open(const std::vector<net::Address>& addresses);
     std::size_t send(const wire::FrameView& frame) override { return peers_.send(frame); }
     [[nodiscard]] std::size_t queued_bytes() const override { return peers_.queued_bytes(); }
     void refresh_kernel_drops() override {
         for (const auto& port : ports_) port->refresh_kernel_drops();
     }
-    void on_resolved(net::Resolver::Answer answer) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override { return peers_.of(port, datagram); }
     void on_send_error(net::IoError) override {}
@@ -42,7 +42,7 @@ private:
     bool told_failure_ = false;
 };
 
-SetupResult<void> UdpIn::open(std::vector<net::Address> addresses) {
+SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     net::UdpOptions options = udp_options(info.endpoint.options);
     // One socket on :: serves both families; where each family has a socket of its own they must not meet.
     options.v6_only = addresses.size() > 1;
@@ -63,8 +63,8 @@ SetupResult<void> UdpIn::open(std::vector<net::Address> addresses) {
 }
 
 // Only when the look-up took longer than `add` waits.
-void UdpIn::on_resolved(net::Resolver::Answer answer) {
-    auto done = answer ? open(std::move(*answer)) : tl::unexpected(std::move(answer).error());
+void UdpIn::on_resolved(net::Resolver::Answer&& answer) {
+    auto done = answer ? open(*answer) : tl::unexpected(answer.error());
     if (done) return;
     ports_.clear();
     if (!std::exchange(told_failure_, true)) {
@@ -91,7 +91,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening) {
     auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
     if (!answer) return opened;
     if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
-    if (auto done = opened->open(std::move(**answer)); !done)
+    if (auto done = opened->open(**answer); !done)
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     return opened;
 }

@@ -35,7 +35,7 @@ public:
     void refresh_kernel_drops() override {
         if (port_) port_->refresh_kernel_drops();
     }
-    void on_resolved(net::Resolver::Answer answer) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
 
     UdpPeer* peer_of(UdpPort&, const net::Datagram& datagram) override {
         if (peer_ && *datagram.from == peer_->address) return peer_.get();
@@ -103,7 +103,7 @@ SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     return {};
 }
 
-void UdpOut::on_resolved(net::Resolver::Answer answer) {
+void UdpOut::on_resolved(net::Resolver::Answer&& answer) {
     const bool aimed = peer_ != nullptr;
     if (aimed && answer && std::find(answer->begin(), answer->end(), peer_->address) != answer->end()) {
         const auto at = std::find(answer->begin(), answer->end(), peer_->address);

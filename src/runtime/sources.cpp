@@ -7,6 +7,9 @@
 
 namespace mavloom::runtime {
 
+// How often an empty pipe is looked at.
+static constexpr std::chrono::milliseconds pipe_look{5};
+
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
     auto links = Links::create(dialect);
     if (!links) return tl::unexpected(std::move(links.error()));
@@ -34,11 +37,13 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
     if (endpoint.scheme != Scheme::tlog) {
         return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
-    auto reader = record::TlogReader::open(endpoint.path, *table_);
+    auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::tell);
     if (!reader) {
         reader.error().code = SetupCode::bad_input;  // the user named it as input: status 3, missing or unreadable alike
         return tl::unexpected(std::move(reader.error()));
     }
+    if (skip != Nanoseconds{} && !reader->is_file())
+        return setup_error(SetupCode::usage, endpoint.label() + " is a pipe: it can only be read from its start");
     if (skip != Nanoseconds{})
         if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped) return skipped;
     const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
@@ -50,6 +55,11 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
 
 void Sources::advance(Recording& recording) {
     const auto record = recording.reader.next();
+    if (!record && record.error() == record::TlogReader::Stop::nothing_yet) {
+        recording.next.reset();
+        recording.due = mono_now() + pipe_look;
+        return;
+    }
     if (!record) {
         recording.ended = true;
         if (record.error() == record::TlogReader::Stop::failed) {

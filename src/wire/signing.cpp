@@ -57,17 +57,23 @@ std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(const std:
 
 SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
+// The user named the file as input: whatever is wrong with it is `bad_input`, status 3.
+static tl::unexpected<SetupError> cannot_open(const std::filesystem::path& file, int error) {
+    auto failed = system_error(fmt::format("cannot open key file {}", file.string()), error);
+    failed.value().code = SetupCode::bad_input;
+    return failed;
+}
+
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
     struct stat status {};
-    if (::stat(file.c_str(), &status) != 0)
-        return system_error(fmt::format("cannot open key file {}", file.string()), errno);
+    if (::stat(file.c_str(), &status) != 0) return cannot_open(file, errno);
     if ((status.st_mode & 077) != 0)
-        return setup_error(SetupCode::permission,
+        return setup_error(SetupCode::bad_input,
                            fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}", file.string(),
                                        status.st_mode & 0777u, file.string()));
     std::ifstream in(file);
     std::string word, more;
-    if (!in) return system_error(fmt::format("cannot open key file {}", file.string()), errno);
+    if (!in) return cannot_open(file, errno);
     in >> word >> more;
     const auto key = parse_hex(word);
     if (!key || !more.empty())

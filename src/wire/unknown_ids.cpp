@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mavloom/wire/crc.hpp"
+#include "mavloom/wire/frame_checksum.hpp"
 
 namespace mavloom::wire {
 
@@ -11,17 +11,12 @@ static std::uint64_t key_of(const FrameView& frame) noexcept {
     return std::uint64_t{frame.id().value} << 16 | std::uint64_t{frame.system().value} << 8 | frame.component().value;
 }
 
-static int extra_of(const FrameView& frame) noexcept {
-    const auto covered = frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length());
-    return crc_extra_between(crc_update(crc_seed, covered), frame.checksum());
-}
-
 std::size_t UnknownIds::index_of(std::uint64_t key) const noexcept {
     return static_cast<std::size_t>(std::ranges::find(entries_, key, &Entry::key) - entries_.begin());
 }
 
 UnknownIds::Verdict UnknownIds::judge(const FrameView& frame) const noexcept {
-    const int extra = extra_of(frame);
+    const int extra = crc_extra_of(frame);
     if (extra < 0) return Verdict::impossible;
     const auto index = index_of(key_of(frame));
     if (index == entries_.size() || entries_[index].agreed < confirmations) return Verdict::possible;
@@ -29,7 +24,7 @@ UnknownIds::Verdict UnknownIds::judge(const FrameView& frame) const noexcept {
 }
 
 bool UnknownIds::learn(const FrameView& frame) noexcept {
-    const int fitting = extra_of(frame);
+    const int fitting = crc_extra_of(frame);
     if (fitting < 0) return false;
     const auto extra = static_cast<std::uint8_t>(fitting);
     const auto key = key_of(frame);

@@ -66,6 +66,35 @@ def test_a_bad_file_is_status_3(run, tmp_path, text, expected):
     assert expected.format(path=path) in done.stderr
 
 
+def test_misspelt_messages_are_status_3(run, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text('[[endpoint]]\nurl = "udpin://0.0.0.0:14550"\nin_allow = ["HEARTBEAT", "ATITUDE"]\n')
+    done = run("check", path)
+
+    assert done.status == 3 and done.stdout == ""
+    assert f"{path}:3: in_allow: unknown message 'ATITUDE', did you mean 'ATTITUDE'?" in done.stderr
+
+
+def test_messages_of_a_dialect_file_are_known(run, tmp_path):
+    (tmp_path / "mine.xml").write_text('<mavlink><messages><message id="54321" name="MY_OWN">'
+                                       '<field type="uint8_t" name="a">a</field></message></messages></mavlink>')
+    path = tmp_path / "mine.toml"
+    path.write_text('[[endpoint]]\nurl = "udpin://0.0.0.0:14550?max_rate=MY_OWN:10"\n')
+
+    assert run("check", path).status == 3
+    assert run("check", path, "--dialect", tmp_path / "mine.xml").status == 0
+
+
+def test_variables_that_set_nothing(run, tmp_path):
+    path = tmp_path / "router.toml"
+    path.write_text(GOOD)
+    near = run("check", path, env={"MAVLOOM_ROOTER_DEDUP_MS": "1"})
+    far = run("check", path, env={"MAVLOOM_UNICORN": "1"})
+
+    assert near.status == 3 and "did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?" in near.stderr
+    assert far.status == 0 and "MAVLOOM_UNICORN sets nothing" in far.stderr
+
+
 def test_no_file_and_no_configuration(run, tmp_path, data):
     assert run("check", tmp_path / "none.toml").status == 3
     assert run("check", data / "px4_gcs_flight.tlog").status == 3

@@ -75,6 +75,17 @@ def test_examples_of_help(run, folder, command):
         assert done.status == 0, done
 
 
+@pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"), ("bench", "parse"), ("bench", "decode")])
+def test_examples_of_the_help_of_a_part(run, folder, command, part):
+    text = run(command, part, "--help").stdout
+    examples = re.findall(r"(mavloom %s %s [^-[].*)$" % (command, part), text, re.MULTILINE)
+
+    assert examples, text
+    for line in examples:
+        done = run(*runnable(line), cwd=folder)
+        assert done.status == 0, done
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):

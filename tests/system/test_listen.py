@@ -125,6 +125,12 @@ def test_csv(run):
     assert float(rows[0]["roll"]) == pytest.approx(0.0025562597)
 
 
+def test_csv_by_id(run):
+    assert run("listen", frames.FLIGHT, "--csv", "30").stdout == run("listen", frames.FLIGHT, "--csv", "ATTITUDE").stdout
+    unknown = run("listen", frames.FLIGHT, "--csv", "77777")
+    assert unknown.status == 2 and "message 77777 has no definition" in unknown.stderr
+
+
 def test_stats_as_json_agree_with_the_recordings_table(run):
     stats = json_lines(run("listen", frames.FLIGHT, "--json", "--stats").stdout)[-1]["stats"]
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """mavloom record and replay: what is recorded is what came; what is replayed is what was recorded, at its pace."""
+import json
 import os
+import re
 import signal
 import socket
 import time
@@ -59,6 +61,104 @@ def test_an_existing_file_is_renamed(run, tmp_path):
 
     assert len(frames.read_tlog(log)) == 1
     assert sorted(path.name for path in tmp_path.iterdir()) == ["x.tlog", "x.tlog.1", "x.tlog.2"]
+
+
+LOSSES = ["kernel_drop", "buffer_full", "crc_error", "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer",
+          "stray_bytes", "peers_refused"]
+
+
+def sums(done):
+    """The one line of --json on stdout."""
+    assert len(done.lines) == 1, done
+    return json.loads(done.stdout)["stats"]
+
+
+def test_the_sums_of_record_as_json(run, tmp_path):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
+    stats = sums(run("record", log, "-o", tmp_path / "x.tlog", "--json", "-q"))
+
+    assert list(stats) == ["destinations", "totals"]
+    assert stats["destinations"] == [{"endpoint": str(tmp_path / "x.tlog"), "frames": 5, "bytes": 5 * 29, "files": 1}]
+    assert list(stats["totals"]) == ["frames", "bytes", *LOSSES]
+    assert (stats["totals"]["frames"], stats["totals"]["bytes"], stats["totals"]["crc_error"]) == (5, 5 * 21, 0)
+
+
+def test_the_sums_of_replay_as_json(run, tmp_path):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
+    log.write_bytes(b"damage" + log.read_bytes())
+    station = harness.udp_socket()
+    address = f"udpout://127.0.0.1:{station.getsockname()[1]}"
+    done = run("replay", log, "--to", address, "--to", f"tlog://{tmp_path}/copy.tlog", "--json")
+
+    stats = sums(done)
+    assert done.status == 0 and "5 frames" in done.stderr
+    assert stats["destinations"] == [
+        {"endpoint": address, "frames": 5, "bytes": 5 * 21, "dropped": 0, "refused": 0, "nobody_there": 0, "queued_bytes": 0},
+        {"endpoint": f"tlog://{tmp_path}/copy.tlog".removeprefix("tlog://"), "frames": 5, "bytes": 5 * 29, "files": 1}]
+    assert list(stats["totals"]) == ["frames", "bytes", *LOSSES]
+    assert (stats["totals"]["frames"], stats["totals"]["junk_bytes"], stats["totals"]["damaged_places"]) == (5, 6, 1)
+
+
+@pytest.mark.parametrize("command", [["record", "{log}", "-o", "{tmp}/x.tlog"], ["replay", "{log}", "--to", "tlog://{tmp}/x.tlog"],
+                                     ["relay", "{log}", "--to", "tlog://{tmp}/x.tlog"]])
+def test_sums_that_cannot_be_written_are_an_error(program, tmp_path, command):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
+    with open("/dev/full", "wb") as full:
+        done = harness.subprocess.run([program, *[word.format(log=log, tmp=tmp_path) for word in command], "--json"], stdout=full,
+                                      stderr=harness.subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 1 and "No space left" in done.stderr
+
+
+def test_segments_of_a_second(run, tmp_path):
+    """Case P6 of the routing rules: two frames 1.1 s apart with segments of 1 s are two files."""
+    log = frames.write_tlog(tmp_path / "in.tlog", [(1_700_000_000_000_000 + 1_100_000 * i, frame) for i, frame in enumerate(frames.heartbeats(2))])
+    out = tmp_path / "out"
+    out.mkdir()
+    for output in (f"{out}/x.tlog?rotate_every=1s", f"tlog://{out}/x.tlog?rotate_every=1s"):
+        done = run("record", log, "-o", output)
+        assert done.status == 0 and "2 frames, 58 bytes written in 2 files" in done.stderr, done
+
+    assert sorted(path.name for path in out.iterdir()) == [
+        "x-20231114T221320.000Z.tlog", "x-20231114T221320.000Z_2.tlog", "x-20231114T221321.100Z.tlog", "x-20231114T221321.100Z_2.tlog"]
+    assert all(len(frames.read_tlog(path)) == 1 for path in out.iterdir())
+
+
+def test_live_frames_rotate_by_their_receive_time(spawn, wait_for, tmp_path):
+    process = spawn("record", "udpin://127.0.0.1:0", "-o", f"{tmp_path}/x.tlog?rotate_every=1")
+    address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
+    sequence = 0
+
+    def two_files():
+        nonlocal sequence
+        sender.sendto(next(frames.heartbeats(1, sequence=sequence % 256)), address)
+        sequence += 1
+        return len(list(tmp_path.glob("x-*.tlog"))) >= 2
+    wait_for(two_files)
+    assert process.stop().status == 130
+
+    times = [[time_us for time_us, _ in frames.read_tlog(path)] for path in sorted(tmp_path.iterdir())]
+    assert sum(map(len, times)) == sequence
+    assert times[1][0] - times[0][0] >= 1_000_000 > times[0][-1] - times[0][0]
+
+
+def test_segments_by_size_hold_every_frame(run, tmp_path):
+    done = run("relay", frames.FLIGHT, "--to", f"tlog://{tmp_path}/x.tlog?rotate_bytes=100k")
+    assert done.status == 0, done
+
+    files = sorted(tmp_path.iterdir(), key=lambda path: frames.read_tlog(path)[0][0])
+    assert len(files) > 10 and all(path.stat().st_size <= 100 * 1024 for path in files)
+    assert b"".join(path.read_bytes() for path in files) == frames.FLIGHT.read_bytes()
+
+
+@pytest.mark.parametrize("output, status, said", [
+    ("{tmp}/missing/x.tlog?rotate_every=1h", 1, "cannot create files in"), ("/dev/null", 0, "bytes written"),
+    ("tlog:///dev/null?rotate_every=1h", 2, "cannot be rotated"), ("{tmp}/x.tlog?rotate_every=1ms", 2, "rotate_every"),
+    ("{tmp}/x.tlog?speed=2", 2, "speed"), ("udpout://127.0.0.1:9", 2, "record writes a .tlog file"),
+])
+def test_outputs_of_record(run, tmp_path, output, status, said):
+    done = run("record", frames.FLIGHT, "--count", "3", "-o", output.format(tmp=tmp_path))
+
+    assert done.status == status and said in done.stderr, done
 
 
 def test_a_killed_recorder_leaves_whole_records(spawn, tmp_path, wait_for):
@@ -167,6 +267,49 @@ def test_replay_of_a_pipe_is_refused_or_read(run, tmp_path):
 
     assert done.status == 0
     assert len(done.lines) > 400
+
+
+@pytest.mark.parametrize("command", [["listen", "{fifo}"], ["record", "{fifo}", "-o", "{tmp}/x.tlog"], ["relay", "{fifo}", "--to", "udpout://127.0.0.1:9"],
+                                     ["replay", "{fifo}", "--to", "udpout://127.0.0.1:9"], ["record", "{log}", "-o", "{fifo}"],
+                                     ["replay", "{log}", "--to", "tlog://{fifo}"], ["relay", "{log}", "--to", "tlog://{fifo}"]])
+def test_interrupt_ends_the_wait_for_the_other_end_of_a_fifo(spawn, wait_for, tmp_path, command):
+    fifo = tmp_path / "pipe.tlog"
+    os.mkfifo(fifo)
+    process = spawn(*[word.format(fifo=fifo, log=frames.FLIGHT, tmp=tmp_path) for word in command])
+
+    def catches_interrupts():
+        caught = re.search(r"^SigCgt:\s*(\w+)$", open(f"/proc/{process.pid}/status").read(), re.MULTILINE)
+        return int(caught[1], 16) >> (signal.SIGINT - 1) & 1
+    wait_for(catches_interrupts)
+    # It waits in open() or in its loop, not on the way there: asleep.
+    wait_for(lambda: open(f"/proc/{process.pid}/stat").read().split()[2] == "S")
+    begin = time.monotonic()
+
+    assert process.stop().status == 130
+    assert time.monotonic() - begin < 20
+
+
+def test_a_fifo_beside_a_live_source(spawn, tmp_path):
+    fifo = tmp_path / "pipe.tlog"
+    os.mkfifo(fifo)
+    process = spawn("listen", "udpin://127.0.0.1:0", fifo)
+    address = ("127.0.0.1", port_of(process))
+    harness.udp_socket().sendto(next(frames.heartbeats(1)), address)
+    process.wait_output("HEARTBEAT", stream="out")
+    with open(fifo, "wb") as writer:
+        writer.write(bytes(8) + frames.attitude())
+        writer.flush()
+        process.wait_output("ATTITUDE", stream="out")
+
+    assert process.stop().status == 130
+
+
+def test_a_pipe_has_no_start_to_count_from(run, tmp_path):
+    fifo = tmp_path / "pipe.tlog"
+    os.mkfifo(fifo)
+    done = run("replay", fifo, "--start", "1s", "--to", "udpout://127.0.0.1:9")
+
+    assert done.status == 2 and "is a pipe" in done.stderr
 
 
 @pytest.mark.parametrize("arguments, said", [

@@ -155,6 +155,45 @@ def test_set_a_field(spawn):
     assert heartbeat.system_status == frames.mavlink.MAV_STATE_CRITICAL
 
 
+def test_set_one_element_of_an_array(spawn):
+    sent = frames.mavlink.MAVLink_actuator_control_target_message(7, 3, [1, 2, 3, 4, 5, 6, 7, 8]).pack(frames.sender())
+    path = Path(spawn, "--set", "ACTUATOR_CONTROL_TARGET.controls[3]=0.5", "--set", "ACTUATOR_CONTROL_TARGET.controls[7]=0")
+
+    assert decode(path.through(sent)[0]).controls == [1, 2, 3, 0.5, 5, 6, 7, 0]
+
+
+def test_the_sums_as_json(run, tmp_path):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate([*frames.heartbeats(5), frames.attitude()])))
+    done = run("relay", log, "--to", f"tlog://{tmp_path}/x.tlog", "--only", "HEARTBEAT", "--json", "-q")
+
+    assert (done.status, done.stderr, len(done.lines)) == (0, "", 1), done
+    stats = json.loads(done.stdout)["stats"]
+    assert list(stats) == ["destinations", "edit", "totals"]
+    assert stats["destinations"] == [{"endpoint": f"{tmp_path}/x.tlog", "frames": 5, "bytes": 5 * 29, "files": 1}]
+    assert stats["edit"] == {"frames": 6, "reencoded": 5, "rewrapped": 0, "passed_untouched": 0, "filtered": 1, "rate_limited": 0, "not_v1": 0,
+                             "not_signed": 0, "signature_removed": 0, "backward": 0, "unheard_answers": 0}
+    assert set(stats["totals"].values()) == {0} and "kernel_drop" in stats["totals"]
+
+
+def test_the_sums_of_a_link_as_json(run, udp_socket):
+    station = udp_socket()
+    address = f"udpout://127.0.0.1:{station.getsockname()[1]}"
+    done = run("relay", f"tlog://{frames.FLIGHT}?speed=max", "--to", address, "--only", "GPS_RAW_INT", "--json")
+
+    sums = json.loads(done.stdout)["stats"]["destinations"][0]
+    assert list(sums) == ["endpoint", "frames", "bytes", "dropped", "refused", "nobody_there", "queued_bytes"]
+    assert (sums["endpoint"], sums["frames"], sums["dropped"], sums["queued_bytes"]) == (address, 531, 0, 0)
+
+
+def test_the_guide_names_every_key_of_the_sums(run, tmp_path, udp_socket):
+    guide = (harness.ROOT / "docs" / "guide" / "relay.md").read_text()
+    done = run("relay", frames.FLIGHT, "--json", "--to", f"tlog://{tmp_path}/x.tlog", "--to", f"udpout://127.0.0.1:{udp_socket().getsockname()[1]}")
+    stats = json.loads(done.stdout)["stats"]
+
+    keys = {*stats, *stats["edit"], *(key for destination in stats["destinations"] for key in destination)}
+    assert [key for key in sorted(keys) if f"`{key}`" not in guide and f'"{key}"' not in guide] == []
+
+
 def test_remap_a_system_in_both_directions(spawn):
     path = Path(spawn, "--remap-system", "1=42")
     assert decode(path.through(frames.attitude())[0]).get_srcSystem() == 42
@@ -269,14 +308,21 @@ def test_wrong_use(run, options, said):
     assert said in done.stderr
 
 
-def test_a_key_that_others_can_read_is_refused(run, tmp_path):
+@pytest.mark.parametrize("content, mode, said", [("00" * 32, 0o644, "chmod 600"), ("00" * 31, 0o600, "64 hexadecimal digits"), (None, 0, "cannot open key file")])
+@pytest.mark.parametrize("command", [
+    ["relay", "{log}", "--to", "udpout://127.0.0.1:9", "--sign", "{key}"], ["relay", "{log}", "--to", "udpout://127.0.0.1:9?sign={key}"],
+    ["replay", "{log}", "--to", "udpout://127.0.0.1:9?verify={key}"], ["listen", "udpin://127.0.0.1:0?verify={key}"],
+    ["record", "udpin://127.0.0.1:0?sign={key}", "-o", "{key}.tlog"],
+])
+def test_a_bad_key_file_is_status_3(run, tmp_path, command, content, mode, said):
     key = tmp_path / "key"
-    key.write_text("00" * 32)
-    key.chmod(0o644)
-    done = run("relay", frames.FLIGHT, "--to", "udpout://127.0.0.1:9", "--sign", key)
+    if content is not None:
+        key.write_text(content)
+        key.chmod(mode)
+    done = run(*[word.format(key=key, log=frames.FLIGHT) for word in command])
 
-    assert done.status == 1
-    assert "chmod 600" in done.stderr
+    assert done.status == 3
+    assert said in done.stderr
 
 
 def test_an_own_dialect_is_decoded_and_edited(spawn, run, tmp_path):

@@ -40,6 +40,10 @@ public:
     // text, [a,b,c] for arrays; the error says what was expected and the nearest enum name.
     [[nodiscard]] SetupResult<void> set_from_text(const dialect::Field& field, std::string_view value);
 
+    // The same for one element of an array of numbers; `index` is in range.
+    [[nodiscard]] SetupResult<void> set_element_from_text(const dialect::Field& field, std::string_view value,
+                                                          std::size_t index);
+
     // The full payload, `max_length` bytes, untruncated: the frame writer truncates for MAVLink 2 and cuts extensions for MAVLink 1.
     [[nodiscard]] ByteView payload() const noexcept { return {bytes_.data(), definition_->wire.max_length}; }
 

@@ -57,7 +57,8 @@ public:
     }
     friend bool operator==(const Address& a, const Address& b) noexcept {
         if (a.word(0) != b.word(0)) return false;  // family, port and the IPv4 address
-        return a.is_v6() ? std::memcmp(&a.storage_, &b.storage_, sizeof(sockaddr_in6)) == 0 : true;
+        return !a.is_v6() || (a.word(8) == b.word(8) && a.word(16) == b.word(16) &&
+                              a.storage_.v6.sin6_scope_id == b.storage_.v6.sin6_scope_id);
     }
 
 private:

@@ -15,19 +15,26 @@ namespace mavloom::record {
 
 class File {
 public:
-    [[nodiscard]] static SetupResult<File> open_to_read(const std::filesystem::path& path);
+    // What `read` does while a pipe or device has nothing: wait for it, or say so.
+    enum class Empty : std::uint8_t { wait, tell };
+    // A FIFO without a writer is opened at once, and has nothing until one comes.
+    [[nodiscard]] static SetupResult<File> open_to_read(const std::filesystem::path& path, Empty empty = Empty::wait);
     // A new file of this name, mode 0644; one that exists is an error (`in_use`).
     [[nodiscard]] static SetupResult<File> create(const std::filesystem::path& path);
     // Something that is there and is no regular file (a device, a FIFO).
     [[nodiscard]] static SetupResult<File> open_to_write(const std::filesystem::path& path);
 
     File(File&& other) noexcept
-        : path_(std::move(other.path_)), fd_(std::exchange(other.fd_, -1)), regular_(other.regular_) {}
+        : path_(std::move(other.path_)),
+          fd_(std::exchange(other.fd_, -1)),
+          regular_(other.regular_),
+          empty_(other.empty_) {}
     File& operator=(File&& other) noexcept;
     ~File();
 
     // Fills `out` from the current position until it is full or the file ends; returns the number of bytes. A pipe or device gives what is
-    // there, once something is, and 0 at its end; a signal while it has nothing is an error with sys_errno EINTR.
+    // there, once something is, and 0 at its end. Nothing there is an error with sys_errno EAGAIN (`Empty::tell`), a signal while it waits one
+    // with EINTR.
     [[nodiscard]] SetupResult<std::size_t> read(ByteSpan out);
     struct Written {
         std::size_t bytes = 0;  // what the system took: less than all only where `error` is set
@@ -49,11 +56,13 @@ public:
 private:
     File(std::filesystem::path path, int fd, bool regular) noexcept
         : path_(std::move(path)), fd_(fd), regular_(regular) {}
+    [[nodiscard]] int wait_for_input() const noexcept;
     [[nodiscard]] static SetupResult<File> open(const std::filesystem::path& path, int flags, std::string_view doing);
 
     std::filesystem::path path_;
     int fd_ = -1;
     bool regular_ = false;
+    Empty empty_ = Empty::wait;
 };
 
 }  // namespace mavloom::record

@@ -28,13 +28,14 @@ struct ReadCounters {
 class TlogReader {
 public:
     // `table` must outlive the reader.
-    [[nodiscard]] static SetupResult<TlogReader> open(const std::filesystem::path& path,
-                                                      const wire::MessageTable& table);
+    // `empty` is for pipes and devices: what `next` does while there is nothing.
+    [[nodiscard]] static SetupResult<TlogReader> open(const std::filesystem::path& path, const wire::MessageTable& table,
+                                                      File::Empty empty = File::Empty::wait);
 
     enum class Stop : std::uint8_t {
         end,          // the file is read to its end
         failed,       // `error` says why; nothing more can be read
-        interrupted,  // a signal came while a pipe had nothing; may be called again
+        nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; may be called again
     };
     // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record.
     [[nodiscard]] Result<Record, Stop> next();
@@ -45,6 +46,8 @@ public:
 
     // The offset of the first byte not yet handed out or skipped.
     [[nodiscard]] std::uint64_t position() const noexcept { return base_ + begin_; }
+    // False for pipes and devices: they cannot be sought in.
+    [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
     // The file's size when it was opened; 0 for a pipe.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
     [[nodiscard]] const ReadCounters& counters() const noexcept { return counters_; }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
+#include "mavloom/dialect/dialect.hpp"
 #include "mavloom/runtime/endpoint.hpp"
 
 namespace mavloom::runtime {
@@ -29,6 +30,7 @@ struct RouterConfig {
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
     std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat;  // system and component; empty: off
+    friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
 
 struct RingConfig {
@@ -73,13 +75,18 @@ struct Config {
     WebConfig web;
     std::vector<Endpoint> endpoints;
 
-    std::vector<Section> sections;  // all of the above, for people and for `check`
+    std::vector<Section> sections;   // all of the above, for people and for `check`
+    std::vector<std::string> notes;  // what was found odd and is no error: to be said once
 };
 
-// NAME=VALUE pairs; those that begin with MAVLOOM_ROUTER_, MAVLOOM_RING_, MAVLOOM_RECORD_, MAVLOOM_LOG_ or MAVLOOM_WEB_ are for the keys of
-// these sections (MAVLOOM_ROUTER_DEDUP_MS), the rest is ignored.
+// NAME=VALUE pairs that begin with MAVLOOM_. Those of a section (MAVLOOM_ROUTER_..., _RING_, _RECORD_, _LOG_, _WEB_) set its keys, as
+// MAVLOOM_ROUTER_DEDUP_MS does. One that sets nothing is an error where it has the beginning of a section or is near to a key, else a note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Environment environment_of(const char* const* envp);
+
+// Looks up the messages that filters and rates name. An error is `bad_input`, with file, line and the nearest name.
+[[nodiscard]] SetupResult<void> check_message_names(const Config& config, std::string_view file_name,
+                                                    const dialect::Dialect& dialect);
 
 // Errors are `bad_input` and begin with FILE:LINE: or the variable's name.
 [[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,

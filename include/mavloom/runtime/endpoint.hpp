@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
+#include "mavloom/edit/terms.hpp"
 
 namespace mavloom::runtime {
 
@@ -32,12 +33,10 @@ struct FilterTerms {
     std::vector<std::uint8_t> systems;
     std::vector<std::uint8_t> components;
     [[nodiscard]] bool empty() const noexcept { return messages.empty() && systems.empty() && components.empty(); }
+    friend bool operator==(const FilterTerms&, const FilterTerms&) = default;
 };
 
-struct RateTerm {
-    std::string message;  // a name, an id, or "*"
-    double rate_hz = 0;
-};
+using edit::RateTerm;
 
 enum class GroupMode : std::uint8_t { all, best, primary };
 
@@ -69,6 +68,7 @@ struct EndpointOptions {
     std::uint32_t baud = 57600;  // serial; 0: auto
     std::string flow = "none";
     bool from_oldest = false, lossless = false;  // shm
+    friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 
 struct Endpoint {
@@ -79,6 +79,7 @@ struct Endpoint {
 
     // The link name of messages and tables: options.name, else scheme://host:port or scheme://path.
     [[nodiscard]] std::string label() const;
+    friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
 // "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, pymavlink's among them. Errors are `usage`, name what is wrong with this

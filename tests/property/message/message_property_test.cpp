@@ -13,6 +13,7 @@
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/wire/frame_writer.hpp"
+#include "support/seed.hpp"
 
 namespace mavloom::message {
 namespace {

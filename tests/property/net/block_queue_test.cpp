@@ -10,6 +10,8 @@
 #include <deque>
 #include <vector>
 
+#include "support/seed.hpp"
+
 namespace mavloom::net {
 namespace {
 
@@ -189,7 +191,7 @@ RC_GTEST_PROP(BlockQueue, GatheredDatagramsHoldWholeBlocksInOrder, ()) {
         for (std::size_t i = 0; i < got.blocks; ++i) bytes += sizes.at(next++);
         RC_ASSERT(got.bytes == bytes);
         RC_ASSERT(bytes <= mtu || got.blocks == 1);
-        RC_ASSERT(next == sizes.size() || bytes + sizes[next] > mtu);
+        RC_ASSERT((next == sizes.size() || bytes + sizes[next] > mtu));  // in brackets: else || does not stop early
     }
     RC_ASSERT(next == sizes.size());
 }

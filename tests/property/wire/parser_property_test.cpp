@@ -11,6 +11,7 @@
 #include "mavloom/wire/stream_parser.hpp"
 #include "support/golden_frames.hpp"
 #include "support/parse_log.hpp"
+#include "support/seed.hpp"
 
 namespace mavloom::wire {
 

@@ -218,11 +218,43 @@ TEST(Config, AVariableThatSetsNothingIsAnError) {
                 HasSubstr("environment: MAVLOOM_LOG_LEVEL: 'loud' is none of debug, info, warning, error"));
 }
 
-TEST(Config, TakesOnlyItsOwnVariablesFromTheEnvironment) {
-    const char* const variables[] = {"PATH=/bin", "MAVLOOM_SEED=1", "MAVLOOM_WEB_LISTEN=[::1]:80", "MAVLOOM_RINGS=1",
-                                     nullptr};
+TEST(Config, AVariableWithAMisspeltSectionIsAnError) {
+    const auto misspelt = parse_config("", "r.toml", {{"MAVLOOM_ROUTR_DEDUP_MS", "1"}});
 
-    EXPECT_EQ(environment_of(variables), (Environment{{"MAVLOOM_WEB_LISTEN", "[::1]:80"}}));
+    ASSERT_FALSE(misspelt.has_value());
+    EXPECT_EQ(misspelt.error().code, SetupCode::bad_input);
+    EXPECT_THAT(misspelt.error().text, HasSubstr("did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?"));
+}
+
+TEST(Config, AVariableThatIsNearToNoKeyIsNoted) {
+    const auto config = parsed("", {{"MAVLOOM_SEED", "1"}, {"MAVLOOM_PROGRAM", "x"}});
+
+    EXPECT_THAT(config.notes, testing::ElementsAre("environment: MAVLOOM_SEED sets nothing",
+                                                   "environment: MAVLOOM_PROGRAM sets nothing"));
+}
+
+TEST(Config, TakesItsOwnVariablesFromTheEnvironment) {
+    const char* const variables[] = {"PATH=/bin", "MAVLOOM_SEED=1", "MAVLOOM_WEB_LISTEN=[::1]:80", "MAVLOOM", nullptr};
+
+    EXPECT_EQ(environment_of(variables), (Environment{{"MAVLOOM_SEED", "1"}, {"MAVLOOM_WEB_LISTEN", "[::1]:80"}}));
+}
+
+TEST(Config, MessagesAreLookedUpWithFileAndLine) {
+    const auto& dialect = dialect::default_dialect();
+    const auto check = [&](std::string_view text) {
+        const auto checked = check_message_names(parsed(text), "r.toml", dialect);
+        return checked ? std::string("good") : checked.error().text;
+    };
+    const std::string other =
+        "[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\nin_allow = [\"ATTITUDE\", 77777, \"sys:1\"]\n";
+
+    EXPECT_EQ(check(other), "good");
+    EXPECT_EQ(check(other + "[[endpoint]]\nurl = \"udpin://0.0.0.0:2\"\nname = \"b\"\nout_block = \"ATITUDE\"\n"),
+              "r.toml:7: out_block: unknown message 'ATITUDE', did you mean 'ATTITUDE'?");
+    EXPECT_EQ(check(other + "[[endpoint]]\nurl = \"udpin://0.0.0.0:2?in_block=HEARTBEET\"\n"),
+              "r.toml:5: in_block: unknown message 'HEARTBEET', did you mean 'HEARTBEAT'?");
+    EXPECT_EQ(check("[[endpoint]]\nurl = \"udpin://0.0.0.0:2\"\nmax_rate = {\"*\" = 5, ATITUDE = 10}\n"),
+              "r.toml:3: max_rate: unknown message 'ATITUDE', did you mean 'ATTITUDE'?");
 }
 
 TEST(Config, SaysWhyAFileCannotBeRead) {

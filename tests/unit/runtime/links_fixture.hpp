@@ -58,7 +58,7 @@ inline Bytes operator+(Bytes a, const Bytes& b) {
 inline Endpoint endpoint_of(const std::string& url) {
     auto endpoint = parse_endpoint(url);
     EXPECT_TRUE(endpoint) << url << ": " << (endpoint ? "" : endpoint.error().text);
-    return endpoint.value_or(Endpoint{});
+    return endpoint ? *std::move(endpoint) : Endpoint{};
 }
 
 class Recorder : public LinkHandler {

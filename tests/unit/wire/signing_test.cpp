@@ -179,7 +179,7 @@ TEST_F(KeyFile, RefusesAFileThatOthersCanRead) {
     const auto key = SigningKey::load(path);
 
     ASSERT_FALSE(key);
-    EXPECT_EQ(key.error().code, SetupCode::permission);
+    EXPECT_EQ(key.error().code, SetupCode::bad_input);
     EXPECT_NE(key.error().text.find("chmod 600"), std::string::npos);
 }
 
@@ -187,7 +187,7 @@ TEST_F(KeyFile, NamesAMissingFile) {
     const auto key = SigningKey::load("/nonexistent/key");
 
     ASSERT_FALSE(key);
-    EXPECT_EQ(key.error().code, SetupCode::not_found);
+    EXPECT_EQ(key.error().code, SetupCode::bad_input);
 }
 
 }  // namespace mavloom::wire

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// The messages that a configuration names, looked up in definitions: apart from reading the file, which needs none.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mavloom/edit/terms.hpp"
+#include "mavloom/runtime/config.hpp"
+
+namespace mavloom::runtime {
+
+namespace {
+
+// Where the option was given: that of the key, else that of the endpoint's first line.
+std::uint32_t line_of(const Section& section, std::string_view key) {
+    const auto setting = std::ranges::find(section.settings, key, &Setting::key);
+    return setting == section.settings.end() ? 0 : setting->line;
+}
+
+// The first term that no definition has, in words.
+std::string unknown_in(const Endpoint& endpoint, std::string_view key, const dialect::Dialect& dialect) {
+    const EndpointOptions& o = endpoint.options;
+    const std::array<std::pair<std::string_view, const FilterTerms*>, 4> filters{
+        {{"in_allow", &o.in_allow}, {"in_block", &o.in_block}, {"out_allow", &o.out_allow}, {"out_block", &o.out_block}}};
+    std::vector<std::string_view> names;
+    for (const auto& [name, terms] : filters)
+        if (name == key) names.assign(terms->messages.begin(), terms->messages.end());
+    if (key == "max_rate")
+        for (const RateTerm& term : o.max_rate)
+            if (term.message != "*") names.push_back(term.message);
+    for (const auto name : names)
+        if (const auto id = edit::find_message_id(dialect, name); !id) return id.error().text;
+    return {};
+}
+
+}  // namespace
+
+SetupResult<void> check_message_names(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
+    auto endpoint = config.endpoints.begin();
+    for (const Section& section : config.sections) {
+        if (section.name != "endpoint") continue;
+        for (const std::string_view key : {"in_allow", "in_block", "out_allow", "out_block", "max_rate"})
+            if (const auto what = unknown_in(*endpoint, key, dialect); !what.empty())
+                return setup_error(SetupCode::bad_input,
+                                   fmt::format("{}:{}: {}: {}", file_name, line_of(section, key), key, what));
+        ++endpoint;
+    }
+    return {};
+}
+
+}  // namespace mavloom::runtime
