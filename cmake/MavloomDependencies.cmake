@@ -5,4 +5,6 @@ find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only: Asio and Beast
 pkg_check_modules(sodium REQUIRED IMPORTED_TARGET libsodium)

@@ -44,6 +44,10 @@ struct Command {
     Declare declare;
 };
 
+Run declare_route(CLI::App&, const Common&);
+Run declare_ctl(CLI::App&, const Common&);
+Run declare_stat(CLI::App&, const Common&);
+Run declare_key(CLI::App&, const Common&);
 Run declare_listen(CLI::App&, const Common&);
 Run declare_relay(CLI::App&, const Common&);
 Run declare_record(CLI::App&, const Common&);

@@ -17,10 +17,14 @@ namespace mavloom::app {
 namespace {
 
 constexpr std::array commands{
+    Command{"route", "forward between any number of links, changing nothing", declare_route},
     Command{"listen", "decode and print every message that arrives", declare_listen},
     Command{"relay", "decode, optionally edit, re-encode and send on", declare_relay},
     Command{"record", "write what arrives to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
+    Command{"ctl", "look at a running router and change its endpoints", declare_ctl},
+    Command{"stat", "the counters of a running router", declare_stat},
+    Command{"key", "make signing keys", declare_key},
     Command{"dialect", "look up and check message definitions", declare_dialect},
     Command{"check", "validate a configuration file", declare_check},
     Command{"bench", "measure this machine", declare_bench},

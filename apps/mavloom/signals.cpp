@@ -14,10 +14,16 @@ namespace {
 std::atomic<int> received_signal{0};
 std::atomic<Signals::OnStop> stop_function{nullptr};
 std::atomic<void*> stop_context{nullptr};
+std::atomic<bool> hangup_is_remembered{false};
+std::atomic<bool> hangup{false};
 
 void handle(int signal) {
     const int saved_errno = errno;
-    if (received_signal.exchange(signal) != 0) ::_exit(128 + signal);
+    if (signal == SIGHUP && hangup_is_remembered) {
+        hangup = true;
+    } else if (received_signal.exchange(signal) != 0) {
+        ::_exit(128 + signal);
+    }
     if (const auto stop = stop_function.load()) stop(stop_context.load());
     errno = saved_errno;
 }
@@ -33,13 +39,16 @@ void install(void (*handler)(int)) {
 
 }  // namespace
 
-Signals::Signals(OnStop on_stop, void* context) {
+Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup) {
+    hangup_is_remembered = on_hangup == OnHangup::remember;
     stop_context = context;
     stop_function = on_stop;
     install(handle);
 }
 
 Signals::~Signals() { stop_function = nullptr; }
+
+bool Signals::take_hangup() noexcept { return hangup.exchange(false); }
 
 bool Signals::received() noexcept { return received_signal.load() != 0; }
 

@@ -10,12 +10,16 @@ namespace mavloom::app {
 class Signals {
 public:
     using OnStop = void (*)(void* context) noexcept;
-    Signals(OnStop on_stop, void* context);
+    // SIGHUP ends a command as the others do, unless it is remembered for `take_hangup` (a router reads its file again).
+    enum class OnHangup : std::uint8_t { stop, remember };
+    Signals(OnStop on_stop, void* context, OnHangup on_hangup = OnHangup::stop);
     ~Signals();
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 
     [[nodiscard]] static bool received() noexcept;
+    // True once for each SIGHUP that was remembered (several at once are one).
+    [[nodiscard]] static bool take_hangup() noexcept;
     // 130 or 143 after a signal, else `otherwise`.
     [[nodiscard]] static Exit status(Exit otherwise) noexcept;
 };

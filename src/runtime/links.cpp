@@ -24,6 +24,7 @@ public:
     }
 
     Core core;
+    RoutingOptions routing = RoutingOptions::refused;
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
 };
 
@@ -46,10 +47,12 @@ SetupResult<std::unique_ptr<Links>> Links::create(const wire::MessageTable& tabl
     });
 }
 
-SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialect) {
+SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialect, RoutingOptions routing) {
     return with_system_parts([&](auto loop, auto batch) {
-        return std::unique_ptr<Links>(new Links(
-            std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop), std::move(batch))));
+        auto impl = std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop),
+                                           std::move(batch));
+        impl->routing = routing;
+        return std::unique_ptr<Links>(new Links(std::move(impl)));
     });
 }
 
@@ -67,7 +70,8 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
 
 SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     impl_->core.refresh_now();
-    if (auto checked = check_supported(endpoint); !checked) return tl::unexpected(std::move(checked).error());
+    if (auto checked = check_supported(endpoint, impl_->routing); !checked)
+        return tl::unexpected(std::move(checked).error());
     for (const auto& other : impl_->endpoints) {
         const bool own_port_each = endpoint.scheme != Scheme::serial && endpoint.address.port == 0;
         if (other && other->info.endpoint.label() == endpoint.label() && !own_port_each) {
@@ -99,6 +103,14 @@ std::size_t Links::send(EndpointId endpoint, wire::FrameView frame) {
     OpenEndpoint* const found = impl_->find(endpoint);
     return found == nullptr ? 0 : found->send(frame);
 }
+
+bool Links::send_unsigned(LinkId link, wire::FrameView frame) {
+    Link* const found = impl_->core.links().find(link);
+    return found != nullptr && found->up && impl_->core.queue(*found, frame) && found->signature != nullptr &&
+           found->signature->signs();
+}
+
+MonoTime Links::now() const noexcept { return impl_->core.now(); }
 
 bool Links::pending() const { return impl_->core.pending(); }
 
@@ -134,6 +146,11 @@ std::vector<EndpointInfo> Links::endpoints() const {
 std::string_view Links::link_name(LinkId link) const {
     const Link* const found = impl_->core.links().find(link);
     return found == nullptr ? std::string_view{} : std::string_view(found->name);
+}
+
+std::span<const wire::SequenceStats> Links::sources(LinkId link) const noexcept {
+    const Link* const found = impl_->core.links().find(link);
+    return found == nullptr ? std::span<const wire::SequenceStats>{} : found->tracker.sources();
 }
 
 const LinkCounters* Links::counters(LinkId link) const noexcept {

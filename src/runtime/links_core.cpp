@@ -228,10 +228,9 @@ void Core::count_sequence(Link& link, wire::SequenceTracker::Update update) noex
     }
 }
 
-bool Core::send(Link& link, const wire::FrameView& frame) {
-    const wire::FrameView outgoing = link.signature == nullptr ? frame : link.signature->sign(frame, table_, wall_now());
-    const MessageClasses::Rule rule = classes_.of(outgoing.id());
-    const auto pushed = link.queue.push(outgoing.bytes(), rule.block_class, MessageClasses::key(outgoing, rule), now_);
+bool Core::queue(Link& link, const wire::FrameView& frame) {
+    const MessageClasses::Rule rule = classes_.of(frame.id());
+    const auto pushed = link.queue.push(frame.bytes(), rule.block_class, MessageClasses::key(frame, rule), now_);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);
     if (pushed.queued && !std::exchange(link.queued, true)) link.schedule();

@@ -67,6 +67,7 @@ public:
                                                                       EndpointId endpoint);
 
     [[nodiscard]] bool verifies() const noexcept { return verifier_.has_value(); }
+    [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
     // `accepts` ahead of the parser that will find the same bytes once more: that second look is not taken for a replay.
     [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
@@ -132,7 +133,7 @@ public:
     [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
     virtual void refresh_kernel_drops() {}
     // The answer to a look-up that this endpoint asked for.
-    virtual void on_resolved(net::Resolver::Answer) {}
+    virtual void on_resolved(net::Resolver::Answer&&) {}
     // Keeps the sums of a link that has been removed.
     void count_gone(const Link& link) noexcept;
 
@@ -178,7 +179,11 @@ public:
         }
     }
     // True when the frame was queued.
-    bool send(Link& link, const wire::FrameView& frame);
+    bool send(Link& link, const wire::FrameView& frame) {
+        return queue(link, link.signature == nullptr ? frame : link.signature->sign(frame, table_, wall_now()));
+    }
+    // As it is.
+    bool queue(Link& link, const wire::FrameView& frame);
 
     void schedule(Outlet& outlet) {
         if (std::exchange(outlet.scheduled, true)) return;

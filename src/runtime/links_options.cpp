@@ -11,7 +11,7 @@ static tl::unexpected<SetupError> usage(const Endpoint& endpoint, std::string_vi
     return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), text));
 }
 
-SetupResult<void> check_supported(const Endpoint& endpoint) {
+SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing) {
     switch (endpoint.scheme) {
         case Scheme::udpin:
         case Scheme::udpout:
@@ -27,7 +27,7 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
             return usage(endpoint, fmt::format("{}:// is not available in this version", scheme_name(endpoint.scheme)));
     }
     const EndpointOptions& o = endpoint.options;
-    const std::pair<std::string_view, bool> not_yet[] = {
+    const std::pair<std::string_view, bool> routed[] = {
         {"group", !o.group.empty() || o.group_mode != GroupMode::all},
         {"max_rate", !o.max_rate.empty()},
         {"max_bytes", o.max_bytes_per_s.has_value()},
@@ -38,8 +38,9 @@ SetupResult<void> check_supported(const Endpoint& endpoint) {
         {"tap", o.tap},
         {"private", o.is_private},
     };
-    for (const auto& [name, set] : not_yet) {
-        if (set) return usage(endpoint, fmt::format("option {}= is not available in this version", name));
+    for (const auto& [name, set] : routed) {
+        if (set && routing == RoutingOptions::refused)
+            return usage(endpoint, fmt::format("option {}= is for mavloom route, which decides what goes where", name));
     }
     if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
         return usage(endpoint, "ttl=0 keeps the datagrams of a group on this machine; others need 1 to 255");

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "mavloom/net/address.hpp"
-#include "mavloom/runtime/endpoint.hpp"
+#include "mavloom/runtime/links.hpp"
 
 namespace mavloom::runtime::detail {
 
 // An error for a scheme or an option that these links do not honour, so that none is silently ignored.
-[[nodiscard]] SetupResult<void> check_supported(const Endpoint& endpoint);
+[[nodiscard]] SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing);
 // An error for what nobody can send to: 0.0.0.0, port 0, a group or a broadcast address; the text says what to type.
 [[nodiscard]] SetupResult<void> check_destination(const Endpoint& endpoint);
 // bind=HOST:PORT as an address; nothing where it is not set.

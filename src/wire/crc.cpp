@@ -3,6 +3,8 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+
+#include <limits>
 #endif
 
 namespace mavloom::wire {
@@ -147,7 +149,7 @@ MAVLOOM_CLMUL inline bool is_multiple_of_p(__m128i value) noexcept {
     const __m128i by = powers(x63_mod_p, inverse_of_p);
     value = _mm_xor_si128(value, _mm_clmulepi64_si128(value, by, 0x00));
     const __m128i quotient = _mm_clmulepi64_si128(value, by, 0x11);
-    const __m128i x48_to_x63 = _mm_set_epi64x(0x7fff, static_cast<long long>(std::uint64_t{1} << 63));
+    const __m128i x48_to_x63 = _mm_set_epi64x(0x7fff, std::numeric_limits<long long>::min());
     return _mm_testz_si128(quotient, x48_to_x63) != 0;
 }
 

@@ -102,13 +102,17 @@ struct EndpointInfo {
     }
 };
 
+// Filters, groups, rates, tap= and private= of an endpoint: an error, or applied by who owns the links (Router).
+enum class RoutingOptions : std::uint8_t { refused, by_owner };
+
 class Links {
 public:
     // `table` must outlive the object. A full queue then drops telemetry oldest first; with a dialect it knows which newer value replaces
     // which.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const wire::MessageTable& table);
     // The same with the dialect's table, which must outlive the object, and its instance fields (docs/guide/queues.md).
-    [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const dialect::Dialect& dialect);
+    [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const dialect::Dialect& dialect,
+                                                                    RoutingOptions routing = RoutingOptions::refused);
     Links(const Links&) = delete;
     Links& operator=(const Links&) = delete;
     ~Links();
@@ -126,6 +130,10 @@ public:
     // Queues a whole frame for one link, or for every link of an endpoint that is up. Returns the number of links that took it.
     std::size_t send(LinkId link, wire::FrameView frame);
     std::size_t send(EndpointId endpoint, wire::FrameView frame);
+    // The same without the signature that `sign=` would give: true when the link took it and has `sign=`.
+    bool send_unsigned(LinkId link, wire::FrameView frame);
+    // The instant of the turn that is under way.
+    [[nodiscard]] MonoTime now() const noexcept;
     // True when something queued is not yet with the kernel.
     [[nodiscard]] bool pending() const;
     // Bytes queued for the links of an endpoint: a file source uses it to wait instead of overflowing a queue.
@@ -142,6 +150,8 @@ public:
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
     // The same counters without the list, in constant time; null for a link that is gone.
     [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept;
+    // What each source on a link lost; valid until the next turn, empty for a link that is gone.
+    [[nodiscard]] std::span<const wire::SequenceStats> sources(LinkId link) const noexcept;
     // Empty for a link that is gone.
     [[nodiscard]] std::string_view link_name(LinkId link) const;
 

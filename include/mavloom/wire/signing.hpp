@@ -44,6 +44,11 @@ public:
     // A file of 64 hexadecimal digits (white space around them is fine), mode 0600 or stricter.
     [[nodiscard]] static SetupResult<SigningKey> load(const std::filesystem::path& file);
 
+    // From the system's random numbers.
+    [[nodiscard]] static SetupResult<SigningKey> random();
+    // Writes a new file of mode 0600 in the form that `load` reads. An existing file is never replaced: `in_use`.
+    [[nodiscard]] SetupResult<void> create_file(const std::filesystem::path& file) const;
+
     [[nodiscard]] const std::array<std::uint8_t, length>& bytes() const noexcept { return bytes_; }
 
 private:

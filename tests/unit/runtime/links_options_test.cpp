@@ -23,13 +23,13 @@ TEST(LinksOptions, NothingIsSilentlyIgnored) {
     for (const auto& [url, says] : {
              Refusal{"shm://ring", "shm:// is not available in this version"},
              Refusal{"tlog://flight.tlog", "a recording is no link"},
-             Refusal{"udpin://127.0.0.1:1?group=air", "group= is not available"},
-             Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is not available"},
-             Refusal{"udpin://127.0.0.1:1?max_bytes=5000", "max_bytes= is not available"},
-             Refusal{"udpin://127.0.0.1:1?in_allow=sys:1", "in_allow= is not available"},
-             Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is not available"},
-             Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is not available"},
-             Refusal{"udpin://127.0.0.1:1?private=true", "private= is not available"},
+             Refusal{"udpin://127.0.0.1:1?group=air", "group= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?max_bytes=5000", "max_bytes= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?in_allow=sys:1", "in_allow= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?private=true", "private= is for mavloom route"},
              Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps the datagrams of a group"},
              Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no meaning"},
              Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no meaning"},
@@ -170,7 +170,7 @@ TEST_F(LinksSigning, AFrameWhoseChecksumNobodyKnowsLeavesAsItIs) {
 TEST_F(LinksSigning, AMissingKeyIsAnError) {
     Node node;
     const auto error = node.refused("udpin://127.0.0.1:0?verify=/no/such/key");
-    EXPECT_EQ(error.code, SetupCode::not_found);
+    EXPECT_EQ(error.code, SetupCode::bad_input);
     EXPECT_THAT(error.text, HasSubstr("/no/such/key"));
 }
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "mavloom/runtime/control.hpp"
+#include "output.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Json = nlohmann::ordered_json;
+
+constexpr auto patience = 5s;
+
+SetupResult<std::vector<std::string>> ask(std::string_view name, const Json& request) {
+    return runtime::ask_router(name, request.dump(-1, ' ', false, Json::error_handler_t::replace), patience);
+}
+
+Exit print_lines(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const auto& line : lines) text.append(line).push_back('\n');
+    return print_at_end(text, Exit::done);
+}
+
+// ---- ctl -------------------------------------------------------------------------------------------------------------
+
+struct CtlOptions {
+    std::string name, action, argument;
+};
+
+SetupResult<Json> request_of(const CtlOptions& options) {
+    const bool takes_argument = options.action == "add" || options.action == "remove";
+    if (takes_argument && options.argument.empty())
+        return setup_error(SetupCode::usage, options.action == "add" ? "add takes the URL of an endpoint"
+                                                                     : "remove takes the name of an endpoint");
+    if (!takes_argument && !options.argument.empty())
+        return setup_error(SetupCode::usage, fmt::format("{} takes nothing behind it", options.action));
+    Json request{{"cmd", options.action}};
+    if (takes_argument) request[options.action == "add" ? "url" : "name"] = options.argument;
+    return request;
+}
+
+Exit ctl(const CtlOptions& options) {
+    const auto request = request_of(options);
+    if (!request) return fail(request.error());
+    const auto lines = ask(options.name, *request);
+    return lines ? print_lines(*lines) : fail(lines.error());
+}
+
+// ---- stat ------------------------------------------------------------------------------------------------------------
+
+struct StatOptions {
+    std::string name = "router";
+    bool json = false;
+};
+
+// Every number of an object that is not zero, as "name 12".
+std::string nonzero(const Json& object, std::initializer_list<std::string_view> left_out) {
+    std::string text;
+    for (const auto& [key, value] : object.items()) {
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() == 0 ||
+            std::ranges::find(left_out, key) != left_out.end())
+            continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key, value.get<std::uint64_t>());
+    }
+    return text;
+}
+
+void print_router(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "up {:.0f} s; {}\n", o.value("uptime_s", 0.0), nonzero(o, {}));
+}
+void print_endpoint(fmt::appender out, const Json& o) {
+    const auto odd = nonzero(o, {"rcvbuf"});
+    if (!odd.empty()) fmt::format_to(out, "endpoint {}: {}\n", o.value("endpoint", ""), odd);
+}
+void print_link(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "link {}{}\n  in {} frames, {} bytes; out {} frames, {} bytes\n", o.value("link", ""),
+                   o.value("up", false) ? "" : " (down)", o.value("frames_in", 0ull), o.value("bytes_in", 0ull),
+                   o.value("frames_out", 0ull), o.value("bytes_out", 0ull));
+    const auto rest = nonzero(o, {"frames_in", "bytes_in", "frames_out", "bytes_out", "forwarded"});
+    if (!rest.empty()) fmt::format_to(out, "  {}\n", rest);
+}
+void print_source(fmt::appender out, const Json& o) {
+    const auto frames = o.value("frames", 0ull), lost = o.value("lost", 0ull);
+    fmt::format_to(out, "source {}/{} on {}: {} frames, {} lost ({:.2f} %)\n", o.value("sys", 0), o.value("comp", 0),
+                   o.value("link", ""), frames, lost,
+                   frames + lost == 0 ? 0.0 : 100.0 * static_cast<double>(lost) / static_cast<double>(frames + lost));
+}
+void print_message(fmt::appender out, const Json& o) {
+    const auto name = o.at("name").is_null() ? fmt::format("{}", o.value("id", 0)) : o.at("name").get<std::string>();
+    fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} frames {:>9.2f} Hz  {}\n", name, o.value("sys", 0),
+                   o.value("comp", 0), o.value("frames", 0ull), o.value("rate_hz", 0.0), o.value("link", ""));
+}
+void print_recording(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "recording {}: {}\n", o.value("endpoint", ""), nonzero(o, {}));
+}
+void print_unknown_target(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "not routed: {} frames for {}/{}, which nobody has heard\n", o.value("frames", 0ull),
+                   o.value("sys", 0), o.value("comp", 0));
+}
+
+std::string table_of(const std::vector<std::string>& lines) {
+    using Print = void (*)(fmt::appender, const Json&);
+    static const std::map<std::string_view, Print> prints{{"router", print_router},
+                                                          {"endpoint", print_endpoint},
+                                                          {"link", print_link},
+                                                          {"source", print_source},
+                                                          {"message", print_message},
+                                                          {"recording", print_recording},
+                                                          {"unknown_target", print_unknown_target}};
+    fmt::memory_buffer text;
+    for (const auto& line : lines) {
+        const auto object = Json::parse(line, nullptr, false);
+        if (!object.is_object()) continue;
+        if (const auto print = prints.find(object.value("kind", "")); print != prints.end())
+            print->second(fmt::appender(text), object);
+    }
+    return fmt::to_string(text);
+}
+
+Exit stat(const StatOptions& options) {
+    const auto lines = ask(options.name, {{"cmd", "stats"}});
+    if (!lines) return fail(lines.error());
+    return options.json ? print_lines(*lines) : print_at_end(table_of(*lines), Exit::done);
+}
+
+}  // namespace
+
+Run declare_ctl(CLI::App& command, const Common&) {
+    auto options = std::make_shared<CtlOptions>();
+    command.add_option("name", options->name, "the router's --name (router unless it was given one)")
+        ->required()
+        ->type_name("NAME");
+    command.add_option("action", options->action, "links, routes, stats, add URL or remove NAME")
+        ->required()
+        ->check(CLI::IsMember({"links", "routes", "stats", "add", "remove"}))
+        ->type_name("ACTION");
+    command.add_option("argument", options->argument, "what to add or remove")->type_name("ARGUMENT");
+    command.footer(
+        "Answers are JSON, one object a line (docs/guide/route.md).\n\nExamples:\n"
+        "  mavloom ctl router links\n"
+        "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
+        "  mavloom ctl router remove tablet");
+    return [options] { return ctl(*options); };
+}
+
+Run declare_stat(CLI::App& command, const Common&) {
+    auto options = std::make_shared<StatOptions>();
+    command.add_option("name", options->name, "the router's --name")->capture_default_str()->type_name("NAME");
+    command.add_flag("--json", options->json, "one JSON object a line, as `ctl NAME stats`");
+    command.footer("Example: mavloom stat router");
+    return [options] { return stat(*options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "mavloom/wire/signing.hpp"
+
+namespace mavloom::app {
+
+static Exit create_key(const Common& common, const std::string& file) {
+    const auto key = wire::SigningKey::random();
+    if (!key) return fail(key.error());
+    if (const auto created = key->create_file(file); !created) return fail(created.error());
+    say(common, fmt::format("{}: a new key; who has this file can sign, keep it secret", file));
+    return Exit::done;
+}
+
+Run declare_key(CLI::App& command, const Common& common) {
+    auto file = std::make_shared<std::string>();
+    auto* create = command.add_subcommand("new", "write a new random signing key to a file of mode 0600");
+    create->add_option("file", *file, "the file to make")->required()->type_name("FILE");
+    create->footer("Example: mavloom key new link.key");
+    command.require_subcommand(1);
+    command.footer(
+        "Keys sign and verify MAVLink 2: sign=FILE and verify=FILE of an endpoint, relay --sign FILE.\n\n"
+        "Example: mavloom key new link.key");
+    return [file, &common] { return create_key(common, *file); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "command.hpp"
+#include "mavloom/runtime/config.hpp"
+#include "mavloom/runtime/control.hpp"
+#include "mavloom/runtime/router.hpp"
+#include "output.hpp"
+#include "signals.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto longest_flush = 2s;  // for what is queued to leave
+
+struct Options {
+    std::vector<std::string> endpoints;
+    std::string config;
+    std::string duration;
+    std::string explain;  // a message's name or id; "*": all
+    std::string name;     // empty: "router"
+    std::string metrics;  // HOST:PORT
+};
+
+// What is routed between: the file's endpoints, then those of the command line, which a reload does not touch.
+struct Plan {
+    runtime::Config config;
+    std::vector<runtime::Endpoint> from_command_line;
+
+    [[nodiscard]] std::vector<runtime::Endpoint> endpoints() const {
+        auto all = config.endpoints;
+        all.insert(all.end(), from_command_line.begin(), from_command_line.end());
+        if (!config.record.path.empty()) all.push_back(recording());
+        return all;
+    }
+
+private:
+    [[nodiscard]] runtime::Endpoint recording() const {
+        runtime::Endpoint endpoint;
+        endpoint.scheme = runtime::Scheme::tlog;
+        endpoint.path = config.record.path;
+        endpoint.options.rotate_bytes = config.record.rotate_bytes;
+        endpoint.options.rotate_every = config.record.rotate_every;
+        return endpoint;
+    }
+};
+
+SetupResult<runtime::Config> read_config(const std::string& file, const dialect::Dialect& dialect) {
+    const auto environment = runtime::environment_of(environ);
+    auto config = file.empty() ? runtime::parse_config("", "", environment) : runtime::load_config(file, environment);
+    if (!config) return config;
+    if (auto checked = runtime::check_message_names(*config, file, dialect); !checked)
+        return tl::unexpected(std::move(checked.error()));
+    return config;
+}
+
+SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
+    Plan plan;
+    for (const auto& text : options.endpoints) {
+        auto endpoint = runtime::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
+        if (endpoint->scheme != runtime::Scheme::tlog && endpoint->scheme != runtime::Scheme::serial &&
+            endpoint->scheme != runtime::Scheme::shm && endpoint->address.port == 0)
+            return setup_error(SetupCode::usage,
+                               fmt::format("{}: a router's port is known to others; name one", endpoint->label()));
+        plan.from_command_line.push_back(std::move(*endpoint));
+    }
+    auto config = read_config(options.config, dialect);
+    if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
+    plan.config = std::move(*config);
+    if (plan.endpoints().empty())
+        return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
+    return plan;
+}
+
+// "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded", then a line for each link.
+class ExplainPrinter {
+public:
+    ExplainPrinter(const dialect::Dialect& dialect, runtime::Links& links, std::optional<MessageId> only)
+        : dialect_(dialect), links_(links), only_(only) {}
+
+    void operator()(const runtime::RxFrame& rx, const route::Decision& decision,
+                    std::span<const route::Explanation> why) {
+        if (only_ && rx.frame.id() != *only_) return;
+        auto out = fmt::appender(output_.buffer());
+        const auto* message = dialect_.find(rx.frame.id());
+        const auto source = rx.frame.source();
+        fmt::format_to(out, "{} {}/{} seq {} from {}: {}\n",
+                       message != nullptr ? std::string(message->name) : fmt::format("id {}", rx.frame.id().value),
+                       source.system.value, source.component.value, rx.frame.sequence(), links_.link_name(rx.link),
+                       route::verdict_name(decision.verdict));
+        for (const auto& [link, reason] : why)
+            fmt::format_to(out, "  {} {}: {}\n",
+                           reason == route::Reason::sent || reason == route::Reason::tap ? "->" : " x",
+                           links_.link_name(link), route::reason_text(reason));
+        (void)output_.flush_if_full();
+    }
+    Output::State flush() { return output_.flush(); }
+
+private:
+    const dialect::Dialect& dialect_;
+    runtime::Links& links_;
+    std::optional<MessageId> only_;
+    Output output_;
+};
+
+SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& dialect, const std::string& text) {
+    if (text == "*") return std::nullopt;
+    const auto id = edit::find_message_id(dialect, text);
+    if (!id) return tl::unexpected(SetupError(id.error()).within("--explain"));
+    return *id;
+}
+
+class Routing {
+public:
+    Routing(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Router& router,
+            Plan plan)
+        : common_(common), options_(options), dialect_(dialect), router_(router), plan_(std::move(plan)) {}
+
+    Exit run(std::optional<ExplainPrinter>& explain) {
+        if (explain) router_.explain([&](const auto&... args) { (*explain)(args...); });
+        const auto end = options_.duration.empty() ? MonoTime::max()
+                                                   : mono_now() + *runtime::parse_duration(options_.duration);
+        auto state = Output::State::open;
+        while (!Signals::received() && mono_now() < end && state == Output::State::open) {
+            router_.turn(end);
+            if (explain) state = explain->flush();
+            if (Signals::take_hangup()) reload();
+        }
+        router_.finish(longest_flush);
+        return Signals::status(state == Output::State::failed ? Exit::failed : Exit::done);
+    }
+
+private:
+    void reload() {
+        if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
+        auto config = read_config(options_.config, dialect_);
+        if (!config) return talk(fmt::format("mavloom: {}; nothing was changed\n", config.error().text));
+        const bool same_rules = config->router == plan_.config.router;
+        plan_.config = std::move(*config);
+        if (!same_rules) router_.configure(plan_.config.router);
+        router_.become(plan_.endpoints());
+        say(common_, fmt::format("{} was read again", options_.config));
+    }
+
+    const Common& common_;
+    const Options& options_;
+    const dialect::Dialect& dialect_;
+    runtime::Router& router_;
+    Plan plan_;
+};
+
+// Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.
+SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common, const Options& options,
+                                                            runtime::Router& router) {
+    runtime::ControlOptions control;
+    if (!options.metrics.empty()) {
+        const auto address = runtime::parse_endpoint("tcpin://" + options.metrics);
+        if (!address)
+            return setup_error(
+                SetupCode::usage,
+                fmt::format("--metrics takes HOST:PORT, as in 127.0.0.1:9090, not '{}'", options.metrics));
+        control.metrics = address->address;
+    }
+    auto path = runtime::control_path(options.name.empty() ? "router" : options.name);
+    if (path) control.socket = *path;
+    else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
+    else say(common, path.error().text);
+    auto opened = runtime::Control::create(router, control);
+    if (!opened && options.name.empty() && opened.error().code == SetupCode::in_use && !control.socket.empty()) {
+        say(common, fmt::format("no control socket: {}", opened.error().text));
+        control.socket.clear();
+        opened = runtime::Control::create(router, control);
+    }
+    return opened;
+}
+
+Exit route(const Common& common, const Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    if (!options.duration.empty())
+        if (auto time = runtime::parse_duration(options.duration); !time)
+            return fail(std::move(time.error()).within("--for"));
+    auto plan = make_plan(options, *dialect);
+    if (!plan) return fail(plan.error());
+    for (const auto& note : plan->config.notes) say(common, note);
+    const auto notice = [&](runtime::LogLevel level, std::string_view text) {
+        if (level >= plan->config.log_level || common.verbose > 0) say(common, text);
+    };
+    auto router = runtime::Router::create(*dialect, plan->config.router, notice);
+    if (!router) return fail(router.error());
+    const Signals signals([](void* r) noexcept { static_cast<runtime::Router*>(r)->wake(); }, router->get(),
+                          Signals::OnHangup::remember);
+    for (const auto& endpoint : plan->endpoints())
+        if (auto added = (*router)->add(endpoint); !added) return fail(added.error());
+    const auto control = open_control(common, options, **router);
+    if (!control) return fail(control.error());
+    if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
+        say(common, fmt::format("metrics at port {}", port));
+    std::optional<ExplainPrinter> explain;
+    if (!options.explain.empty()) {
+        const auto id = explained_id(*dialect, options.explain);
+        if (!id) return fail(id.error());
+        explain.emplace(*dialect, (*router)->links(), *id);
+    }
+    return Routing(common, options, *dialect, **router, std::move(*plan)).run(explain);
+}
+
+}  // namespace
+
+Run declare_route(CLI::App& command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    command.add_option("endpoint", options->endpoints, "what to route between; any number")->type_name("ENDPOINT");
+    command
+        .add_option("--config", options->config,
+                    "a configuration file (docs/guide/configuration.md); SIGHUP reads it again")
+        ->type_name("FILE");
+    command
+        .add_option("--explain", options->explain,
+                    "say on stdout for every frame, or for those of one message, where it went and why")
+        ->expected(0, 1)
+        ->default_str("*")
+        ->type_name("[MESSAGE]");
+    command.add_option("--name", options->name, "what `mavloom ctl` and `stat` call it by: A-Z a-z 0-9 _ - (router)")
+        ->type_name("NAME");
+    command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
+        ->type_name("HOST:PORT");
+    command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
+    command.footer(
+        "Every frame goes on as it came, byte for byte: broadcasts to all other links, targeted ones to where their "
+        "target was heard.\nEach peer of udpin:// and client of tcpin:// is a link of its own. tlog://PATH records all "
+        "that "
+        "arrives.\n\nExamples:\n"
+        "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550\n"
+        "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"
+        "  mavloom route --config router.toml --explain COMMAND_LONG");
+    return [options, &common] { return route(common, *options); };
+}
+
+}  // namespace mavloom::app

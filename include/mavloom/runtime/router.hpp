@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The router: links, the routing engine, a recording of all that arrives, and the router's own heartbeat, bound together on one thread. Bytes
+// in are bytes out (DESIGN.md rule 1). Endpoints come and go while it runs; those that did not change keep their links and routes.
+//
+// Owned and driven by one thread; `wake` and `post` may be called from any. The frame path neither allocates, locks nor logs, unless an
+// Explainer is set. DESIGN.md sections 3 and 4, docs/guide/route.md.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/observe/traffic_table.hpp"
+#include "mavloom/route/engine.hpp"
+#include "mavloom/runtime/config.hpp"
+#include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/recorder.hpp"
+
+namespace mavloom::runtime {
+
+class Router : private LinkHandler {
+public:
+    // What a person should know: links that came and went, odd things. Called on the router's thread.
+    using Notice = std::function<void(LogLevel, std::string_view)>;
+    // Called for every frame that is good, with the engine's decision and its reasons by link.
+    using Explainer = std::function<void(const RxFrame&, const route::Decision&, std::span<const route::Explanation>)>;
+
+    // `dialect` must outlive the router.
+    [[nodiscard]] static SetupResult<std::unique_ptr<Router>> create(const dialect::Dialect& dialect,
+                                                                     const RouterConfig& config, Notice notice);
+    Router(const Router&) = delete;
+    Router& operator=(const Router&) = delete;
+    ~Router() override;
+
+    // A link endpoint, or tlog://PATH: a recording of every frame that arrives, taken before routing.
+    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
+    // By its label (`name=`, else the URL without its query). False when there is none.
+    bool remove(std::string_view label);
+    // Other [router] values. Links stay; what was learned is learned again within a heartbeat.
+    void configure(const RouterConfig& config);
+    // The endpoints become these: those that are the same stay as they are. What could not be opened is told and left out.
+    void become(const std::vector<Endpoint>& endpoints);
+
+    void explain(Explainer explainer) { explainer_ = std::move(explainer); }
+
+    // One turn of the links; then what was posted, and what is due.
+    void turn(MonoTime deadline);
+    // Sends what is queued for at most `limit`, and closes the recordings.
+    void finish(Nanoseconds limit);
+
+    // Async-signal-safe.
+    void wake() noexcept { links_->wake(); }
+    // Any thread: `work` is run on the router's thread between two turns. What is still waiting when the router goes is destroyed unrun.
+    void post(std::function<void(Router&)> work);
+
+    // For reports, on the router's thread.
+    [[nodiscard]] Links& links() noexcept { return *links_; }
+    [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
+    [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
+    [[nodiscard]] const std::vector<std::unique_ptr<Recorder>>& recorders() const noexcept { return recorders_; }
+    [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
+    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return heartbeats_sent_.value(); }
+    // Frames that left without our signature on a link with `sign=`, because they came from a link without `verify=`.
+    [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
+    [[nodiscard]] MonoTime started() const noexcept { return started_; }
+
+private:
+    struct OpenedEndpoint {
+        EndpointId id;
+        Endpoint endpoint;
+        route::LinkPolicy policy;
+        bool verifies = false;
+    };
+    struct HeartbeatLink {
+        LinkId link;
+        MonoTime due{};
+        std::uint8_t sequence = 0;
+    };
+
+    Router(const dialect::Dialect& dialect, const RouterConfig& config, Notice notice, std::unique_ptr<Links> links);
+
+    void on_frame(const RxFrame& rx) override;
+    void on_link_up(LinkId link, EndpointId endpoint, std::string_view name) override;
+    void on_link_down(LinkId link, EndpointId endpoint, std::string_view why) override;
+    void on_notice(EndpointId endpoint, std::string_view text) override;
+
+    [[nodiscard]] SetupResult<void> add_recording(const Endpoint& endpoint);
+    [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const Endpoint& endpoint);
+    [[nodiscard]] route::GroupId group_id(const std::string& name);
+    [[nodiscard]] bool has(const Endpoint& endpoint) const;
+    void forget_link(LinkId link);
+    void send(const RxFrame& rx, std::span<const LinkId> links);
+    void run_posted();
+    void beat(HeartbeatLink& link, MonoTime now);
+    void look_after(MonoTime now);
+    [[nodiscard]] MonoTime next_due() const noexcept;
+
+    const dialect::Dialect& dialect_;
+    RouterConfig config_;
+    Notice notice_;
+    std::unique_ptr<Links> links_;
+    route::Engine engine_;
+    Explainer explainer_;
+    std::vector<route::Explanation> why_;
+    observe::TrafficTable traffic_;
+    std::vector<std::unique_ptr<OpenedEndpoint>> endpoints_;
+    std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null: removed
+    std::vector<std::string> groups_;     // by GroupId - 1
+    std::vector<std::unique_ptr<Recorder>> recorders_;
+    std::vector<Endpoint> recordings_;  // what each recorder was made from
+    std::vector<HeartbeatLink> heartbeats_;
+    bool any_signs_ = false;
+    Counter heartbeats_sent_, not_signed_;
+    std::size_t duplicate_ids_told_ = 0;
+    MonoTime started_ = mono_now();
+    MonoTime look_due_{};
+
+    std::atomic<bool> has_posted_{false};
+    std::mutex posted_mutex_;
+    std::vector<std::function<void(Router&)>> posted_;  // guarded by posted_mutex_
+};
+
+}  // namespace mavloom::runtime

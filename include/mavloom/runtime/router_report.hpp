@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// What a router says of itself: JSON objects, one a line, for `mavloom ctl` and `stat`, and Prometheus' text form. Keys are documented in
+// docs/guide/route.md. Called on the router's thread; allocates.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mavloom/runtime/router.hpp"
+
+namespace mavloom::runtime {
+
+using Lines = std::vector<std::string>;
+
+// {"kind":"link",...} for each link that is there.
+[[nodiscard]] Lines report_links(Router& router);
+// {"kind":"route",...} for each system and component, and the link that it was heard on.
+[[nodiscard]] Lines report_routes(Router& router);
+// All there is: one "router" line, then "endpoint", "link", "source", "message", "recording" and "unknown_target" lines.
+[[nodiscard]] Lines report_stats(Router& router);
+// Prometheus' text exposition format, version 0.0.4.
+[[nodiscard]] std::string report_metrics(Router& router);
+
+// Does what one request line asks for ({"cmd":"links"}, {"cmd":"add","url":"udpout://…"}, {"cmd":"remove","name":"…"}) and gives the answer's
+// lines, the last of which is {"ok":true} or {"ok":false,"error":"…"}.
+[[nodiscard]] Lines answer_request(Router& router, std::string_view request);
+
+}  // namespace mavloom::runtime

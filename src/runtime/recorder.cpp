@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/runtime/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mavloom::runtime {
+
+Recorder::Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice)
+    : label_(std::move(label)), writer_(std::move(writer)), queue_(std::move(queue)), notice_(std::move(notice)) {}
+
+SetupResult<std::unique_ptr<Recorder>> Recorder::create(std::string label, const std::filesystem::path& path,
+                                                        record::Rotation rotation, Notice notice,
+                                                        std::size_t buffer_bytes) {
+    auto queue = FrameQueue::create(buffer_bytes);
+    if (!queue) return tl::unexpected(std::move(queue.error()));
+    auto writer = record::RotatingWriter::create(path, rotation);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    std::unique_ptr<Recorder> recorder(
+        new Recorder(std::move(label), std::move(*writer), std::move(*queue), std::move(notice)));
+    recorder->thread_ = std::thread([r = recorder.get()] { r->run(); });
+    return recorder;
+}
+
+Recorder::~Recorder() { stop(); }
+
+void Recorder::stop() {
+    if (!thread_.joinable()) return;
+    queue_->close();
+    thread_.join();
+}
+
+// What is written goes to the system whenever the queue runs empty: whoever reads the file meanwhile sees it.
+void Recorder::run() {
+    while (queue_->wait()) {
+        while (const auto entry = queue_->next()) write(*entry);
+        tell(writer_.flush());
+    }
+    tell(writer_.close());
+}
+
+void Recorder::write(const FrameQueue::Entry& entry) {
+    const auto result = writer_.write(entry.time, entry.frame);
+    if (result) {
+        counters_.frames.add();
+        counters_.bytes.add(entry.frame.size());
+    } else {
+        counters_.write_error.add();
+    }
+    tell(result);
+}
+
+void Recorder::tell(const SetupResult<void>& result) {
+    if (failing_ == !result.has_value()) return;
+    failing_ = !failing_;
+    notice_(failing_
+                ? fmt::format("{}: {}; what arrives meanwhile is counted as write_error", label_, result.error().text)
+                : fmt::format("{}: records are written again", label_));
+}
+
+}  // namespace mavloom::runtime

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/runtime/router.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/wire/frame_writer.hpp"
+
+namespace mavloom::runtime {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Nanoseconds fast_beat = 100ms;  // until the far side answers
+constexpr Nanoseconds beat_interval = 1s;
+constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: loss for `best`, duplicate ids
+
+constexpr msg::Heartbeat own_heartbeat{.type = 18,      // MAV_TYPE_ONBOARD_CONTROLLER
+                                       .autopilot = 8,  // MAV_AUTOPILOT_INVALID
+                                       .base_mode = 0,
+                                       .custom_mode = 0,
+                                       .system_status = 4,  // MAV_STATE_ACTIVE
+                                       .mavlink_version = 3};
+
+route::Options engine_options(const RouterConfig& config) {
+    route::Options options;
+    options.dedup = std::chrono::milliseconds(config.dedup_ms);
+    options.unknown_component = config.unknown_component == UnknownComponent::drop ? route::UnknownComponent::drop
+                                                                                   : route::UnknownComponent::system;
+    options.unknown_target = config.unknown_target == UnknownTarget::flood ? route::UnknownTarget::flood
+                                                                           : route::UnknownTarget::drop;
+    options.route_timeout = config.route_timeout;
+    if (config.heartbeat)
+        options.own = Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
+    options.seed = static_cast<std::uint64_t>(wall_now().time_since_epoch().count());
+    return options;
+}
+
+route::FilterTerms terms_of(std::string_view option, const FilterTerms& terms) {
+    return {option, terms.messages, terms.systems, terms.components};
+}
+
+std::uint32_t loss_permille(const LinkCounters& counters) noexcept {
+    const std::uint64_t lost = counters.lost.value(), all = counters.frames_in.value() + lost;
+    return all == 0 ? 0 : static_cast<std::uint32_t>(lost * 1000 / all);
+}
+
+}  // namespace
+
+Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Notice notice, std::unique_ptr<Links> links)
+    : dialect_(dialect),
+      config_(config),
+      notice_(std::move(notice)),
+      links_(std::move(links)),
+      engine_(dialect.wire_table(), engine_options(config)) {}
+
+Router::~Router() = default;
+
+SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dialect, const RouterConfig& config,
+                                                    Notice notice) {
+    auto links = Links::create(dialect, RoutingOptions::by_owner);
+    if (!links) return tl::unexpected(std::move(links.error()));
+    return std::unique_ptr<Router>(new Router(dialect, config, std::move(notice), std::move(*links)));
+}
+
+// ---- endpoints -------------------------------------------------------------------------------------------------------
+
+SetupResult<void> Router::add(const Endpoint& endpoint) {
+    if (endpoint.scheme == Scheme::tlog) return add_recording(endpoint);
+    auto policy = policy_of(endpoint);
+    if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
+    const auto id = links_->add(endpoint);
+    if (!id) return tl::unexpected(id.error());
+    endpoints_.push_back(std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy)}));
+    endpoints_.back()->verifies = !endpoint.options.verify_key_file.empty();
+    any_signs_ = any_signs_ || !endpoint.options.sign_key_file.empty();
+    if (by_id_.size() <= id->value) by_id_.resize(id->value + 1);
+    by_id_[id->value] = endpoints_.back().get();
+    return {};
+}
+
+SetupResult<void> Router::add_recording(const Endpoint& endpoint) {
+    const auto& o = endpoint.options;
+    auto recorder = Recorder::create(
+        endpoint.label(), endpoint.path, {o.rotate_bytes, o.rotate_every}, [this](std::string_view text) {
+            post([line = std::string(text)](Router& r) { r.notice_(LogLevel::warning, line); });
+            wake();
+        });
+    if (!recorder) return tl::unexpected(std::move(recorder.error()));
+    recorders_.push_back(std::move(*recorder));
+    recordings_.push_back(endpoint);
+    return {};
+}
+
+SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
+    const auto& o = endpoint.options;
+    route::LinkPolicy policy;
+    auto in = route::Filter::compile(dialect_, terms_of("in_allow", o.in_allow), terms_of("in_block", o.in_block));
+    if (!in) return tl::unexpected(std::move(in.error()));
+    auto out = route::Filter::compile(dialect_, terms_of("out_allow", o.out_allow), terms_of("out_block", o.out_block));
+    if (!out) return tl::unexpected(std::move(out.error()));
+    std::vector<route::RateTerm> terms;
+    for (const auto& term : o.max_rate) terms.push_back({term.message, term.rate_hz});
+    auto rates = route::Rates::compile(dialect_, terms);
+    if (!rates) return tl::unexpected(std::move(rates.error()));
+    policy.in = std::move(*in);
+    policy.out = std::move(*out);
+    policy.max_rate = std::move(*rates);
+    policy.max_bytes_per_s = o.max_bytes_per_s;
+    policy.tap = o.tap;
+    policy.is_private = o.is_private;
+    if (!o.group.empty()) policy.group = group_id(o.group);
+    policy.group_mode = static_cast<route::GroupMode>(o.group_mode);
+    policy.group_order = static_cast<std::uint32_t>(endpoints_.size());
+    return policy;
+}
+
+route::GroupId Router::group_id(const std::string& name) {
+    auto at = std::ranges::find(groups_, name);
+    if (at == groups_.end()) at = groups_.insert(groups_.end(), name);
+    return route::GroupId{static_cast<std::uint32_t>(at - groups_.begin()) + 1};
+}
+
+bool Router::remove(std::string_view label) {
+    const auto recorder = std::ranges::find_if(recorders_, [&](const auto& r) { return r->label() == label; });
+    if (recorder != recorders_.end()) {
+        recordings_.erase(recordings_.begin() + (recorder - recorders_.begin()));
+        recorders_.erase(recorder);
+        return true;
+    }
+    const auto at = std::ranges::find_if(endpoints_, [&](const auto& e) { return e->endpoint.label() == label; });
+    if (at == endpoints_.end()) return false;
+    const EndpointId id = (*at)->id;
+    for (const auto& link : links_->links())
+        if (link.endpoint == id) forget_link(link.id);
+    links_->remove(id);
+    by_id_[id.value] = nullptr;
+    endpoints_.erase(at);
+    return true;
+}
+
+void Router::configure(const RouterConfig& config) {
+    config_ = config;
+    engine_ = route::Engine(dialect_.wire_table(), engine_options(config));
+    duplicate_ids_told_ = 0;
+    heartbeats_.clear();
+    for (const auto& link : links_->links())
+        if (link.up) on_link_up(link.id, link.endpoint, link.name);
+}
+
+void Router::become(const std::vector<Endpoint>& endpoints) {
+    std::vector<std::string> gone;
+    const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
+    for (const auto& e : endpoints_)
+        if (!stays(e->endpoint)) gone.push_back(e->endpoint.label());
+    for (const auto& e : recordings_)
+        if (!stays(e)) gone.push_back(e.label());
+    for (const auto& label : gone) {
+        remove(label);
+        notice_(LogLevel::info, fmt::format("{}: removed", label));
+    }
+    for (const auto& endpoint : endpoints) {
+        if (has(endpoint)) continue;
+        const auto added = add(endpoint);
+        notice_(added ? LogLevel::info : LogLevel::error,
+                added ? fmt::format("{}: added", endpoint.label()) : fmt::format("left out: {}", added.error().text));
+    }
+}
+
+bool Router::has(const Endpoint& endpoint) const {
+    return std::ranges::any_of(endpoints_, [&](const auto& e) { return e->endpoint == endpoint; }) ||
+           std::ranges::find(recordings_, endpoint) != recordings_.end();
+}
+
+// ---- frames ----------------------------------------------------------------------------------------------------------
+
+void Router::on_frame(const RxFrame& rx) {
+    for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
+    traffic_.add(rx.link, rx.frame, rx.time);
+    if (explainer_) [[unlikely]] {
+        const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_->now(), why_);
+        explainer_(rx, decision, why_);
+        send(rx, decision.links);
+    } else {
+        send(rx, engine_.route(rx.frame, rx.info, rx.link, links_->now()).links);
+    }
+}
+
+// A frame gets our signature only if it came with one that we verified: nobody shall have us vouch for what he sends.
+void Router::send(const RxFrame& rx, std::span<const LinkId> links) {
+    const bool may_sign = !any_signs_ || by_id_[rx.endpoint.value]->verifies;
+    for (const LinkId link : links) {
+        if (may_sign) [[likely]] {
+            links_->send(link, rx.frame);
+        } else if (links_->send_unsigned(link, rx.frame)) {
+            not_signed_.add();
+        }
+    }
+}
+
+void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name) {
+    engine_.add_link(link, by_id_[endpoint.value]->policy);
+    if (config_.heartbeat && !by_id_[endpoint.value]->policy.tap) heartbeats_.push_back({link, links_->now()});
+    notice_(LogLevel::info, fmt::format("{}: up", name));
+}
+
+void Router::on_link_down(LinkId link, EndpointId, std::string_view why) {
+    notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
+    forget_link(link);
+}
+
+void Router::forget_link(LinkId link) {
+    engine_.remove_link(link);
+    std::erase_if(heartbeats_, [&](const HeartbeatLink& h) { return h.link == link; });
+}
+
+void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::info, text); }
+
+// ---- turns -----------------------------------------------------------------------------------------------------------
+
+void Router::turn(MonoTime deadline) {
+    if (links_->turn(*this, std::min(deadline, next_due())) != 0)
+        for (const auto& recorder : recorders_) recorder->publish();
+    const MonoTime now = mono_now();
+    if (has_posted_.load(std::memory_order_acquire)) run_posted();
+    for (auto& link : heartbeats_)
+        if (now >= link.due) beat(link, now);
+    if (now >= look_due_) look_after(now);
+}
+
+MonoTime Router::next_due() const noexcept {
+    MonoTime due = look_due_;
+    for (const auto& link : heartbeats_) due = std::min(due, link.due);
+    return due;
+}
+
+void Router::finish(Nanoseconds limit) {
+    const MonoTime end = mono_now() + limit;
+    while (links_->pending() && mono_now() < end) links_->turn(*this, std::min(end, mono_now() + Nanoseconds{5ms}));
+    for (const auto& recorder : recorders_) recorder->stop();
+}
+
+void Router::post(std::function<void(Router&)> work) {
+    {
+        const std::lock_guard lock(posted_mutex_);
+        posted_.push_back(std::move(work));
+    }
+    has_posted_.store(true, std::memory_order_release);
+    wake();
+}
+
+void Router::run_posted() {
+    std::vector<std::function<void(Router&)>> work;
+    {
+        const std::lock_guard lock(posted_mutex_);
+        work.swap(posted_);
+        has_posted_.store(false, std::memory_order_relaxed);
+    }
+    for (const auto& each : work) each(*this);
+}
+
+void Router::beat(HeartbeatLink& link, MonoTime now) {
+    const auto [system, component] = *config_.heartbeat;
+    std::array<std::uint8_t, msg::Heartbeat::max_length> payload;
+    (void)own_heartbeat.encode(payload);
+    wire::FrameBuffer buffer;
+    const auto frame = wire::write_frame(
+        buffer, {.sequence = link.sequence++, .source = {SystemId{system}, ComponentId{component}}},
+        *dialect_.wire_table().find(msg::Heartbeat::id), payload);
+    if (links_->send(link.link, frame) != 0) {
+        engine_.note_sent(frame, link.link, now);
+        heartbeats_sent_.add();
+    }
+    const auto* counters = links_->counters(link.link);
+    const bool answered = counters != nullptr && counters->frames_in.value() != 0;
+    link.due = std::max(link.due + (answered ? beat_interval : fast_beat), now);
+}
+
+void Router::look_after(MonoTime now) {
+    look_due_ = now + look_interval;
+    if (!groups_.empty())
+        for (const auto& link : links_->links()) engine_.set_loss(link.id, loss_permille(*link.counters));
+    const auto ids = engine_.duplicate_ids();
+    for (; duplicate_ids_told_ < ids.size(); ++duplicate_ids_told_) {
+        const auto& d = ids[duplicate_ids_told_];
+        notice_(
+            LogLevel::warning,
+            fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
+                        d.source.system.value, d.source.component.value, links_->link_name(d.first),
+                        links_->link_name(d.second)));
+    }
+}
+
+}  // namespace mavloom::runtime

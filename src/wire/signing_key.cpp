@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Making keys; reading them is in signing.cpp.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sodium.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "mavloom/wire/signing.hpp"
+
+namespace mavloom::wire {
+
+SetupResult<SigningKey> SigningKey::random() {
+    if (sodium_init() < 0) return system_error("the system gives no random numbers", EIO);
+    std::array<std::uint8_t, length> bytes;
+    randombytes_buf(bytes.data(), bytes.size());
+    const SigningKey key(bytes);
+    sodium_memzero(bytes.data(), bytes.size());
+    return key;
+}
+
+SetupResult<void> SigningKey::create_file(const std::filesystem::path& file) const {
+    const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0 && errno == EEXIST)
+        return setup_error(
+            SetupCode::in_use,
+            fmt::format("{} exists already: a key that is replaced is lost; name another file", file.string()));
+    if (fd < 0) return system_error(fmt::format("cannot create {}", file.string()), errno);
+    std::array<char, 2 * length + 1> text;
+    sodium_bin2hex(text.data(), text.size(), bytes_.data(), bytes_.size());
+    text.back() = '\n';
+    const bool whole = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
+    const int error = whole ? 0 : errno;
+    sodium_memzero(text.data(), text.size());
+    ::close(fd);
+    if (whole) return {};
+    ::unlink(file.c_str());
+    return system_error(fmt::format("cannot write {}", file.string()), error == 0 ? ENOSPC : error);
+}
+
+}  // namespace mavloom::wire
