@@ -67,7 +67,9 @@ Decision Engine::Impl::route(const wire::FrameView& frame, const wire::MessageIn
     count(link.counters, verdict);
     if (verdict != Verdict::forwarded) each_word(words_, [&](std::size_t w) { candidates_[w] = 0; });
     if (has_taps_ && verdict != Verdict::tap) add_taps(p);
-    if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
+    if (p.is_copy) [[unlikely]]
+        unite(recent_.sent(p.recent), candidates_.data(), words_);
+    else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
     return {verdict, list_candidates(link)};
 }
 
@@ -102,13 +104,18 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
     apply_filters(p);
     if (!any(candidates_.data(), words_)) return Verdict::filtered;
     if (chooses_members_) apply_groups(p);
+    if (p.is_copy) [[unlikely]] {
+        leave_out(recent_.sent(p.recent), Reason::already_sent);
+        if (!any(candidates_.data(), words_)) return Verdict::duplicate;
+    }
     if (!has_limits_) return Verdict::forwarded;
     apply_limits(p);
     return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
 }
 
 // An echo comes back where it was sent; a duplicate was heard on another link of the group, or anywhere within `dedup`. A link that
-// delivers the same bytes once more has a sender who repeats itself: that is a new frame, unless `dedup` says otherwise.
+// delivers the same bytes once more has a sender who repeats itself: that is a new frame, unless `dedup` says otherwise. On any other link it
+// is a copy, which goes only where the frame has not been yet: else two routers that reach each other twice would pass it round for ever.
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
     const std::uint64_t hash = hash_of(p.frame.bytes(), options.seed);
@@ -129,6 +136,9 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
             verdict = Verdict::duplicate;
             return true;
         }
+        // The link is not noted as one where it was heard: a copy of the copy must not pass for a repetition.
+        p.is_copy = age < echo_window && !again_here;
+        if (p.is_copy) return false;
     }
     remember(p, hash, found);
     return false;

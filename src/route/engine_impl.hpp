@@ -86,6 +86,7 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
+        bool is_copy = false;    // of a frame that another link brought
         std::size_t recent = 0;  // its place among the recent frames
     };
 

@@ -41,6 +41,9 @@ inline bool intersect(ConstWords a, ConstWords b, std::size_t words) noexcept {
 inline void assign(Words to, ConstWords from, std::size_t words) noexcept {
     each_word(words, [&](std::size_t w) { to[w] = from[w]; });
 }
+inline void unite(Words to, ConstWords from, std::size_t words) noexcept {
+    each_word(words, [&](std::size_t w) { to[w] |= from[w]; });
+}
 
 inline bool equal(ConstWords a, ConstWords b, std::size_t words) noexcept {
     std::uint64_t differs = 0;

@@ -33,6 +33,7 @@ std::string_view reason_text(Reason reason) noexcept {
             return "a private link, and not targeted at exactly a component that was heard there";
         case Reason::filtered: return "filtered on the way out";
         case Reason::other_member: return "another link of the group carries it";
+        case Reason::already_sent: return "it was sent there when another link brought it";
         case Reason::rate_limited: return "over max_rate";
         case Reason::bytes_limited: return "over max_bytes";
     }

@@ -57,7 +57,7 @@ enum class Verdict : std::uint8_t {
     nowhere,         // there is no other link for it: alone, or its target is where it came from
     filtered,        // by the input filter, or by the output filters of all links it could go to
     rate_limited,    // max_rate or max_bytes of all links it could go to
-    duplicate,       // heard before on another link of the group, or within `dedup`
+    duplicate,       // heard before on another link of the group or within `dedup`, or already sent to all
     echo,            // came back on a link that it was sent to
     unknown_target,  // targeted at a system or component that is not known
     consumed,        // targeted at the program's own id
@@ -85,6 +85,7 @@ enum class Reason : std::uint8_t {
     private_link,   // private, and the frame not for exactly a pair that was heard there
     filtered,       // by the link's output filter
     other_member,   // another link of the group carries it
+    already_sent,   // another link brought the same bytes a moment ago, and they were sent there then
     rate_limited,   // max_rate
     bytes_limited,  // max_bytes
 };

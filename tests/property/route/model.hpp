@@ -161,13 +161,22 @@ private:
                 if (!again) learn(ingress, frame);
                 return Verdict::duplicate;
             }
+            if (age < std::chrono::seconds{2} && !again) {
+                remembered = &*r;
+                return decide_unless_private(ingress, frame, why, r->sent);
+            }
             recent_.erase(r);
         }
         recent_.push_back({bytes, now_, {ingress}, {}});
         remembered = &recent_.back();
+        return decide_unless_private(ingress, frame, why, {});
+    }
+
+    Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
+                                  const std::set<std::uint32_t>& have_it) {
         learn(ingress, frame);
-        if (link.policy.is_private) return Verdict::private_link;
-        return decide(ingress, frame, why);
+        if (links_[ingress].policy.is_private) return Verdict::private_link;
+        return decide(ingress, frame, why, have_it);
     }
 
     void learn(std::uint32_t ingress, const wire::FrameView& frame) {
@@ -203,7 +212,8 @@ private:
                                                                           : std::uint8_t{0};
     }
 
-    Verdict decide(std::uint32_t ingress, const wire::FrameView& frame, Why& why) {
+    Verdict decide(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
+                   const std::set<std::uint32_t>& have_it) {
         const auto system = std::max(target(frame, "target_system"), target(frame, "target"));
         const auto component = target(frame, "target_component");
         const bool exact = component != 0 && is_fresh_anywhere(system, component);
@@ -228,14 +238,14 @@ private:
             else why[id] = Reason::sent;
             if (id == ingress) why[id] = Reason::ingress;
         }
-        return narrow(frame, why);
+        return narrow(frame, why, have_it);
     }
 
     static bool any_sent(const Why& why) {
         return std::any_of(why.begin(), why.end(), [](const auto& w) { return w.second == Reason::sent; });
     }
 
-    Verdict narrow(const wire::FrameView& frame, Why& why) {
+    Verdict narrow(const wire::FrameView& frame, Why& why, const std::set<std::uint32_t>& have_it) {
         if (!any_sent(why)) return Verdict::nowhere;
         for (auto& [id, reason] : why)
             if (reason == Reason::sent && !admits(links_[id].policy.out_allow, links_[id].policy.out_block, frame))
@@ -244,6 +254,9 @@ private:
         if (frame.id().value != 0)
             for (const auto& [group, mode] : group_modes_)
                 if (mode != GroupMode::all) choose(group, mode, why);
+        for (auto& [id, reason] : why)
+            if (reason == Reason::sent && have_it.contains(id)) reason = Reason::already_sent;
+        if (!any_sent(why)) return Verdict::duplicate;
         for (auto& [id, reason] : why)
             if (reason == Reason::sent) reason = limit(links_[id], frame, Reason::sent);
         return any_sent(why) ? Verdict::forwarded : Verdict::rate_limited;

@@ -222,6 +222,68 @@ TEST(Engine, WithoutDedupASenderMayRepeatItself) {
     EXPECT_THAT(sut.pass(1, frame), ElementsAre(2));
 }
 
+TEST(Engine, CopyFromAnotherLinkGoesOnlyWhereTheFrameHasNotBeen) {
+    Network sut;
+    sut.links(3);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(2, 3));
+    const auto late = sut.link();
+    const auto other = sut.link();
+
+    EXPECT_THAT(sut.pass(late, frame), ElementsAre(other));
+    EXPECT_EQ(sut.verdict, Verdict::forwarded);
+    EXPECT_THAT(sut.engine.routes(sut.now), testing::SizeIs(2));
+    EXPECT_THAT(sut.pass(other, frame), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::echo);
+    EXPECT_THAT(sut.pass(late, frame), IsEmpty());
+    EXPECT_EQ(sut.verdict, Verdict::duplicate);
+    EXPECT_EQ(sut.counters(late).duplicate.value(), 1u);
+}
+
+// One router reaches the other through its udpout, and the other it through its own: whatever comes back comes on a link to which it was not sent.
+TEST(Engine, LoopOfTwoRoutersEndsAlsoForAFrameThatTheNetworkDoubles) {
+    Network sut;
+    sut.links(3);  // the vehicle, the way to the other router, the way back
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(2, 3));
+    sut.engine.remove_link(LinkId{3});
+    const auto back = sut.link();
+
+    for (int i = 0; i < 3; ++i) EXPECT_THAT(sut.pass(back, frame), IsEmpty()) << i;
+    EXPECT_EQ(sut.verdict, Verdict::duplicate);
+    EXPECT_THAT(sut.pass(1, frame), ElementsAre(2));  // its sender repeats itself
+    EXPECT_THAT(sut.pass(back, frame), IsEmpty());
+}
+
+TEST(Engine, CopyFromAnotherLinkIsANewFrameAfterTwoSeconds) {
+    Network sut;
+    sut.links(3);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    sut.pass(1, frame);
+    const auto back = sut.link();
+    sut.wait(2s - 1ns);
+    EXPECT_THAT(sut.pass(back, frame), IsEmpty());
+    sut.wait(1ns);
+
+    EXPECT_THAT(sut.pass(back, frame), ElementsAre(2, 3));
+}
+
+TEST(Engine, CopyFromAnotherLinkDoesNotGoToTheSpareLinkOfAGroup) {
+    Network sut;
+    sut.links(1);                                                           // 1
+    sut.links(2, {.group = GroupId{1}, .group_mode = GroupMode::primary});  // 2, 3
+    sut.link();                                                             // 4
+    sut.hears(2, gcs);
+    sut.hears(3, gcs);
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+    ASSERT_THAT(sut.pass(1, frame), ElementsAre(2, 4));
+    const auto back = sut.link();
+
+    EXPECT_THAT(sut.pass(back, frame), IsEmpty());
+    EXPECT_THAT(sut.explain(back, frame),
+                testing::IsSupersetOf({Pair(2, Reason::already_sent), Pair(3, Reason::other_member)}));
+}
+
 TEST(Engine, EchoEndsAfterTwoSeconds) {
     Network sut;
     sut.links(2);
