@@ -139,6 +139,7 @@ bool Router::remove(std::string_view label) {
     for (const auto& link : links_->links())
         if (link.endpoint == id) forget_link(link.id);
     links_->remove(id);
+    a_link_went_ = true;
     by_id_[id.value] = nullptr;
     endpoints_.erase(at);
     return true;
@@ -212,6 +213,7 @@ void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name)
 void Router::on_link_down(LinkId link, EndpointId, std::string_view why) {
     notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
     forget_link(link);
+    a_link_went_ = true;
 }
 
 void Router::forget_link(LinkId link) {
@@ -283,6 +285,8 @@ void Router::beat(HeartbeatLink& link, MonoTime now) {
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
+    if (std::exchange(a_link_went_, false))
+        traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
     if (!groups_.empty())
         for (const auto& link : links_->links()) engine_.set_loss(link.id, loss_permille(*link.counters));
     const auto ids = engine_.duplicate_ids();

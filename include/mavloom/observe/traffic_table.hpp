@@ -34,6 +34,11 @@ public:
     static constexpr std::size_t max_rows = 65'536;
 
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
+    // Gives back the rows of links of which `is_there(LinkId)` says no.
+    template <class IsThere>
+    void forget_links_unless(IsThere&& is_there) {
+        std::erase_if(rows_, [&](const auto& row) { return !is_there(row.second.link); });
+    }
 
     // By link, system, component, then message id.
     [[nodiscard]] std::vector<TrafficRow> sorted() const;

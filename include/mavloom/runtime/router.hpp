@@ -115,6 +115,7 @@ private:
     std::vector<Endpoint> recordings_;  // what each recorder was made from
     std::vector<HeartbeatLink> heartbeats_;
     bool any_signs_ = false;
+    bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
     Counter heartbeats_sent_, not_signed_;
     std::size_t duplicate_ids_told_ = 0;
     MonoTime started_ = mono_now();

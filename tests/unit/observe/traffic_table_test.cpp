@@ -50,6 +50,18 @@ TEST(TrafficTable, SortsByLinkSourceAndId) {
     EXPECT_EQ(rows[2].link, LinkId{2});
 }
 
+TEST(TrafficTable, RowsOfLinksThatAreGoneAreGivenBack) {
+    TrafficTable sut;
+    sut.add(LinkId{1}, heartbeat, at(0s));
+    sut.add(LinkId{2}, heartbeat, at(0s));
+    sut.add(LinkId{2}, attitude, at(0s));
+
+    sut.forget_links_unless([](LinkId link) { return link == LinkId{1}; });
+
+    ASSERT_EQ(sut.sorted().size(), 1u);
+    EXPECT_EQ(sut.sorted()[0].link, LinkId{1});
+}
+
 TEST(TrafficTable, BoundsItsRowsAndCountsTheRest) {
     TrafficTable sut;
     auto bytes = test::heartbeat_v2;
