@@ -71,7 +71,6 @@ private:
         if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
     }
     void on_link_down(LinkId link, runtime::EndpointId, std::string_view why) override {
-        if (const auto* counters = sources_.links().counters(link)) totals_.add(*counters);
         if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", sources_.links().link_name(link), why));
     }
     void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }

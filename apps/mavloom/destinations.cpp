@@ -115,17 +115,12 @@ bool Destinations::has(runtime::EndpointId endpoint) const noexcept {
 
 // Of the links that are there and of those that are gone.
 Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) const {
-    const auto& gone = *info.counters;
-    Sums sums{gone.gone_frames_out.value(), gone.gone_bytes_out.value(), gone.gone_queue_dropped.value(),
-              gone.gone_frames_not_sent.value()};
-    for (const auto& link : links_->links()) {
-        if (link.endpoint != info.id) continue;
-        sums.frames += link.counters->frames_out.value();
-        sums.bytes += link.counters->bytes_out.value();
-        sums.dropped += link.counters->queue_bytes.value() + link.counters->queue_age.value();
-        sums.refused += link.counters->frames_not_sent.value();
-    }
-    return sums;
+    runtime::LinkCounters all = info.counters->gone;
+    for (const auto& link : links_->links())
+        if (link.endpoint == info.id) all.add(*link.counters);
+    return {all.frames_out.value(), all.bytes_out.value(),
+            all.queue_bytes.value() + all.queue_age.value() + info.counters->gone_queued.value(),
+            all.frames_not_sent.value()};
 }
 
 bool Destinations::lost_any() const {

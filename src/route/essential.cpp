@@ -6,7 +6,7 @@
 
 namespace mavloom::route {
 
-// Ids are MAVLink's, rising; the same list as the queues' class 0 (docs/guide/queues.md).
+// Ids are MAVLink's, rising; docs/guide/queues.md names them.
 static constexpr std::uint32_t essential_ids[] = {
     0,                          // HEARTBEAT
     5,     6,   7,              // CHANGE_OPERATOR_CONTROL and its ack, AUTH_KEY

@@ -13,6 +13,16 @@ namespace mavloom::runtime {
 
 using namespace detail;
 
+void LinkCounters::add(const LinkCounters& other) noexcept {
+    for (const auto counter :
+         {&LinkCounters::frames_in, &LinkCounters::bytes_in, &LinkCounters::frames_out, &LinkCounters::bytes_out,
+          &LinkCounters::crc_error, &LinkCounters::junk_bytes, &LinkCounters::unknown_flags,
+          &LinkCounters::implausible_unknown, &LinkCounters::unknown_ids, &LinkCounters::bad_signature,
+          &LinkCounters::queue_bytes, &LinkCounters::queue_age, &LinkCounters::lost, &LinkCounters::late,
+          &LinkCounters::duplicate, &LinkCounters::resync, &LinkCounters::frames_not_sent})
+        (this->*counter).add((other.*counter).value());
+}
+
 class Links::Impl {
 public:
     Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,

@@ -40,11 +40,8 @@ void LinkTable::remove(LinkId id) noexcept {
 }
 
 void OpenEndpoint::count_gone(const Link& link) noexcept {
-    const LinkCounters& gone = link.counters;
-    counters.gone_frames_out.add(gone.frames_out.value());
-    counters.gone_bytes_out.add(gone.bytes_out.value());
-    counters.gone_queue_dropped.add(gone.queue_bytes.value() + gone.queue_age.value() + link.queue.blocks());
-    counters.gone_frames_not_sent.add(gone.frames_not_sent.value());
+    counters.gone.add(link.counters);
+    counters.gone_queued.add(link.queue.blocks());
 }
 
 Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,

@@ -5,22 +5,9 @@
 #include <cstring>
 #include <iterator>
 
-namespace mavloom::runtime {
+#include "mavloom/route/essential.hpp"
 
-// Class 0, beside the names' own meaning: what a person or a protocol waits for. Ids are MAVLink's, rising.
-static constexpr std::uint32_t most_important[] = {
-    0,                          // HEARTBEAT
-    5,     6,   7,              // CHANGE_OPERATOR_CONTROL and its ack, AUTH_KEY
-    11,                         // SET_MODE
-    20,    21,  22,  23,        // PARAM_REQUEST_READ, PARAM_REQUEST_LIST, PARAM_VALUE, PARAM_SET
-    37,    38,  39,  40,  41,   // MISSION_REQUEST_PARTIAL_LIST, _WRITE_PARTIAL_LIST, _ITEM, _REQUEST, _SET_CURRENT
-    43,    44,  45,  46,  47,   // MISSION_REQUEST_LIST, _COUNT, _CLEAR_ALL, _ITEM_REACHED, _ACK
-    50,    51,  53,             // PARAM_MAP_RC, MISSION_REQUEST_INT, MISSION_CHECKSUM
-    73,    75,  76,  77,  80,   // MISSION_ITEM_INT, COMMAND_INT, COMMAND_LONG, COMMAND_ACK, COMMAND_CANCEL
-    253,                        // STATUSTEXT
-    320,   321, 322, 323, 324,  // PARAM_EXT_REQUEST_READ, _REQUEST_LIST, _VALUE, _SET, _ACK
-    60041,                      // PARAM_VALUE_ARRAY
-};
+namespace mavloom::runtime {
 
 // Telemetry of which each one counts: pieces of a whole, one of many, answers, or several things told apart by a field that the definition
 // does not mark `instance`. docs/guide/queues.md has the names.
@@ -33,7 +20,6 @@ static constexpr std::uint32_t never_replaced[] = {
     11036, 11037, 12900, 12901, 12902, 12903, 12904, 12905, 12915, 12918, 12919, 50002, 52601, 60040,
 };
 
-static_assert(std::is_sorted(std::begin(most_important), std::end(most_important)));
 static_assert(std::is_sorted(std::begin(never_replaced), std::end(never_replaced)));
 
 template <class List>
@@ -57,7 +43,7 @@ MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
 
 void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* instance, bool instances_known) {
     Rule rule;
-    if (has(most_important, info.id)) {
+    if (route::is_essential(info.id)) {
         rule.block_class = 0;
     } else if (info.target_system_offset != wire::MessageInfo::no_target) {
         rule.block_class = 1;

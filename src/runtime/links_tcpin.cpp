@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_tcp.hpp"
 
@@ -44,6 +45,7 @@ public:
     ~TcpIn() override {
         core_.loop().cancel_timer(pause_);
         core_.loop().cancel_timer(expiry_);
+        core_.loop().cancel_timer(retry_);
         for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
@@ -74,7 +76,9 @@ private:
     std::vector<std::unique_ptr<Listening>> listeners_;
     std::vector<std::unique_ptr<TcpPeer>> peers_;
     net::TimerId pause_, expiry_;
-    bool told_full_ = false;
+    net::TimerId retry_;  // to look the name up again
+    Backoff backoff_;
+    bool told_full_ = false, told_failure_ = false;
 };
 
 void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
@@ -96,8 +100,12 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
 
 // Only when the look-up took longer than `add` waits.
 void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
-    auto done = answer ? open(*answer) : tl::unexpected(std::move(answer).error());
-    if (!done) core_.notice(info.id, fmt::format("{}: {}", info.endpoint.label(), done.error().text));
+    auto done = answer ? open(*answer) : tl::unexpected(answer.error());
+    if (done) return;
+    listeners_.clear();
+    if (!std::exchange(told_failure_, true))
+        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), done.error().text));
+    retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
 }
 
 void TcpIn::accept_from(net::TcpListener& listener) {
@@ -154,6 +162,10 @@ void TcpIn::on_timer(MonoTime now) {
         for (const auto& listening : listeners_) listening->listen(true);
     }
     if (expiry_.valid() && expiry_.when <= now) expire(now);
+    if (retry_.valid() && retry_.when <= now) {
+        retry_ = {};
+        core_.resolve(*this, info.endpoint.address);
+    }
 }
 
 void TcpIn::expire(MonoTime now) {

@@ -123,10 +123,6 @@ void Receiver::on_link_up(LinkId link, EndpointId, std::string_view name) {
     }
 }
 
-void Receiver::on_link_down(LinkId link, EndpointId, std::string_view) {
-    if (const auto* counters = sources_.links().counters(link)) totals_.add(*counters);
-}
-
 void Receiver::on_notice(EndpointId, std::string_view text) {
     if (notice_) notice_(text);
 }

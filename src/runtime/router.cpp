@@ -30,10 +30,8 @@ constexpr msg::Heartbeat own_heartbeat{.type = 18,      // MAV_TYPE_ONBOARD_CONT
 route::Options engine_options(const RouterConfig& config) {
     route::Options options;
     options.dedup = std::chrono::milliseconds(config.dedup_ms);
-    options.unknown_component = config.unknown_component == UnknownComponent::drop ? route::UnknownComponent::drop
-                                                                                   : route::UnknownComponent::system;
-    options.unknown_target = config.unknown_target == UnknownTarget::flood ? route::UnknownTarget::flood
-                                                                           : route::UnknownTarget::drop;
+    options.unknown_component = config.unknown_component;
+    options.unknown_target = config.unknown_target;
     options.route_timeout = config.route_timeout;
     if (config.heartbeat)
         options.own = Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
@@ -115,7 +113,7 @@ SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
     policy.tap = o.tap;
     policy.is_private = o.is_private;
     if (!o.group.empty()) policy.group = group_id(o.group);
-    policy.group_mode = static_cast<route::GroupMode>(o.group_mode);
+    policy.group_mode = o.group_mode;
     policy.group_order = static_cast<std::uint32_t>(endpoints_.size());
     return policy;
 }

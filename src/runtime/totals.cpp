@@ -16,6 +16,7 @@ void Totals::add(const EndpointCounters& counters) noexcept {
     wrong_peer += counters.wrong_peer.value();
     stray_bytes += counters.stray_bytes.value();
     peers_refused += counters.peers_refused.value();
+    add(counters.gone);
 }
 
 void Totals::add(const record::ReadCounters& counters) noexcept {

@@ -25,6 +25,22 @@ def json_lines(text):
     return [json.loads(line) for line in text.splitlines()]
 
 
+def test_what_a_link_lost_is_summed_once_however_often_it_came_back(spawn):
+    """Five bytes of noise on each of two connections of one tcpout link are ten in the totals."""
+    port = harness.free_port(socket.SOCK_STREAM)
+    with socket.create_server(("127.0.0.1", port)) as server:
+        server.settimeout(harness.DEFAULT_TIMEOUT_S)
+        process = spawn("listen", f"tcpout://127.0.0.1:{port}", "--json", "--stats")
+        for turn in range(2):
+            connection, _ = server.accept()
+            with connection:
+                connection.sendall(b"noise" + next(frames.heartbeats(1, sequence=turn)))
+                harness.wait_for(lambda: len(process.stdout.splitlines()) > turn, what="the heartbeat")
+
+    totals = json_lines(process.stop().stdout)[-1]["stats"]["totals"]
+    assert (totals["frames"], totals["junk_bytes"]) == (2, 10)
+
+
 def test_prints_every_message_of_a_recording(run):
     done = run("listen", frames.FLIGHT)
 

@@ -17,15 +17,12 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/route/choices.hpp"
 #include "mavloom/route/filter.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
 
 namespace mavloom::route {
-
-enum class UnknownComponent : std::uint8_t { system, drop };
-enum class UnknownTarget : std::uint8_t { drop, flood };
-enum class GroupMode : std::uint8_t { all, best, primary };
 
 using GroupId = Id<struct GroupTag, std::uint32_t>;  // 0: no group
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The messages that a person or a protocol waits for: class 0 of DESIGN.md rule 2. `max_bytes` and the `*` of `max_rate` spare them.
+// The messages that a person or a protocol waits for: class 0 of DESIGN.md rule 2. Queues drop them last, `max_bytes` and the `*` of
+// `max_rate` spare them.
 // Pure functions; nothing allocates.
 #pragma once
 

@@ -19,8 +19,8 @@
 
 namespace mavloom::runtime {
 
-enum class UnknownComponent : std::uint8_t { system, drop };
-enum class UnknownTarget : std::uint8_t { drop, flood };
+using route::UnknownComponent;
+using route::UnknownTarget;
 enum class RingFull : std::uint8_t { wait, drop_newest, evict };
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 

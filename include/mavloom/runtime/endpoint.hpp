@@ -14,6 +14,7 @@
 
 #include "mavloom/base/result.hpp"
 #include "mavloom/edit/terms.hpp"
+#include "mavloom/route/choices.hpp"
 
 namespace mavloom::runtime {
 
@@ -38,7 +39,7 @@ struct FilterTerms {
 
 using edit::RateTerm;
 
-enum class GroupMode : std::uint8_t { all, best, primary };
+using route::GroupMode;
 
 struct EndpointOptions {
     std::string name;  // default: the URL without its query

@@ -40,6 +40,7 @@ struct LinkCounters {
     Counter queue_bytes, queue_age;         // whole frames dropped on the way out
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
     Counter frames_not_sent;                // in datagrams that the kernel refused
+    void add(const LinkCounters& other) noexcept;
 };
 
 // What belongs to a socket rather than to one of its peers.
@@ -53,9 +54,8 @@ struct EndpointCounters {
     Counter reconnects;
     // Sums over the peers and clients that are gone: with those of the links that are there they make the endpoint's whole. A link is added
     // when its on_link_down has returned.
-    Counter gone_frames_out, gone_bytes_out;
-    Counter gone_queue_dropped;  // queue_bytes, queue_age, and what was still queued when the link went
-    Counter gone_frames_not_sent;
+    LinkCounters gone;
+    Counter gone_queued;  // whole frames that were still queued when their link went
 };
 
 struct RxFrame {

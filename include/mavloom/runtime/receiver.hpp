@@ -69,7 +69,6 @@ private:
 
     void on_frame(const RxFrame& rx) override;
     void on_link_up(LinkId link, EndpointId endpoint, std::string_view name) override;
-    void on_link_down(LinkId link, EndpointId endpoint, std::string_view why) override;
     void on_notice(EndpointId endpoint, std::string_view text) override;
 
     void run();

@@ -19,9 +19,8 @@ struct Totals {
     std::uint64_t lost = 0;            // on the links themselves: sequence gaps
     std::uint64_t damaged_places = 0;  // in recordings
 
-    // Of a link, when it goes or at the end: once each.
+    // Of a link that is there, of an endpoint with its links that are gone, of a recording: once each, at the end.
     void add(const LinkCounters& counters) noexcept;
-    // Of an endpoint and of a recording: once each, at the end.
     void add(const EndpointCounters& counters) noexcept;
     void add(const record::ReadCounters& counters) noexcept;
 };

@@ -188,12 +188,12 @@ TEST(LinksUdp, WhatWasSentToAPeerThatIsGoneStaysCounted) {
     ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
     EXPECT_EQ(node.links->send(in, view(attitude(0))), 1u);
     node.poll();
-    EXPECT_EQ(node.info(in).counters->gone_frames_out.value(), 0u);
+    EXPECT_EQ(node.info(in).counters->gone.frames_out.value(), 0u);
     b.send_to(node.port(in), heartbeat(0));
     ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
-    EXPECT_EQ(node.info(in).counters->gone_frames_out.value(), 1u);
-    EXPECT_EQ(node.info(in).counters->gone_bytes_out.value(), 40u);
-    EXPECT_EQ(node.info(in).counters->gone_queue_dropped.value(), 0u);
+    EXPECT_EQ(node.info(in).counters->gone.frames_out.value(), 1u);
+    EXPECT_EQ(node.info(in).counters->gone.bytes_out.value(), 40u);
+    EXPECT_EQ(node.info(in).counters->gone_queued.value(), 0u);
     EXPECT_EQ(node.links->counters(node.recorder.downs[0].first), nullptr);
 }
 
