@@ -3,6 +3,7 @@
 
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
+#include <sys/timerfd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,13 +12,19 @@
 namespace mavloom::net {
 
 static constexpr int events_per_wait = 64;
-static constexpr std::uint64_t wake_token = 0;
+static constexpr std::uint64_t wake_token = 0, alarm_token = 1;
+// Up to here a wait has a time-out of its own.
+static constexpr std::chrono::milliseconds short_wait{10};
 
 static std::uint32_t interest(bool readable, bool writable) noexcept {
     return (readable ? std::uint32_t{EPOLLIN} : 0) | (writable ? std::uint32_t{EPOLLOUT} : 0);
 }
 
-// Generations begin at 1, so that no token equals wake_token.
+// Generations begin at 1, so that no token equals those above.
+static timespec timespec_of(Nanoseconds time) noexcept {
+    return {static_cast<std::time_t>(time.count() / 1'000'000'000), static_cast<long>(time.count() % 1'000'000'000)};
+}
+
 static std::uint64_t token_of(WatchId id) noexcept { return std::uint64_t{id.generation} << 32 | id.slot; }
 
 SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
@@ -25,16 +32,21 @@ SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
     if (!epoll) return system_error("cannot make an epoll descriptor", errno);
     auto wake = std::make_shared<const Fd>(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
     if (!*wake) return system_error("cannot make an event descriptor", errno);
-    epoll_event event{};
-    event.events = EPOLLIN;
-    event.data.u64 = wake_token;
-    if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &event) != 0)
+    Fd alarm(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
+    if (!alarm) return system_error("cannot make a timer descriptor", errno);
+    epoll_event on_wake{EPOLLIN, {.u64 = wake_token}};
+    epoll_event on_alarm{EPOLLIN | EPOLLET, {.u64 = alarm_token}};  // never read: setting it anew clears it
+    if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &on_wake) != 0 ||
+        epoll_ctl(epoll.get(), EPOLL_CTL_ADD, alarm.get(), &on_alarm) != 0)
         return system_error("cannot watch a descriptor", errno);
-    return std::unique_ptr<EventLoop>(new EventLoop(std::move(epoll), std::move(wake)));
+    return std::unique_ptr<EventLoop>(new EventLoop(std::move(epoll), std::move(alarm), std::move(wake)));
 }
 
-EventLoop::EventLoop(Fd epoll, std::shared_ptr<const Fd> wake)
-    : epoll_(std::move(epoll)), wake_(std::move(wake)), events_(std::make_unique<epoll_event[]>(events_per_wait)) {}
+EventLoop::EventLoop(Fd epoll, Fd alarm, std::shared_ptr<const Fd> wake)
+    : epoll_(std::move(epoll)),
+      alarm_(std::move(alarm)),
+      wake_(std::move(wake)),
+      events_(std::make_unique<epoll_event[]>(events_per_wait)) {}
 
 EventLoop::~EventLoop() = default;
 
@@ -93,18 +105,28 @@ void EventLoop::cancel_timer(TimerId& id) noexcept {
     id = {};
 }
 
-// epoll_pwait2 waits by the nanosecond; before Linux 5.11 milliseconds have to do, rounded up so that the loop does not spin.
+// Left alone when it comes early enough: deadlines move on with every turn, and the alarm catches up with them once it has rung.
+void EventLoop::set_alarm(MonoTime when) noexcept {
+    if (alarm_at_ <= when) return;
+    alarm_at_ = when;
+    const itimerspec at{{}, timespec_of(when.time_since_epoch())};
+    timerfd_settime(alarm_.get(), TFD_TIMER_ABSTIME, &at, nullptr);
+}
+
+// A time-out has the kernel set the machine's timer before the wait and once more behind it, which in a virtual machine takes longer than
+// receiving a datagram. So all but short waits leave that to an alarm that is seldom set.
 void EventLoop::wait(MonoTime deadline) noexcept {
     if (!timers_.empty()) deadline = std::min(deadline, timers_.begin()->first.when);
-    const bool for_ever = deadline == MonoTime::max();
-    const Nanoseconds left = for_ever ? Nanoseconds{} : std::max(deadline - mono_now(), Nanoseconds{});
-    const timespec limit{static_cast<std::time_t>(left.count() / 1'000'000'000),
-                         static_cast<long>(left.count() % 1'000'000'000)};
-    count_ = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, for_ever ? nullptr : &limit, nullptr);
+    const Nanoseconds left = deadline == MonoTime::max() ? Nanoseconds::max()
+                                                         : std::max(deadline - mono_now(), Nanoseconds{});
+    const bool is_short = left <= short_wait;
+    if (!is_short && deadline != MonoTime::max()) set_alarm(deadline);
+    // epoll_pwait2 waits by the nanosecond; before Linux 5.11 milliseconds have to do, rounded up so that the loop does not spin.
+    const timespec limit = timespec_of(is_short ? left : Nanoseconds{});
+    count_ = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, is_short ? &limit : nullptr, nullptr);
     if (count_ >= 0 || errno != ENOSYS) return;
-    constexpr std::int64_t longest_ms = 3'600'000;
-    const auto ms = static_cast<int>(std::min((left.count() + 999'999) / 1'000'000, longest_ms));
-    count_ = epoll_wait(epoll_.get(), events_.get(), events_per_wait, for_ever ? -1 : ms);
+    const int ms = is_short ? static_cast<int>((left.count() + 999'999) / 1'000'000) : -1;
+    count_ = epoll_wait(epoll_.get(), events_.get(), events_per_wait, ms);
 }
 
 // Timers that a callback starts, also for now or earlier, wait for the next turn.
@@ -130,6 +152,10 @@ bool EventLoop::dispatch(MonoTime now) {
         if (event.data.u64 == wake_token) {
             std::uint64_t times;
             woken = ::read(wake_->get(), &times, sizeof times) == sizeof times || woken;
+            continue;
+        }
+        if (event.data.u64 == alarm_token) {
+            alarm_at_ = MonoTime::max();
             continue;
         }
         const Watch* watch = find(

@@ -29,52 +29,57 @@ std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept {
 }
 
 void RecentFrames::resize(std::size_t capacity, std::size_t words) {
+    const std::size_t stride = 2 + 2 * words;
     if (capacity != 0) {
         capacity = std::bit_ceil(std::max<std::size_t>(capacity, 64));
-        while (capacity > 4096 && capacity * 2 * words * sizeof(std::uint64_t) > most_set_bytes) capacity /= 2;
+        while (capacity > 4096 && capacity * stride * sizeof(std::uint64_t) > most_bytes) capacity /= 2;
     }
-    if (capacity == entries_.size() && words == words_) return;
+    if (capacity == places_ && words == words_) return;
     RecentFrames grown;
     grown.words_ = words;
-    grown.entries_.resize(capacity);
-    grown.sets_.resize(capacity * 2 * words);
+    grown.stride_ = stride;
+    grown.places_ = capacity;
+    grown.cells_ = ZeroedArray<std::uint64_t>(capacity * stride);
     const std::size_t kept = std::min(words, words_);
-    for (std::size_t i = 0; i < entries_.size() && capacity != 0; ++i) {
-        if (entries_[i].hash == 0) continue;
+    for (std::size_t i = 0; i < places_ && capacity != 0; ++i) {
+        if (hash(i) == 0) continue;
         std::size_t at = 0;
-        const bool found = grown.find(entries_[i].hash, at);
-        grown.put(entries_[i].hash, entries_[i].time, Nanoseconds{}, found, at);
+        const bool found = grown.find(hash(i), at);
+        grown.put(hash(i), time(i), Nanoseconds{}, found, at);
         assign(grown.heard(at), heard(i), kept);
         assign(grown.sent(at), sent(i), kept);
     }
     *this = std::move(grown);
 }
 
-bool RecentFrames::find(std::uint64_t hash, std::size_t& index) const noexcept {
-    const std::size_t first = index = bucket(hash);
+bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) const noexcept {
+    const std::size_t first = index = bucket(wanted);
     for (std::size_t i = first; i < first + ways; ++i) {
-        if (entries_[i].hash != hash) continue;
+        if (hash(i) != wanted) continue;
         index = i;
         return true;
     }
     return false;
 }
 
-bool RecentFrames::put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept {
+bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds window, bool found,
+                       std::size_t& index) noexcept {
     bool gave_way = false;
     if (!found) {
         const std::size_t first = index;
         for (std::size_t i = first + 1; i < first + ways; ++i)
-            if (entries_[i].time < entries_[index].time) index = i;
-        gave_way = entries_[index].hash != 0 && now - entries_[index].time < window;
+            if (time_ns(i) < time_ns(index)) index = i;
+        gave_way = hash(index) != 0 && now - time(index) < window;
     }
-    entries_[index] = {hash, now};
+    cells_[index * stride_] = new_hash;
+    cells_[index * stride_ + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
     each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
     return gave_way;
 }
 
 void RecentFrames::forget(Slot slot) noexcept {
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
+    for (std::size_t i = 0; i < places_; ++i) {
+        if (hash(i) == 0) continue;
         erase(heard(i), slot);
         erase(sent(i), slot);
     }

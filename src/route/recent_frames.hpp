@@ -4,11 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/clock.hpp"
 #include "route/link_set.hpp"
+#include "route/zeroed_array.hpp"
 
 namespace mavloom::route {
 
@@ -19,7 +19,7 @@ class RecentFrames {
 public:
     // Room for about `capacity` frames and links in `words` words each, keeping what there is. With a capacity of 0 it remembers nothing.
     void resize(std::size_t capacity, std::size_t words);
-    [[nodiscard]] bool active() const noexcept { return !entries_.empty(); }
+    [[nodiscard]] bool active() const noexcept { return places_ != 0; }
 
     // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.
     [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
@@ -27,8 +27,8 @@ public:
     // way.
     bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept;
 
-    [[nodiscard]] MonoTime time(std::size_t index) const noexcept { return entries_[index].time; }
-    [[nodiscard]] Words heard(std::size_t index) noexcept { return &sets_[2 * words_ * index]; }
+    [[nodiscard]] MonoTime time(std::size_t index) const noexcept { return MonoTime(Nanoseconds(time_ns(index))); }
+    [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index * stride_ + 2]; }
     [[nodiscard]] Words sent(std::size_t index) noexcept { return heard(index) + words_; }
 
     // The link is gone and its slot will be another's.
@@ -36,20 +36,20 @@ public:
 
 private:
     static constexpr std::size_t ways = 4;
-    static constexpr std::size_t most_set_bytes = 8u << 20;
-
-    struct Entry {
-        std::uint64_t hash = 0;  // 0: empty
-        MonoTime time = MonoTime::min();
-    };
+    static constexpr std::size_t most_bytes = 8u << 20;
 
     [[nodiscard]] std::size_t bucket(std::uint64_t hash) const noexcept {
-        return static_cast<std::size_t>(hash) & (entries_.size() - 1) & ~(ways - 1);
+        return static_cast<std::size_t>(hash) & (places_ - 1) & ~(ways - 1);
+    }
+    [[nodiscard]] std::uint64_t hash(std::size_t index) const noexcept { return cells_[index * stride_]; }
+    [[nodiscard]] std::int64_t time_ns(std::size_t index) const noexcept {
+        return static_cast<std::int64_t>(cells_[index * stride_ + 1]);
     }
 
-    std::vector<Entry> entries_;       // a power of two
-    std::vector<std::uint64_t> sets_;  // of each entry: heard, sent
-    std::size_t words_ = 0;
+    // A place is its hash (0: empty), time and the sets heard and sent, side by side: a bucket of up to 64 links is two cache lines.
+    ZeroedArray<std::uint64_t> cells_;
+    std::size_t places_ = 0;  // a power of two
+    std::size_t words_ = 0, stride_ = 0;
 };
 
 }  // namespace mavloom::route

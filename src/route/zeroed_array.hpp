@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fixed array of zero bits from calloc: large tables of which most is never used cost no memory until it is. Private to module route.
+// A fixed array of zero bits from calloc that begins on a cache line: large tables of which most is never used cost no memory until it is.
+// Private to module route.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +18,24 @@ class ZeroedArray {
 public:
     explicit ZeroedArray(std::size_t size = 0) : size_(size) {
         if (size == 0) return;
-        at_.reset(static_cast<T*>(std::calloc(size, sizeof(T))));
-        if (at_ == nullptr) throw std::bad_alloc();
+        std::size_t room = size * sizeof(T) + cache_line;
+        block_.reset(std::calloc(room, 1));
+        if (block_ == nullptr) throw std::bad_alloc();
+        void* begin = block_.get();
+        at_ = static_cast<T*>(std::align(cache_line, size * sizeof(T), begin, room));
     }
 
-    [[nodiscard]] T& operator[](std::size_t i) noexcept { return at_.get()[i]; }
-    [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return at_.get()[i]; }
+    [[nodiscard]] T& operator[](std::size_t i) noexcept { return at_[i]; }
+    [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return at_[i]; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
 private:
+    static constexpr std::size_t cache_line = 64;
     struct Free {
-        void operator()(T* p) const noexcept { std::free(p); }
+        void operator()(void* p) const noexcept { std::free(p); }
     };
-    std::unique_ptr<T, Free> at_;
+    std::unique_ptr<void, Free> block_;
+    T* at_ = nullptr;
     std::size_t size_ = 0;
 };
 

@@ -64,7 +64,7 @@ public:
     [[nodiscard]] TimerId start_timer(MonoTime when, TimerHandler& handler);
     void cancel_timer(TimerId& id) noexcept;
 
-    // Waits until something happens, a timer is due, or `deadline`.
+    // Waits until something happens, a timer is due, or `deadline`. May now and then return before with nothing to do.
     void wait(MonoTime deadline) noexcept;
     // Calls the handlers of what `wait` found: timers first. Returns true when `wake` was among the causes.
     bool dispatch(MonoTime now);
@@ -84,12 +84,15 @@ private:
         int fd = -1;
         std::uint32_t generation = 1;
     };
-    EventLoop(Fd epoll, std::shared_ptr<const Fd> wake);
+    EventLoop(Fd epoll, Fd alarm, std::shared_ptr<const Fd> wake);
 
+    void set_alarm(MonoTime when) noexcept;
     void run_timers(MonoTime now);
     [[nodiscard]] Watch* find(WatchId id) noexcept;
 
     Fd epoll_;
+    Fd alarm_;  // a timerfd, for waits that are not short
+    MonoTime alarm_at_ = MonoTime::max();
     std::shared_ptr<const Fd> wake_;
     std::vector<Watch> watches_;
     std::vector<std::uint32_t> free_;

@@ -128,6 +128,19 @@ TEST_F(EventLoopTest, ReturnsAtTheDeadline) {
     EXPECT_GE(mono_now(), deadline);
 }
 
+TEST_F(EventLoopTest, DeadlinesThatAreNotShortMoveToAndFro) {
+    Handler never;
+    for (const auto wait : {milliseconds(40), milliseconds(15), milliseconds(30)}) {
+        auto sooner = loop->start_timer(mono_now() + wait / 2 + milliseconds(8), never);
+        loop->cancel_timer(sooner);
+        const MonoTime deadline = mono_now() + wait;
+        int turns = 0;
+        for (; mono_now() < deadline; ++turns) loop->run_once(deadline);
+        EXPECT_LE(turns, 4);
+    }
+    EXPECT_EQ(never.timers, 0);
+}
+
 TEST_F(EventLoopTest, WakesFromAnotherThread) {
     std::thread other([&] { loop->wake(); });
     EXPECT_TRUE(loop->run_once(mono_now() + seconds(10)));
