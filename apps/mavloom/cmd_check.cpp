@@ -4,7 +4,9 @@
 
 #include "command.hpp"
 #include "dialect_print.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/runtime/config.hpp"
+#include "mavloom/runtime/convert.hpp"
 #include "output.hpp"
 
 namespace mavloom::app {
@@ -14,6 +16,7 @@ namespace {
 struct Options {
     std::string file;
     bool json = false;
+    bool convert = false;  // the file is mavlink-router's
 };
 
 std::string_view origin_name(runtime::Origin origin) {
@@ -71,20 +74,38 @@ Exit check(const Common& common, const Options& options) {
     return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
 }
 
+// What cannot be carried over is said even with --quiet: who converts a file has to know.
+Exit convert(const Options& options) {
+    const auto done = runtime::convert_mavlink_router_file(options.file);
+    if (!done) return fail(of_input_file(done.error()));
+    for (const auto& note : done->notes)
+        talk(fmt::format("{}:{}: [{}]{}{}: {}\n", options.file, note.line, shown(note.section),
+                         note.key.empty() ? "" : " ", shown(note.key), note.text));
+    Output output;
+    fmt::format_to(fmt::appender(output.buffer()), "{}", done->toml);
+    return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
+}
+
 }  // namespace
 
 Run declare_check(CLI::App& command, const Common& common) {
     auto options = std::make_shared<Options>();
     command.add_option("file", options->file, "a router's configuration (TOML)")->required()->type_name("FILE");
-    command.add_flag("--json", options->json, "one JSON object a line, one for each value");
+    auto* json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
+    command
+        .add_flag("--convert", options->convert,
+                  "FILE is a configuration of mavlink-router: print ours, and name what it cannot carry over")
+        ->excludes(json);
     command.footer(
         "Prints every effective value and where it came from: default, FILE:LINE, or a variable of the environment "
         "(MAVLOOM_ROUTER_DEDUP_MS\n"
         "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line. Messages that "
         "filters and rates\n"
         "name are looked up in the built-in definitions and those of --dialect.\n\n"
-        "Example: mavloom check router.toml");
-    return [options, &common] { return check(common, *options); };
+        "Examples:\n"
+        "  mavloom check router.toml\n"
+        "  mavloom check --convert main.conf > router.toml");
+    return [options, &common] { return options->convert ? convert(*options) : check(common, *options); };
 }
 
 }  // namespace mavloom::app

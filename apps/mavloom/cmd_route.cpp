@@ -8,6 +8,7 @@
 #include "mavloom/runtime/config.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "mavloom/runtime/router.hpp"
+#include "mavloom/runtime/router_report.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 
@@ -62,13 +63,13 @@ SetupResult<runtime::Config> read_config(const std::string& file, const dialect:
 
 SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
     Plan plan;
+    if (runtime::parse_endpoint(options.explain))
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("--explain takes a message's name, not '{}'; put it behind the endpoints", options.explain));
     for (const auto& text : options.endpoints) {
-        auto endpoint = runtime::parse_endpoint(text);
+        auto endpoint = runtime::parse_router_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
-        if (endpoint->scheme != runtime::Scheme::tlog && endpoint->scheme != runtime::Scheme::serial &&
-            endpoint->scheme != runtime::Scheme::shm && endpoint->address.port == 0)
-            return setup_error(SetupCode::usage,
-                               fmt::format("{}: a router's port is known to others; name one", endpoint->label()));
         plan.from_command_line.push_back(std::move(*endpoint));
     }
     auto config = read_config(options.config, dialect);
@@ -120,8 +121,13 @@ SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& diale
 class Routing {
 public:
     Routing(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Router& router,
-            Plan plan)
-        : common_(common), options_(options), dialect_(dialect), router_(router), plan_(std::move(plan)) {}
+            Plan plan, runtime::LogLevel& log_level)
+        : common_(common),
+          options_(options),
+          dialect_(dialect),
+          router_(router),
+          plan_(std::move(plan)),
+          log_level_(log_level) {}
 
     Exit run(std::optional<ExplainPrinter>& explain) {
         if (explain) router_.explain([&](const auto&... args) { (*explain)(args...); });
@@ -144,6 +150,7 @@ private:
         if (!config) return talk(fmt::format("mavloom: {}; nothing was changed\n", config.error().text));
         const bool same_rules = config->router == plan_.config.router;
         plan_.config = std::move(*config);
+        log_level_ = plan_.config.log_level;
         if (!same_rules) router_.configure(plan_.config.router);
         router_.become(plan_.endpoints());
         say(common_, fmt::format("{} was read again", options_.config));
@@ -154,6 +161,7 @@ private:
     const dialect::Dialect& dialect_;
     runtime::Router& router_;
     Plan plan_;
+    runtime::LogLevel& log_level_;  // of what the router tells
 };
 
 // Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.
@@ -173,12 +181,11 @@ SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common
     else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
     else say(common, path.error().text);
     auto opened = runtime::Control::create(router, control);
-    if (!opened && options.name.empty() && opened.error().code == SetupCode::in_use && !control.socket.empty()) {
-        say(common, fmt::format("no control socket: {}", opened.error().text));
-        control.socket.clear();
-        opened = runtime::Control::create(router, control);
-    }
-    return opened;
+    if (opened || !options.name.empty() || opened.error().code != SetupCode::in_use) return opened;
+    control.socket.clear();
+    auto without = runtime::Control::create(router, control);  // fails again where it is the port of --metrics
+    if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
+    return without;
 }
 
 Exit route(const Common& common, const Options& options) {
@@ -190,8 +197,9 @@ Exit route(const Common& common, const Options& options) {
     auto plan = make_plan(options, *dialect);
     if (!plan) return fail(plan.error());
     for (const auto& note : plan->config.notes) say(common, note);
+    auto log_level = plan->config.log_level;
     const auto notice = [&](runtime::LogLevel level, std::string_view text) {
-        if (level >= plan->config.log_level || common.verbose > 0) say(common, text);
+        if (level >= log_level || common.verbose > 0) say(common, text);
     };
     auto router = runtime::Router::create(*dialect, plan->config.router, notice);
     if (!router) return fail(router.error());
@@ -209,7 +217,7 @@ Exit route(const Common& common, const Options& options) {
         if (!id) return fail(id.error());
         explain.emplace(*dialect, (*router)->links(), *id);
     }
-    return Routing(common, options, *dialect, **router, std::move(*plan)).run(explain);
+    return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 
 }  // namespace

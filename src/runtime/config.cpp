@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <fstream>
 
 #include "mavloom/base/suggest.hpp"
 #include "runtime/config_keys.hpp"
+#include "runtime/config_text.hpp"
 #include "runtime/endpoint_parts.hpp"
 
 namespace mavloom::runtime {
@@ -136,6 +135,7 @@ private:
         for (const ConfigKey& key : config_keys()) names.push_back(variable_name(key));
         // The common beginning would make everything look near.
         std::vector<std::string_view> known;
+        known.reserve(names.size());
         for (const std::string_view name : names) known.push_back(name.substr(variable_prefix.size()));
         for (const auto& [name, value] : environment_) {
             if (!name.starts_with(variable_prefix) || std::ranges::find(names, name) != names.end()) continue;
@@ -354,20 +354,9 @@ SetupResult<Config> parse_config(std::string_view text, std::string_view file_na
 }
 
 SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        return system_error(fmt::format("cannot read {}", file.string()), EISDIR);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return system_error(fmt::format("cannot read {}", file.string()), errno);
-    // Longer is no configuration: a recording or a device was meant for something else.
-    constexpr std::size_t longest = 4 * 1024 * 1024;
-    std::string text(longest + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > longest)
-        return setup_error(SetupCode::bad_input,
-                           fmt::format("{} is longer than any configuration (4 MiB)", file.string()));
-    return parse_config(text, file.string(), environment);
+    const auto text = read_config_text(file);
+    if (!text) return tl::unexpected(text.error());
+    return parse_config(*text, file.string(), environment);
 }
 
 }  // namespace mavloom::runtime

@@ -211,7 +211,7 @@ private:
         probe.connect(Local::endpoint(path.string()), error);
         if (!error)
             return setup_error(
-                SetupCode::unreachable,
+                SetupCode::in_use,
                 fmt::format("{} is served by a router that runs; --name gives this one another name", path.string()));
         if (error == asio::error::connection_refused) ::unlink(path.c_str());
         return {};

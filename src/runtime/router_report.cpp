@@ -282,7 +282,7 @@ Lines with_end(Lines lines) {
 }
 
 Lines add(Router& router, const std::string& url) {
-    const auto endpoint = parse_endpoint(url);
+    const auto endpoint = parse_router_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     const auto added = router.add(*endpoint);
     return added ? with_end({}) : failed(added.error().text);
@@ -300,6 +300,17 @@ std::string text_at(const Json& request, const char* key) {
 }
 
 }  // namespace
+
+SetupResult<Endpoint> parse_router_endpoint(std::string_view text) {
+    auto endpoint = parse_endpoint(text);
+    if (!endpoint) return endpoint;
+    const bool has_port = endpoint->scheme != Scheme::tlog && endpoint->scheme != Scheme::serial &&
+                          endpoint->scheme != Scheme::shm;
+    if (has_port && endpoint->address.port == 0)
+        return setup_error(SetupCode::usage,
+                           fmt::format("{}: a router's port is known to others; name one", endpoint->label()));
+    return endpoint;
+}
 
 Lines answer_request(Router& router, std::string_view request) {
     const auto parsed = Json::parse(request, nullptr, false);

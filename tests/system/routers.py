@@ -6,6 +6,7 @@ import collections
 import itertools
 import json
 import os
+import pathlib
 import pty
 import select
 import shutil
@@ -234,21 +235,25 @@ class Router:
         self.name = f"test-{os.getpid()}-{next(_names)}"
         self.env = {"XDG_RUNTIME_DIR": runtime_dir(), **{f"MAVLOOM_ROUTER_{k.upper()}": str(v) for k, v in (rules or {}).items()}, **(env or {})}
         self.process = spawn("route", *args, "--name", self.name, env=self.env)
+        atexit.register(pathlib.Path(f"/run/mavloom/{self.name}.ctl").unlink, missing_ok=True)  # a killed one leaves it
         self._control = harness.wait_for(self._connect, what="the control socket").makefile("rwb")
 
     def _connect(self):
         if not self.process.alive:
             done = self.process.wait()
             raise AssertionError(f"ended with {done.status}: {done.stderr}")
-        for folder in ("/run/mavloom", f"{runtime_dir()}/mavloom"):
-            sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-            sock.settimeout(harness.DEFAULT_TIMEOUT_S)
-            try:
-                sock.connect(f"{folder}/{self.name}.ctl")
-                return sock
-            except OSError:
-                sock.close()
-        return None
+        return self._connect_to(f"/run/mavloom/{self.name}.ctl") or self._connect_to(f"{runtime_dir()}/mavloom/{self.name}.ctl")
+
+    @staticmethod
+    def _connect_to(path):
+        sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        sock.settimeout(harness.DEFAULT_TIMEOUT_S)
+        try:
+            sock.connect(path)
+            return sock
+        except OSError:
+            sock.close()
+            return None
 
     def ask(self, cmd, **arguments) -> list[dict]:
         self._control.write(json.dumps({"cmd": cmd, **arguments}).encode() + b"\n")
@@ -363,7 +368,7 @@ class Net:
         for count, end in enumerate(silent, 1):
             end.send(heartbeat((0, 0)))
             harness.wait_for(lambda: len(self.router.links()) >= count, what="a peer")
-        self.router.wait_links(others + len(silent))
+        harness.wait_for(lambda: len(self.router.links()) >= others + len(silent), what="all links")
         if silent and not self.options:
             self.settle()
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Every command that README, the guides and --help show is run: as written, but for ports (the kernel's choice), a bound on its time, and files of
 the examples' names in a temporary folder."""
+import os
 import re
 import shlex
 import shutil
@@ -13,8 +14,9 @@ import harness
 pytestmark = pytest.mark.short
 
 PAGES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs").rglob("*.md"))]
-COMMANDS = ("listen", "relay", "record", "replay", "dialect", "check", "bench")
-LIVE = ("listen", "relay", "record", "replay")
+COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key")
+ASKING = ("ctl", "stat")  # these need a router that runs
+LIVE = ("listen", "relay", "record", "replay", "route")
 
 
 def shell_lines(text):
@@ -28,13 +30,20 @@ def page_examples():
     for page in PAGES:
         for line in shell_lines(page.read_text()):
             line = line.split("  #")[0].strip()
-            if re.match(r"(build/release/bin/)?mavloom (%s)\b" % "|".join(COMMANDS), line) and "|" not in line and "FILE" not in line:
+            if re.match(r"(build/release/bin/)?mavloom (%s)\b" % "|".join(COMMANDS + ASKING), line) and "|" not in line and "FILE" not in line:
                 yield pytest.param(line, id=f"{page.name}: {line}")
 
 
 def runnable(line):
     words = shlex.split(line)[1:]
-    words = [re.sub(r"((?:udpin|tcpin):(?://)?[^?]*:)\d+", r"\g<1>0", word) for word in words]
+    def port(match):  # a router wants a port that others can know
+        return match[1] + (str(harness.free_port(harness.socket.SOCK_STREAM)) if words[0] == "route" else "0")
+    words = [re.sub(r"((?:udpin|tcpin):(?://)?[^?]*:)\d+", port, word) for word in words]
+    words = [re.sub(r"^127\.0\.0\.1:9090$", "127.0.0.1:0", word) for word in words]
+    if words[0] == "route" and "--name" not in words:
+        words += ["--name", f"docs-{os.getpid()}-{harness.free_port()}"]
+    if words[:2] == ["check", "--convert"] and ">" in words:
+        words = words[:words.index(">")]
     if words[0] in LIVE and "--for" not in words:
         words += ["--for", "300ms"]
     if "--for" in words:
@@ -47,19 +56,31 @@ def runnable(line):
 @pytest.fixture
 def folder(tmp_path):
     shutil.copy(frames.FLIGHT, tmp_path / "flight.tlog")
+    (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
                                        '<field type="uint16_t" name="count">n</field></message></messages></mavlink>')
     for name in ("mavloom.toml", "router.toml"):
-        (tmp_path / name).write_text('[[endpoint]]\nurl = "udpin://127.0.0.1:14550"\n')
+        (tmp_path / name).write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{harness.free_port()}"\n')
     for name in ("key", "key.hex", "keys.hex", "vehicle.key", "my.key"):
         (tmp_path / name).write_text("07" * 32)
         (tmp_path / name).chmod(0o600)
     return tmp_path
 
 
+@pytest.fixture
+def router_name(spawn):
+    name = f"docs-{os.getpid()}-{harness.free_port()}"
+    router = spawn("route", f"udpout://127.0.0.1:{harness.free_port()}?name=tablet", "--name", name)
+    router.wait_output("tablet: up")
+    return name
+
+
 @pytest.mark.parametrize("line", list(page_examples()))
-def test_example_of_a_page(run, folder, line):
-    done = run(*runnable(line), cwd=folder)
+def test_example_of_a_page(run, folder, request, line):
+    words = runnable(line)
+    if words[0] in ASKING:
+        words = [request.getfixturevalue("router_name") if word == "router" else word.replace("=tablet", "=other") for word in words]
+    done = run(*words, cwd=folder)
 
     assert done.status == 0, done
 

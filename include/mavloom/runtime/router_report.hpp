@@ -21,6 +21,9 @@ using Lines = std::vector<std::string>;
 // Prometheus' text exposition format, version 0.0.4.
 [[nodiscard]] std::string report_metrics(Router& router);
 
+// An endpoint as a router takes it: port 0 is refused, because a router's port is known to others.
+[[nodiscard]] SetupResult<Endpoint> parse_router_endpoint(std::string_view text);
+
 // Does what one request line asks for ({"cmd":"links"}, {"cmd":"add","url":"udpout://…"}, {"cmd":"remove","name":"…"}) and gives the answer's
 // lines, the last of which is {"ok":true} or {"ok":false,"error":"…"}.
 [[nodiscard]] Lines answer_request(Router& router, std::string_view request);

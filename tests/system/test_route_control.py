@@ -1,0 +1,803 @@
+# SPDX-License-Identifier: MIT
+"""Around the routing: ctl, stat, metrics, reload, --explain, keys and signatures at the border, recordings, and what bad input gets."""
+import json
+import os
+import re
+import signal
+import socket
+import stat
+import time
+import urllib.error
+import urllib.request
+
+import pytest
+from prometheus_client.parser import text_string_to_metric_families
+
+import frames
+import harness
+import routers
+from frames import mavlink
+from routers import Net, Router, UdpEnd, attitude, command, heartbeat, unknown
+from pymavlink import mavutil  # after frames, which says that it is MAVLink 2
+
+pytestmark = pytest.mark.short
+
+GCS, VEHICLE = (255, 190), (1, 1)
+
+
+@pytest.fixture
+def net(spawn):
+    made = []
+
+    def build(kind, count=2, **options):
+        made.append(Net(spawn, kind, count if isinstance(kind, str) else len(kind), **options))
+        return made[-1]
+    yield build
+    for one in made:
+        one.__exit__()
+
+
+@pytest.fixture
+def ctl(run):
+    def call(router, *args, command="ctl"):
+        return run(command, router.name, *args, env=router.env)
+    return call
+
+
+def lines_of(done):
+    assert done.status == 0, done
+    return [json.loads(line) for line in done.lines]
+
+
+# ---- ctl -------------------------------------------------------------------------------------------------------------
+
+def test_ctl_links_counts_what_came_and_went(net, ctl):
+    sut = net(("udpout", "tcpin"))
+    first, second = attitude(), attitude()
+    assert sut.send(1, first, second) == [[2], [2]]
+    links = {link["endpoint"]: link for link in lines_of(ctl(sut.router, "links"))}
+
+    assert set(links) == {"A", "B"}
+    # Two frames and a mark came on A, one mark on B; and each went out on the other.
+    a, b, mark = links["A"], links["B"], len(heartbeat())
+    assert (a["frames_in"], a["frames_out"], b["frames_in"], b["frames_out"]) == (3, 1, 1, 3)
+    assert a["bytes_in"] == b["bytes_out"] == len(first) + len(second) + mark
+    assert a["forwarded"] == 3 and a["up"] is True and a["kind"] == "link"
+
+
+def test_ctl_routes_are_what_was_heard(net, ctl):
+    sut = net(("udpout", "tcpin"))
+    sut.hears(1, VEHICLE)
+    sut.hears(1, VEHICLE)
+    sut.hears(2, GCS)
+    routes = lines_of(ctl(sut.router, "routes"))
+
+    assert {(r["sys"], r["comp"], r["frames"]) for r in routes} == {(1, 1, 2), (255, 190, 1)}
+    assert next(r["link"] for r in routes if r["sys"] == 1) == "A"
+    assert all(r["kind"] == "route" and 0 <= r["age_s"] < harness.DEFAULT_TIMEOUT_S for r in routes)
+
+
+def test_ctl_stats_has_sources_messages_and_unknown_targets(net, ctl):
+    sut = net(("udpout", "udpout"))
+    mav = frames.sender(7, 1)
+    for sequence in (0, 1, 5):  # three are missing
+        mav.seq = sequence
+        sut[1].send(mavlink.MAVLink_attitude_message(sequence, 0, 0, 0, 0, 0, 0).pack(mav))
+    sut[2].count(3)
+    sut.command(1, VEHICLE, (66, 6))
+    stats = lines_of(ctl(sut.router, "stats"))
+
+    assert {line["kind"] for line in stats} == {"router", "endpoint", "link", "source", "message", "unknown_target"}
+    source = next(s for s in stats if s["kind"] == "source" and s["sys"] == 7)
+    assert (source["frames"], source["lost"], source["link"]) == (3, 3, "A")
+    message = next(m for m in stats if m["kind"] == "message" and m["name"] == "ATTITUDE")
+    assert (message["frames"], message["id"], message["sys"], message["comp"]) == (3, 30, 7, 1)
+    assert [(u["sys"], u["comp"], u["frames"]) for u in stats if u["kind"] == "unknown_target"] == [(66, 6, 1)]
+
+
+def test_ctl_add_and_remove_while_it_runs(net, ctl):
+    sut = net(("udpout", "tcpin"))
+    port, near = UdpEnd(), routers.udp_port()
+    port.target = ("127.0.0.1", near)
+    url = f"udpout://127.0.0.1:{port.port}?bind=127.0.0.1:{near}&name=tablet"
+    assert lines_of(ctl(sut.router, "add", url)) == []
+    frame = attitude()
+    sut[1].send(frame)
+    assert port.until(frame) == []
+    port.send(heartbeat(GCS))
+    sut[1].next()
+    sut[2].count(2)
+    before = sut.link(2)
+    assert lines_of(ctl(sut.router, "remove", "tablet")) == []
+    assert sut.send(1, attitude()) == [2]
+
+    assert port.now() == []
+    assert {link["endpoint"] for link in sut.router.links()} == {"A", "B"}
+    assert (255, 190) not in {route[:2] for route in sut.router.routes()}
+    assert sut.link(2)["frames_in"] == before["frames_in"] + 1  # the others were left alone
+    assert lines_of(ctl(sut.router, "add", url)) == []  # its port is free again
+    port.close()
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (("add", "udpout://0.0.0.0:14550"), "0.0.0.0"),
+    (("add", "udpin://127.0.0.1:0"), "a router's port is known to others; name one"),
+    (("add", "udpout://127.0.0.1:14550?nmae=x"), "did you mean 'name'?"),
+    (("add", "udpout://127.0.0.1:14550?name=A"), "two endpoints are called A"),
+    (("add", "udpout://127.0.0.1:14550?in_block=HARTBEAT"), "did you mean 'HEARTBEAT'?"),
+    (("remove", "C"), "there is no endpoint C"),
+])
+def test_ctl_refuses_with_the_cure(net, ctl, arguments, said):
+    sut = net(("udpout", "tcpin"))
+    done = ctl(sut.router, *arguments)
+
+    assert done.status == 1 and said in done.stderr and len(done.stderr.splitlines()) == 1
+    assert len(sut.router.links()) == 2
+    assert sut.send(1, attitude()) == [2]
+
+
+@pytest.mark.parametrize("arguments", [("jump",), ("add",), ("remove",), ("links", "x"), ()])
+def test_ctl_that_is_used_wrongly(run, arguments):
+    assert run("ctl", "router", *arguments).status == 2
+
+
+@pytest.mark.parametrize("args", [("ctl", "nobody-at-all", "links"), ("stat", "nobody-at-all")])
+def test_nobody_of_that_name(run, args):
+    done = run(*args, env={"XDG_RUNTIME_DIR": routers.runtime_dir()})
+
+    assert done.status == 1 and "no router called 'nobody-at-all' runs here" in done.stderr
+
+
+def test_the_socket_survives_whatever_is_said(net):
+    sut = net(("udpout", "tcpin"))
+    path = control_path(sut.router)
+    assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
+    for said, refused in ((b"garbage\n", True), (b"[1,2]\n", True), (b'{"cmd":7}\n', True), (b'{"cmd":"jump"}\n', True), (b'{"cmd":"add"}\n', True),
+                          (b"\xff\xfe\n", True), (b"x" * 100_000, False), (b'{"cmd":"links"', False), (b"", False)):
+        with socket.socket(socket.AF_UNIX) as client:
+            client.connect(str(path))
+            client.settimeout(harness.DEFAULT_TIMEOUT_S)
+            try:
+                client.sendall(said)
+                client.shutdown(socket.SHUT_WR)
+                answer = b"".join(iter(lambda: client.recv(65536), b""))
+            except (BrokenPipeError, ConnectionResetError):  # it hung up in the middle of too long a line
+                answer = b""
+        if refused:
+            assert json.loads(answer)["ok"] is False and json.loads(answer)["error"]
+        else:
+            assert answer == b""
+    clients = [socket.socket(socket.AF_UNIX) for _ in range(100)]
+    for client in clients:
+        client.settimeout(harness.DEFAULT_TIMEOUT_S)
+        client.connect(str(path))
+    for client in clients:
+        client.close()
+
+    assert sut.send(1, attitude()) == [2]
+    assert len(sut.router.links()) == 2
+
+
+def control_path(router):
+    return next(path for folder in ("/run/mavloom", f"{routers.runtime_dir()}/mavloom") if os.path.exists(path := f"{folder}/{router.name}.ctl"))
+
+
+def test_two_of_one_name(spawn, run):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env, timeout=10)
+
+    assert done.status == 1
+    assert f"{router.name}.ctl is served by a router that runs; --name gives this one another name" in done.stderr
+    assert len(router.ask("links")) == 0
+
+
+def test_without_a_name_a_second_router_does_without_a_socket(spawn):
+    env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
+    first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env) for _ in range(2))
+    for router in (first, second):
+        router.wait_output(r"metrics at port \d+", stream="err")
+
+    # Somebody else's may run here as well: then both do without.
+    assert any("no control socket: " in router.stderr and "--name gives this one another name" in router.stderr for router in (first, second))
+    assert first.alive and second.alive
+
+
+def test_the_socket_goes_with_its_router_and_a_dead_ones_is_taken(spawn):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = control_path(router)
+    router.process.send(signal.SIGKILL)
+    router.process.process.wait()
+    assert os.path.exists(path)
+    again = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env)
+    harness.wait_for(lambda: router._connect_to(path), what="the new router's socket")
+    done = again.stop(signal.SIGTERM)
+
+    assert done.status == 143
+    assert not os.path.exists(path)
+
+
+# ---- stat, metrics ---------------------------------------------------------------------------------------------------
+
+def test_stat_as_text_and_as_json(net, ctl):
+    sut = net(("udpout", "tcpin"))
+    sut.hears(1, VEHICLE)
+    sut.send(1, unknown())
+    sut.command(1, VEHICLE, (66, 6))
+    text = ctl(sut.router, command="stat")
+    lines = lines_of(ctl(sut.router, "--json", command="stat"))
+
+    assert text.status == 0
+    for pattern in (r"^up \d+ s; ", r"^link A$", r"^link B#127.0.0.1:\d+$", r"^  in 6 frames, \d+ bytes; out 3 frames, \d+ bytes$", r"unknown_target 1",
+                    r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$", r"^message HEARTBEAT +1/1 +1 frames +0\.00 Hz  A$", r"^message 70371 ",
+                    r"^not routed: 1 frames for 66/6, which nobody has heard$"):
+        assert re.search(pattern, text.stdout, re.MULTILINE), f"{pattern}\n{text.stdout}"
+
+    def steady(all_lines):
+        return [{key: value for key, value in line.items() if key not in ("uptime_s", "rate_hz")} for line in all_lines]
+    assert steady(lines) == steady(lines_of(ctl(sut.router, "stats")))
+
+
+def fetch(port, path="/metrics", method="GET"):
+    with urllib.request.urlopen(urllib.request.Request(f"http://127.0.0.1:{port}{path}", method=method), timeout=harness.DEFAULT_TIMEOUT_S) as answer:
+        return answer.headers["Content-Type"], answer.read().decode()
+
+
+def metrics_of(text):
+    """{(name, frozenset of labels): value} by Prometheus' own parser."""
+    return {(sample.name, frozenset(sample.labels.items())): sample.value for family in text_string_to_metric_families(text) for sample in family.samples}
+
+
+def test_metrics_are_what_prometheus_reads(net, tmp_path):
+    port, third = routers.tcp_port(), UdpEnd()
+    sut = net(("udpout", "tcpin"), extra=["--metrics", f"127.0.0.1:{port}", f"tlog://{tmp_path}/x.tlog",
+                                          f"udpout://127.0.0.1:{third.port}?name=a%22b%5Cc%20d"])
+    sut.hears(1, VEHICLE)
+    sut.send(1, unknown())
+    sut.command(1, VEHICLE, (66, 6))
+    harness.wait_for(lambda: sut.router.stats("recording")[0]["frames"] == 9, what="the recording")
+    content_type, text = fetch(port)
+    read = metrics_of(text)
+
+    assert content_type.startswith("text/plain; version=0.0.4")
+    expected = {}
+    label_of = {"router": (), "endpoint": ("endpoint",), "link": ("link",), "source": ("link", "sys", "comp"), "recording": ("endpoint",)}
+    for line in sut.router.ask("stats"):
+        if line["kind"] not in label_of:
+            continue
+        labels = frozenset((key, str(line[key])) for key in label_of[line["kind"]])
+        for key, value in line.items():
+            name = f"mavloom_{line['kind']}_{key}_total"
+            if isinstance(value, int) and (name, labels) in read:
+                expected[name, labels] = value
+    assert {key: read[key] for key in expected} == expected
+    assert set(read) - set(expected) == {key for key in read if key[0].startswith("mavloom_message_")}
+    assert read["mavloom_link_frames_in_total", frozenset({("link", "A")})] == 6
+    assert read["mavloom_link_unknown_target_total", frozenset({("link", "A")})] == 1
+    assert ("mavloom_endpoint_send_errors_total", frozenset({("endpoint", 'a"b\\c d')})) in read
+    message = frozenset({("link", "A"), ("sys", "1"), ("comp", "1"), ("message", "HEARTBEAT")})
+    assert read["mavloom_message_frames_total", message] == 1
+    for sent in range(3):  # counters only grow
+        sut.send(1, attitude())
+    again = metrics_of(fetch(port)[1])
+    assert all(again[key] >= value for key, value in read.items())
+    third.close()
+
+
+def test_metrics_answers_what_it_does_not_serve(net):
+    port = routers.tcp_port()
+    sut = net(("udpout",), extra=["--metrics", f"127.0.0.1:{port}"])
+    for path, method, status in (("/", "GET", 404), ("/metrics", "POST", 405)):
+        with pytest.raises(urllib.error.HTTPError) as error:
+            fetch(port, path, method)
+        assert error.value.code == status
+    with socket.create_connection(("127.0.0.1", port)) as client:
+        client.sendall(b"\x00\xffnot http\r\n\r\n")
+        client.settimeout(harness.DEFAULT_TIMEOUT_S)
+        assert client.recv(65536) == b""
+
+    assert fetch(port)[1]
+    assert sut.router.process.alive
+
+
+# ---- reload ----------------------------------------------------------------------------------------------------------
+
+class Reloadable:
+    """A router with a file: `air` is udpin, `base` tcpin, and what a test adds."""
+
+    def __init__(self, spawn, folder, *more, router_table="", arguments=()):
+        self.file = folder / "router.toml"
+        self.air_port, self.base_port = routers.udp_port(), routers.tcp_port()
+        self.write(*more, router_table=router_table)
+        self.router = Router(spawn, "--config", str(self.file), *arguments)
+        self.peer, self.client = UdpEnd(("127.0.0.1", self.air_port)), routers.tcp_client(self.base_port)
+        self.peer.send(heartbeat(VEHICLE))
+        self.client.next()
+
+    def write(self, *more, router_table="", air="idle=60"):
+        urls = [f"udpin://127.0.0.1:{self.air_port}?name=air&{air}", f"tcpin://127.0.0.1:{self.base_port}?name=base", *more]
+        self.file.write_text(router_table + "".join(f"[[endpoint]]\nurl = '{url}'\n" for url in urls))
+
+    def reload(self, says="was read again"):
+        seen = self.router.process.stderr.count(says)
+        self.router.process.send(signal.SIGHUP)
+        harness.wait_for(lambda: self.router.process.stderr.count(says) > seen, what=says)
+
+    def passes(self):
+        """Both ways over the connections that there are."""
+        down, up = attitude(), command(GCS, VEHICLE)
+        self.peer.send(down)
+        self.client.until(down)
+        self.client.send(up)
+        self.peer.until(up)
+
+    def names(self):
+        return sorted(link["link"] for link in self.router.links())
+
+
+@pytest.fixture
+def reloadable(spawn, tmp_path):
+    made = []
+
+    def build(*more, **options):
+        made.append(Reloadable(spawn, tmp_path, *more, **options))
+        return made[-1]
+    yield build
+    for one in made:
+        one.peer.close()
+        one.client.close()
+
+
+def test_reload_leaves_what_did_not_change_alone(reloadable):
+    first, second = routers.udp_port(), routers.udp_port()
+    sut = reloadable(f"udpout://127.0.0.1:{first}?name=copy")
+    sut.passes()
+    before = {link["link"]: link for link in sut.router.links()}
+    routes = sut.router.routes()
+    sut.write(f"udpout://127.0.0.1:{second}?name=copy", f"udpout://127.0.0.1:{first}?name=more")
+    sut.reload()
+    after = {link["link"]: link for link in sut.router.links()}
+
+    kept = {name for name in before if name.startswith(("air#", "base#"))}
+    assert len(kept) == 2 and {name: after[name] for name in kept} == {name: before[name] for name in kept}
+    assert sut.router.routes() == routes
+    sut.passes()
+    assert sut.router.link_of(sut.peer)["frames_in"] == before[next(n for n in kept if n.startswith("air"))]["frames_in"] + 1
+    assert sorted(e["endpoint"] for e in sut.router.stats("endpoint")) == ["air", "base", "copy", "more"]
+    for said in ("copy: removed", "copy: added", "more: added"):
+        assert said in sut.router.process.stderr
+
+
+def test_reload_opens_a_changed_endpoint_anew(reloadable):
+    sut = reloadable()
+    sut.write(air="idle=30")
+    sut.reload()
+    assert not any(name.startswith("air#") for name in sut.names())
+    sut.peer.send(heartbeat(VEHICLE))
+    sut.passes()
+
+    assert sum(name.startswith("base#") for name in sut.names()) == 1
+
+
+@pytest.mark.parametrize("broken, said", [
+    ("[router\n", "router.toml:1: "),
+    ("[router]\ndedup_sm = 1\n", "router.toml:2: [router] has no key 'dedup_sm', did you mean 'dedup_ms'?"),
+    ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?idel=2'\n", "did you mean 'idle'?"),
+    ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?out_block=ATITUDE'\n", "did you mean 'ATTITUDE'?"),
+    (None, "cannot read"),
+])
+def test_a_broken_file_changes_nothing(reloadable, broken, said):
+    sut = reloadable(f"udpout://127.0.0.1:{routers.udp_port()}?name=copy")
+    before = sut.names()
+    if broken is None:
+        sut.file.unlink()
+    else:
+        sut.file.write_text(broken)
+    sut.reload(says="nothing was changed")
+
+    assert said in sut.router.process.stderr
+    assert sut.names() == before
+    sut.passes()
+
+
+def test_reload_leaves_out_what_cannot_be_opened(reloadable):
+    sut = reloadable()
+    taken = socket.create_server(("127.0.0.1", 0))
+    free = routers.udp_port()
+    sut.write(f"tcpin://127.0.0.1:{taken.getsockname()[1]}?name=taken", f"udpout://127.0.0.1:{free}?name=good")
+    sut.reload()
+    assert re.search("left out: taken: .*Address already in use", sut.router.process.stderr)
+    assert [e["endpoint"] for e in sut.router.stats("endpoint")] == ["air", "base", "good"]
+    sut.passes()
+    taken.close()
+    sut.reload()
+
+    assert sorted(e["endpoint"] for e in sut.router.stats("endpoint")) == ["air", "base", "good", "taken"]
+
+
+def test_reload_takes_other_rules_and_keeps_the_connections(reloadable):
+    sut = reloadable()
+    sut.passes()
+    before = sut.names()
+    sut.write(router_table="[router]\nunknown_target = 'flood'\n")
+    sut.reload()
+    lost = command(GCS, (66, 6))
+    sut.client.send(lost)
+    sut.peer.until(lost)
+
+    assert sut.names() == before
+
+
+def test_reload_takes_the_level_of_the_log(reloadable):
+    sut = reloadable()
+    sut.router.process.wait_output(r"air#.*: up", stream="err")
+    sut.write(router_table="[log]\nlevel = 'error'\n")
+    sut.reload()
+    newcomer = UdpEnd(("127.0.0.1", sut.air_port))
+    newcomer.send(heartbeat((3, 3)))
+    harness.wait_for(lambda: len(sut.names()) == 3, what="the newcomer")
+
+    assert f":{newcomer.port}: up" not in sut.router.process.stderr
+    newcomer.close()
+
+
+def test_reload_leaves_the_command_line_and_the_recording_alone(reloadable, tmp_path):
+    log = tmp_path / "x.tlog"
+    sut = reloadable(arguments=(f"udpout://127.0.0.1:{routers.udp_port()}?name=typed",), router_table=f"[record]\npath = '{log}'\n")
+    sut.write(f"udpout://127.0.0.1:{routers.udp_port()}?name=more", router_table=f"[record]\npath = '{log}'\n")
+    sut.reload()
+
+    assert sorted(e["endpoint"] for e in sut.router.stats("endpoint")) == ["air", "base", "more", "typed"]
+    assert "typed: removed" not in sut.router.process.stderr
+    sut.passes()
+    sut.router.process.stop()
+    assert not (tmp_path / "x.tlog.1").exists()
+    assert len(frames.read_tlog(log)) == 3
+
+
+def test_a_hangup_without_a_file_is_noted(spawn):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    router.process.send(signal.SIGHUP)
+
+    router.process.wait_output("SIGHUP: there is no --config to read again", stream="err")
+    assert router.process.alive
+
+
+# ---- explain ---------------------------------------------------------------------------------------------------------
+
+def explained(sut, pattern):
+    return sut.router.process.wait_output(pattern, stream="out")
+
+
+def test_explain_says_for_every_link_why(net):
+    sut = net(("udpout", "udpout", "udpout", "udpout"), options={3: "out_block=ATTITUDE", 4: "tap=true"}, extra=["--explain"])
+    sut[2].send(heartbeat(GCS))
+    sut[1].until(sut[4].next())
+    sut[1].send(attitude(VEHICLE))
+    sut[1].send(command(VEHICLE, GCS))
+    sut[1].send(command(VEHICLE, (66, 6)))
+    sut[1].send(unknown(VEHICLE))
+    explained(sut, r"^id 70371 .*\n(  .*\n){4}")
+    text = sut.router.process.stdout
+
+    def block(head):
+        found = re.search(rf"^{head}\n((?:  .*\n)+)", text, re.MULTILINE)
+        assert found, f"{head}\n{text}"
+        return [line.strip() for line in found[1].splitlines()]
+    assert block(r"ATTITUDE 1/1 seq \d+ from A: forwarded") == [
+        "x A: it came from this link", "-> B: sent", "x C: filtered on the way out", "-> D: sent, a tap gets everything"]
+    assert block(r"COMMAND_LONG 1/1 seq \d+ from A: forwarded") == [
+        "x A: it came from this link", "-> B: sent", "x C: its target was not heard on this link", "-> D: sent, a tap gets everything"]
+    assert block(r"COMMAND_LONG 1/1 seq \d+ from A: unknown_target")[1:] == [
+        "x B: the frame goes to no link", "x C: the frame goes to no link", "-> D: sent, a tap gets everything"]
+    assert block(r"id 70371 1/1 seq \d+ from A: forwarded")[1:3] == ["-> B: sent", "-> C: sent"]
+
+
+@pytest.mark.parametrize("named", ["COMMAND_LONG", "76"])
+def test_explain_of_one_message(net, named):
+    sut = net(("udpout", "udpout"), extra=["--explain", named])
+    sut.hears(2, GCS)
+    sut.command(1, VEHICLE, GCS)
+    explained(sut, r"^COMMAND_LONG 1/1 .*\n(  .*\n){2}")
+
+    assert len(re.findall("^[A-Z]", sut.router.process.stdout, re.MULTILINE)) == 1
+
+
+# ---- keys and signatures ---------------------------------------------------------------------------------------------
+
+def test_key_new_writes_a_key_that_nobody_else_reads(run, tmp_path):
+    first, second = tmp_path / "a.key", tmp_path / "b.key"
+    old = os.umask(0)
+    try:
+        assert run("key", "new", first).status == 0
+    finally:
+        os.umask(old)
+    assert run("key", "new", second).status == 0
+
+    assert stat.S_IMODE(first.stat().st_mode) == stat.S_IMODE(second.stat().st_mode) == 0o600
+    assert len(bytes.fromhex(first.read_text())) == 32
+    assert first.read_text() != second.read_text()
+
+
+def test_key_new_never_replaces(run, tmp_path):
+    key = tmp_path / "a.key"
+    run("key", "new", key)
+    before = key.read_text()
+    done = run("key", "new", key)
+
+    assert done.status == 1 and "a.key" in done.stderr and len(done.stderr.splitlines()) == 1
+    assert key.read_text() == before
+
+
+def new_key(run, path):
+    assert run("key", "new", path).status == 0
+    return bytes.fromhex(path.read_text())
+
+
+def verifier(key):
+    """pymavlink, taking only what is signed with this key."""
+    mav = mavlink.MAVLink(None)
+    mav.signing.secret_key = key
+    mav.signing.sign_outgoing = True
+    mav.signing.allow_unsigned_callback = None
+    return mav
+
+
+def ticks_now():
+    """10 us since 2015."""
+    return int((time.time() - 1420070400) * 100_000)
+
+
+def unsigned_part(frame):
+    """What signing must not change: everything but the flag, the checksum and the signature."""
+    return frame[:2] + bytes([frame[2] & ~1]) + frame[3:10 + frame[1]]
+
+
+def test_signatures_at_the_border(net, run, tmp_path):
+    inner, outer = new_key(run, tmp_path / "inner.key"), new_key(run, tmp_path / "outer.key")
+    sut = net(("udpout", "udpout", "udpout", "udpout"),
+              options={1: f"verify={tmp_path}/inner.key", 2: f"sign={tmp_path}/outer.key", 4: f"verify={tmp_path}/inner.key&sign={tmp_path}/inner.key"})
+    sent = [attitude(VEHICLE, signing=(inner, 1, ticks_now() + i)) for i in range(3)]
+    for frame in sent:
+        sut[1].send(frame)
+
+    # Signed anew on B and D, untouched on C.
+    assert sut[3].count(3) == sent
+    for end, key in ((2, outer), (4, inner)):
+        got, mav = sut[end].count(3), verifier(key)
+        assert [unsigned_part(frame) for frame in got] == [unsigned_part(frame) for frame in sent]
+        assert all(frame[2] == 1 and frame not in sent for frame in got)
+        decoded = [mav.decode(bytearray(frame)) for frame in got]
+        assert [m.time_boot_ms for m in decoded] == [mavlink.MAVLink(None).decode(bytearray(f)).time_boot_ms for f in sent]
+    with pytest.raises(mavlink.MAVError):
+        verifier(inner).decode(bytearray(sut_frame(sut, 1, attitude(VEHICLE, signing=(inner, 1, ticks_now() + 10)), 2)))
+
+    # Not signed, wrongly signed, an old signature again, MAVLink 1: not taken.
+    for refused in (attitude(VEHICLE), attitude(VEHICLE, signing=(outer, 1, ticks_now() + 100)), sent[2], attitude(VEHICLE, version=1)):
+        sut[1].send(refused)
+    last = attitude(VEHICLE, signing=(inner, 1, ticks_now() + 200))
+    sut[1].send(last)
+    assert sut[3].until(last) == [sut.last]
+    assert sut.link(1)["bad_signature"] == 4
+
+
+def sut_frame(sut, start, frame, end):
+    sut.last = frame
+    sut[start].send(frame)
+    return sut[end].next()
+
+
+def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
+    key = new_key(run, tmp_path / "link.key")
+    sut = net(("udpout", "udpout", "udpout"), options={1: f"verify={tmp_path}/link.key", 2: f"sign={tmp_path}/link.key"})
+    foreign = [attitude((5, 5)), attitude((5, 5), version=1), attitude((5, 5), signing=(key, 9, ticks_now())), unknown((5, 5))]
+    for frame in foreign:
+        sut[3].send(frame)
+
+    assert sut[2].count(4) == foreign  # byte for byte: even a right signature from a link that is not verified
+    assert sut.router.stats("router")[0]["not_signed"] == 4
+    own = attitude(VEHICLE, signing=(key, 1, ticks_now()))
+    sut[1].send(own)
+    signed = sut[2].next()
+    assert signed != own and verifier(key).decode(bytearray(signed)).get_type() == "ATTITUDE"
+    assert sut.router.stats("router")[0]["not_signed"] == 4
+
+
+def test_the_own_heartbeat_is_signed(net, run, tmp_path):
+    key = new_key(run, tmp_path / "link.key")
+    sut = net(("udpout", "udpout"), options={1: f"sign={tmp_path}/link.key"}, rules={"heartbeat": "7/191"})
+    beats, mav = sut[1].count(3), verifier(key)
+
+    assert [mav.decode(bytearray(frame)).get_srcSystem() for frame in beats] == [7, 7, 7]
+    assert all(frame[2] == 0 for frame in sut[2].count(3))
+
+
+def test_a_pymavlink_station_with_signing_through_the_border(spawn, run, tmp_path):
+    key, port = new_key(run, tmp_path / "link.key"), routers.tcp_port()
+    vehicle, near = UdpEnd(), routers.udp_port()
+    vehicle.target = ("127.0.0.1", near)
+    # Trusted inside, signed outside: what comes from the vehicle's own link counts as verified only with verify=; so it signs, too.
+    router = Router(spawn, f"tcpin://127.0.0.1:{port}?verify={tmp_path}/link.key&sign={tmp_path}/link.key",
+                    f"udpout://127.0.0.1:{vehicle.port}?bind=127.0.0.1:{near}&verify={tmp_path}/link.key&sign={tmp_path}/link.key")
+    station = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190)
+    station.setup_signing(key, sign_outgoing=True)
+    router.wait_links(2)
+    station.mav.heartbeat_send(6, 8, 0, 0, 3)
+    beat = verifier(key).decode(bytearray(vehicle.next()))
+    vehicle.send(attitude(VEHICLE, signing=(key, 1, ticks_now())))
+    got = station.recv_match(type="ATTITUDE", blocking=True, timeout=harness.DEFAULT_TIMEOUT_S)
+
+    assert (beat.get_type(), beat.get_srcSystem(), beat.get_srcComponent()) == ("HEARTBEAT", 255, 190)
+    assert got is not None and got.get_signed()
+    station.close()
+    vehicle.close()
+
+
+# ---- recordings ------------------------------------------------------------------------------------------------------
+
+def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
+    log = tmp_path / "flight.tlog"
+    sut = net(("udpout", "tcpin", "udpout"), options={3: "in_block=ATTITUDE"}, extra=[f"tlog://{log}"])
+    begin = time.time()
+    sent = [heartbeat(GCS), command(VEHICLE, GCS), command(VEHICLE, (66, 6)), attitude(VEHICLE), unknown(VEHICLE), attitude((9, 9), version=1)]
+    sut[2].send(sent[0])
+    sut[1].until(sent[0])
+    for frame in sent[1:5]:
+        sut[1].send(frame)
+        sut.router.wait_counter(sut[1], "frames_in", sent.index(frame))
+    sut[3].send(sent[5])  # filtered on the way in, and recorded all the same
+    sut.router.wait_counter(sut[3], "filtered", 1)
+    damaged = bytearray(attitude())
+    damaged[15] ^= 1
+    sut[1].send(bytes(damaged))
+    sut.router.wait_counter(sut[1], "crc_error", 1)
+    # What is there can be read while it goes on.
+    harness.wait_for(lambda: log.stat().st_size == sum(8 + len(frame) for frame in sent), what="the records")
+    recording = sut.router.stats("recording")[0]
+    sut.router.process.stop()
+    end = time.time()
+
+    assert (recording["frames"], recording["bytes"], recording["queue_full"], recording["write_error"]) == (6, sum(map(len, sent)), 0, 0)
+    records = frames.read_tlog(log)
+    assert [frame for _, frame in records] == sent
+    assert all(begin - 0.001 <= time_us / 1e6 <= end + 0.001 for time_us, _ in records)
+    reader = mavutil.mavlink_connection(str(log))
+    read = []
+    while (message := reader.recv_msg()) is not None:
+        read.append((message.get_type(), message.get_srcSystem(), getattr(message, "target_system", None)))
+    assert read == [("HEARTBEAT", 255, None), ("COMMAND_LONG", 1, 255), ("COMMAND_LONG", 1, 66), ("ATTITUDE", 1, None), ("UNKNOWN_70371", 0, None),
+                    ("ATTITUDE", 9, None)]
+
+
+def test_a_recording_is_no_link(net, tmp_path):
+    sut = net(("udpout", "tcpin"), extra=[f"tlog://{tmp_path}/x.tlog"])
+
+    assert [e["endpoint"] for e in sut.router.stats("endpoint")] == ["A", "B"]
+    assert sut.send(1, attitude()) == [2]
+
+
+def test_an_old_recording_is_kept(spawn, tmp_path):
+    log = tmp_path / "x.tlog"
+    log.write_bytes(b"precious")
+    Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", f"tlog://{log}").process.stop()
+
+    assert (tmp_path / "x.tlog.1").read_bytes() == b"precious"
+    assert log.read_bytes() == b""
+
+
+def test_recordings_come_and_go_while_it_runs(net, ctl, tmp_path):
+    sut = net(("udpout", "tcpin"))
+    log, frame = tmp_path / "x.tlog", attitude()
+    assert ctl(sut.router, "add", f"tlog://{log}?name=log").status == 0
+    sut.send(1, frame)
+    assert ctl(sut.router, "remove", "log").status == 0
+    sut.send(1, attitude())
+
+    assert [recorded for _, recorded in frames.read_tlog(log)][0] == frame
+    assert len(frames.read_tlog(log)) == 3  # and the two marks
+    assert sut.router.stats("recording") == []
+
+
+# ---- bad input and what it gets --------------------------------------------------------------------------------------
+
+IN = "udpin://127.0.0.1:{free}"
+BAD_ARGUMENTS = [
+    ("no endpoint", [], 2, "name endpoints or a --config"),
+    ("no scheme", ["127.0.0.1:14550"], 2, "type udpout://127.0.0.1:14550 to send, udpin://127.0.0.1:14550 to listen"),
+    ("udp://", ["udp://:14540"], 2, "udpin://"),
+    ("sends to all", ["udpout://0.0.0.0:14550"], 2, "0.0.0.0"),
+    ("unknown option of an endpoint", [IN + "?idel=2"], 2, "did you mean 'idle'?"),
+    ("an option that the scheme has not", [IN + "?baud=9600"], 2, "baud"),
+    ("an option given twice", [IN + "?idle=1&idle=2"], 2, "idle"),
+    ("a value that is none", [IN + "?idle=soon"], 2, "soon"),
+    ("unknown message in a filter", [IN + "?in_block=ATITUDE"], 2, "did you mean 'ATTITUDE'?"),
+    ("two of one name", [IN, IN], 2, "name= tells them apart"),
+    ("port 0", ["udpin://127.0.0.1:0"], 2, "name one"),
+    ("unknown option", [IN, "--fro", "1s"], 2, "did you mean '--for'?"),
+    ("a bad time", [IN, "--for", "soon"], 2, "2s, 500ms, 1m or 1h"),
+    ("a bad name", [IN, "--name", "a b"], 2, "1 to 64 of A-Z a-z 0-9 _ -"),
+    ("metrics without host", [IN, "--metrics", "9090"], 2, "HOST:PORT, as in 127.0.0.1:9090"),
+    ("metrics at a name", [IN, "--metrics", "localhost:9090"], 2, "in numbers"),
+    ("explains an unknown message", [IN, "--explain", "ATITUDE"], 2, "ATITUDE"),
+    ("--explain before the endpoint", ["--explain", IN], 2, "put it behind the endpoints"),
+    ("no serial port", ["serial:///dev/null"], 2, "/dev/null is no serial port"),
+    ("no key", [IN + "?verify={folder}/none.key"], 3, "none.key: No such file or directory"),
+    ("a key that is none", [IN + "?sign={folder}/bad.key"], 3, "64 hexadecimal digits"),
+    ("a key that others read", [IN + "?sign={folder}/open.key"], 3, "chmod 600"),
+    ("no such file", ["--config", "{folder}/none.toml"], 3, "none.toml: No such file or directory"),
+    ("UDP port in use", ["udpin://127.0.0.1:{udp}"], 1, "Address already in use"),
+    ("TCP port in use", ["tcpin://127.0.0.1:{tcp}"], 1, "Address already in use"),
+    ("metrics port in use", [IN, "--metrics", "127.0.0.1:{tcp}"], 1, "Address already in use"),
+    ("required device missing", ["serial:///dev/no-such-port?required=true"], 1, "No such file or directory"),
+    ("no folder for a recording", [IN, "tlog://{folder}/none/x.tlog"], 1, "No such file or directory"),
+    ("a ring", ["shm://ring"], 2, "shm://"),
+]
+BAD_FILES = [
+    ("no TOML", "[router\n", "bad.toml:1: "),
+    ("unknown key", "[router]\ndedup_sm = 5\n", "bad.toml:2: [router] has no key 'dedup_sm', did you mean 'dedup_ms'?"),
+    ("unknown section", "[ruoter]\n", "bad.toml:1: "),
+    ("a value that is none", "[router]\ndedup_ms = 'much'\n", "bad.toml:2: "),
+    ("unknown option in a URL", "\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?idel=2'\n", "bad.toml:3: "),
+    ("unknown key of an endpoint", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\nidel = 2\n", "bad.toml:3: "),
+    ("an endpoint without place", "[[endpoint]]\nname = 'x'\n", "bad.toml:1: "),
+    ("unknown message", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\nin_block = ['ATITUDE']\n", "did you mean 'ATTITUDE'?"),
+    ("two of one name", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n", "bad.toml:3: "),
+    ("port 0", "[[endpoint]]\nurl = 'udpin://127.0.0.1:0'\n", "port 0"),
+]
+
+
+@pytest.mark.parametrize("arguments, status, said", [case[1:] for case in BAD_ARGUMENTS], ids=[case[0] for case in BAD_ARGUMENTS])
+def test_bad_arguments(run, tmp_path, arguments, status, said):
+    (tmp_path / "bad.key").write_text("no key\n")
+    (tmp_path / "bad.key").chmod(0o600)
+    (tmp_path / "open.key").write_text("00" * 32)
+    (tmp_path / "open.key").chmod(0o644)
+    udp, tcp = harness.udp_socket(), socket.create_server(("127.0.0.1", 0))
+    with udp, tcp:
+        values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1], "folder": tmp_path}
+        done = run("route", *(argument.format(**values) for argument in arguments), env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, timeout=10)
+
+    assert done.status == status and said in done.stderr, done
+    complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]
+    assert len(complaints) == 1 and complaints[0].startswith("mavloom: "), done
+    assert done.stdout == ""
+
+
+@pytest.mark.parametrize("text, said", [case[1:] for case in BAD_FILES], ids=[case[0] for case in BAD_FILES])
+def test_bad_files(run, tmp_path, text, said):
+    file = tmp_path / "bad.toml"
+    file.write_text(text)
+    done = run("route", "--config", file, timeout=10)
+
+    assert done.status == 3 and said in done.stderr and len(done.stderr.splitlines()) == 1, done
+
+
+def test_a_bad_variable(run):
+    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", env={"MAVLOOM_ROUTER_DEDUP": "5"}, timeout=10)
+
+    assert done.status == 3 and "did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?" in done.stderr
+
+
+@pytest.mark.parametrize("url", ["udpout://no-such-host.invalid:14550", "tcpout://no-such-host.invalid:5760", "serial:///dev/no-such-port"])
+def test_what_may_come_later_is_awaited(spawn, url):
+    router = Router(spawn, url, f"udpin://127.0.0.1:{routers.udp_port()}")
+
+    router.process.wait_output("trying again", stream="err")
+    assert router.process.alive
+
+
+def test_garbage_from_strangers_harms_no_link(net, rng):
+    sut = net(("udpin", "udpout"))
+    strangers = [UdpEnd(sut[1].target) for _ in range(5)]
+    for number in range(200):
+        for stranger in strangers:
+            stranger.send(rng.randbytes(rng.randrange(1, 600)))
+        if number % 20 == 0:
+            assert sut.send(1, attitude()) == [2]
+            assert sut.send(2, attitude(GCS)) == [1]
+    counters = sut.router.stats("endpoint")[0]
+
+    assert len(sut.router.links()) == 2
+    assert counters["stray_bytes"] > 0
+    assert all(stranger.now() == [] for stranger in strangers)
+    for stranger in strangers:
+        stranger.close()
