@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "command.hpp"
@@ -9,6 +10,7 @@
 #include "mavloom/runtime/control.hpp"
 #include "mavloom/runtime/router.hpp"
 #include "mavloom/runtime/router_report.hpp"
+#include "mavloom/runtime/service_manager.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 
@@ -134,11 +136,18 @@ public:
         const auto end = options_.duration.empty() ? MonoTime::max()
                                                    : mono_now() + *runtime::parse_duration(options_.duration);
         auto state = Output::State::open;
+        manager_.ready();
         while (!Signals::received() && mono_now() < end && state == Output::State::open) {
-            router_.turn(end);
+            router_.turn(std::min(end, manager_.watchdog_due()));
+            manager_.feed(mono_now());
             if (explain) state = explain->flush();
-            if (Signals::take_hangup()) reload();
+            if (Signals::take_hangup()) {
+                manager_.reloading();
+                reload();
+                manager_.ready();
+            }
         }
+        manager_.stopping();
         router_.finish(longest_flush);
         return Signals::status(state == Output::State::failed ? Exit::failed : Exit::done);
     }
@@ -162,6 +171,7 @@ private:
     runtime::Router& router_;
     Plan plan_;
     runtime::LogLevel& log_level_;  // of what the router tells
+    runtime::ServiceManager manager_ = runtime::ServiceManager::from_environment();
 };
 
 // Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.

@@ -90,8 +90,10 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
         }
     }
     const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
-    auto signature = Signature::load(endpoint.options, id);
+    std::vector<std::string> notices;
+    auto signature = Signature::load(endpoint.options, id, impl_->core.key_states(), notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
+    for (auto& text : notices) impl_->core.notice(id, std::move(text));
     auto opened = open({impl_->core, endpoint, id, std::move(*signature)});
     if (!opened) return tl::unexpected(std::move(opened).error());
     impl_->endpoints.push_back(std::move(*opened));

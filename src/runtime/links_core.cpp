@@ -65,6 +65,7 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     if (loop_->dispatch(now_)) collect_answers();
     run_tickers();
     expire_blocked();
+    if (now_ >= key_states_.due()) save_signing_times();
     flush();
     graveyard_.clear();
     handler_ = nullptr;
@@ -76,7 +77,13 @@ MonoTime Core::wait_limit(MonoTime deadline) const {
         if (const auto due = ticker->tick_due()) deadline = std::min(deadline, *due);
     }
     if (!outlets_.empty()) deadline = std::min(deadline, now_ + expire_interval);
-    return deadline;
+    return std::min(deadline, key_states_.due());
+}
+
+void Core::save_signing_times() {
+    std::vector<std::string> notices;
+    key_states_.save(now_, notices);
+    for (const auto& text : notices) handler_->on_notice({}, text);
 }
 
 void Core::run_tickers() {

@@ -22,6 +22,7 @@
 #include "mavloom/wire/sequence.hpp"
 #include "mavloom/wire/signing.hpp"
 #include "runtime/links_message_class.hpp"
+#include "runtime/links_signature_state.hpp"
 
 namespace mavloom::runtime::detail {
 
@@ -63,9 +64,17 @@ struct Link {
 // sign= and verify= of one endpoint.
 class Signature {
 public:
+    // The times of an earlier run come from `states`, which outlives the object; `notices` gets what is to be said of them.
     [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options,
-                                                                      EndpointId endpoint);
+                                                                      EndpointId endpoint, KeyStates& states,
+                                                                      std::vector<std::string>& notices);
+    explicit Signature(KeyStates& states) : states_(states) { states_.add(*this); }
+    Signature(const Signature&) = delete;
+    Signature& operator=(const Signature&) = delete;
+    ~Signature();
 
+    // Notes in the keys' files the times that were used so far.
+    void keep_times() const;
     [[nodiscard]] bool verifies() const noexcept { return verifier_.has_value(); }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
@@ -79,6 +88,8 @@ public:
                                        WallTime now) noexcept;
 
 private:
+    KeyStates& states_;
+    std::shared_ptr<KeyFile> verify_file_, sign_file_;
     std::optional<wire::Verifier> verifier_;
     std::optional<wire::Signer> signer_;
     const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
@@ -157,6 +168,7 @@ public:
     [[nodiscard]] net::SendBatch& send_batch() noexcept { return send_; }
     [[nodiscard]] ByteSpan stream_buffer() noexcept { return stream_; }
     [[nodiscard]] net::Resolver& resolver() noexcept { return resolver_; }
+    [[nodiscard]] KeyStates& key_states() noexcept { return key_states_; }
     [[nodiscard]] const LinkTable& links() const noexcept { return links_; }
     // The instant of this turn.
     [[nodiscard]] MonoTime now() const noexcept { return now_; }
@@ -223,6 +235,7 @@ private:
     [[nodiscard]] MonoTime wait_limit(MonoTime deadline) const;
     void run_tickers();
     void collect_answers();
+    void save_signing_times();
     [[nodiscard]] bool name_taken(const std::string& name) const;
 
     const wire::MessageTable& table_;
@@ -240,6 +253,7 @@ private:
     std::vector<Ticker*> tickers_;
     std::vector<std::pair<std::uint64_t, OpenEndpoint*>> questions_;
     std::vector<std::pair<EndpointId, std::string>> notices_;
+    KeyStates key_states_;
     std::vector<LinkId> to_tell_up_;
     std::vector<std::unique_ptr<Link>> graveyard_;
 };

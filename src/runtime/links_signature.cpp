@@ -7,20 +7,39 @@
 
 namespace mavloom::runtime::detail {
 
-SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& options, EndpointId endpoint) {
+SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& options, EndpointId endpoint,
+                                                        KeyStates& states, std::vector<std::string>& notices) {
     if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
-    auto signature = std::make_unique<Signature>();
+    auto signature = std::make_unique<Signature>(states);
     if (!options.verify_key_file.empty()) {
         auto key = wire::SigningKey::load(options.verify_key_file);
         if (!key) return tl::unexpected(std::move(key).error());
+        signature->verify_file_ = states.open(options.verify_key_file, notices);
         signature->verifier_.emplace(*key);
+        for (const auto& stream : signature->verify_file_->state.heard) signature->verifier_->restore(stream);
     }
     if (!options.sign_key_file.empty()) {
         auto key = wire::SigningKey::load(options.sign_key_file);
         if (!key) return tl::unexpected(std::move(key).error());
-        signature->signer_.emplace(*key, static_cast<std::uint8_t>(endpoint.value));
+        signature->sign_file_ = states.open(options.sign_key_file, notices);
+        KeyStates::begin_signing(*signature->sign_file_);
+        signature->signer_.emplace(*key, static_cast<std::uint8_t>(endpoint.value),
+                                   signature->sign_file_->state.last_signed);
     }
     return signature;
+}
+
+Signature::~Signature() {
+    keep_times();
+    states_.remove(*this);
+}
+
+void Signature::keep_times() const {
+    if (verifier_ && verify_file_->state.merge_heard(verifier_->streams())) verify_file_->changed = true;
+    if (signer_ && signer_->last() > sign_file_->state.last_signed) {
+        sign_file_->state.last_signed = signer_->last();
+        sign_file_->changed = true;
+    }
 }
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {

@@ -97,6 +97,18 @@ Verifier::Verifier(const SigningKey& key, SigningTime newest) : key_(key), newes
     streams_.reserve(max_streams);
 }
 
+void Verifier::restore(const Stream& stream) noexcept {
+    const auto it = std::ranges::lower_bound(streams_, stream.key, {}, &Stream::key);
+    if (it != streams_.end() && it->key == stream.key) {
+        it->last = std::max(it->last, stream.last);
+    } else if (streams_.size() < max_streams) {
+        streams_.insert(it, stream);
+    } else {
+        return;
+    }
+    newest_ = std::max(newest_, stream.last);
+}
+
 Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noexcept {
     if (!frame.is_signed()) return Verdict::unsigned_frame;
     const auto signature = frame.signature();

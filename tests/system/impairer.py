@@ -34,7 +34,7 @@ class Direction:
     def __init__(self, profile, seed):
         self.profile, self._random, self._last = profile, random.Random(seed), 0.0
         self.delivered, self.lost, self.cut = [], [], []  # datagrams; `cut`: they were under way, or came, when the link was dead
-        self.reordered = self.duplicated = 0
+        self.taken = self.reordered = self.duplicated = 0
 
     def times(self, now):
         """When copies of the next datagram come out; none: it is lost."""
@@ -130,6 +130,12 @@ class UdpImpairer(Impairer):
         with self._lock:
             self._alive = True
 
+    @property
+    def idle(self) -> bool:
+        """All that was taken has met its fate."""
+        with self._lock:
+            return not self._due
+
     def _from_caller(self):
         self._take(self._near, self.forth, self._far)
 
@@ -143,6 +149,7 @@ class UdpImpairer(Impairer):
                 continue
             if sock is self._near:
                 self._caller = source
+            direction.taken += 1
             times = direction.times(time.monotonic())
             if not times:
                 direction.lost.append(datagram)

@@ -99,7 +99,7 @@ def test_examples_of_help(run, folder, command):
 @pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"), ("bench", "parse"), ("bench", "decode")])
 def test_examples_of_the_help_of_a_part(run, folder, command, part):
     text = run(command, part, "--help").stdout
-    examples = re.findall(r"(mavloom %s %s(?: [^-[].*)?)$" % (command, part), text, re.MULTILINE)
+    examples = re.findall(r"(mavloom %s %s(?: [^[].*)?)$" % (command, part), text, re.MULTILINE)
 
     assert examples, text
     for line in examples:

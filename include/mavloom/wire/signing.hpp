@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <ratio>
+#include <span>
 #include <vector>
 
 #include "mavloom/base/clock.hpp"
@@ -90,6 +91,12 @@ public:
         too_many_streams,  // the table is full; nothing was changed
     };
 
+    // One sender that was heard, and the last time that was taken from it.
+    struct Stream {
+        std::uint32_t key;  // link id, system, component: 8 bits each, from the top
+        SigningTime last;
+    };
+
     // `newest` is the last time known from an earlier run.
     explicit Verifier(const SigningKey& key, SigningTime newest = {});
 
@@ -98,12 +105,12 @@ public:
 
     [[nodiscard]] SigningTime newest() const noexcept { return newest_; }
 
-private:
-    struct Stream {
-        std::uint32_t key;  // link id, system, component
-        SigningTime last;
-    };
+    // To be stored, so that what was taken before a restart is a replay after it. Sorted by key.
+    [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }
+    // A stream of an earlier run. Never goes back; a stream too many is left out.
+    void restore(const Stream& stream) noexcept;
 
+private:
     SigningKey key_;
     std::vector<Stream> streams_;  // sorted by key
     SigningTime newest_;

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -55,6 +56,31 @@ TEST(SigningTime, CountsTicksOfTenMicrosecondsSince2015) {
     EXPECT_EQ(SigningTime::from(wall_from_us(1420070400'000010)).ticks, 1u);
     EXPECT_EQ(SigningTime::from(wall_from_us(1420070401'000000)).ticks, 100'000u);
     EXPECT_EQ(SigningTime::from(wall_from_us(0)).ticks, 0u);
+}
+
+TEST(Verifier, WhatAnEarlierRunTookIsAReplay) {
+    Sender sender;
+    Verifier before(sender.key);
+    ASSERT_EQ(before.verify(sender.at(noon), noon), Verdict::good);
+
+    Verifier after(sender.key);
+    for (const auto& stream : before.streams()) after.restore(stream);
+
+    EXPECT_EQ(after.verify(sender.at(noon), noon), Verdict::replay);
+    EXPECT_EQ(after.verify(sender.at({noon.ticks + 1}), noon), Verdict::good);
+    EXPECT_EQ(after.newest().ticks, noon.ticks + 1);
+}
+
+TEST(Verifier, RestoringNeverGoesBackAndHasABound) {
+    Sender sender;
+    Verifier verifier(sender.key);
+    verifier.restore({0x010101, {noon.ticks + 5}});
+    verifier.restore({0x010101, noon});
+    EXPECT_EQ(verifier.newest().ticks, noon.ticks + 5);
+    for (std::uint32_t key = 0; key < 2 * Verifier::max_streams; ++key) verifier.restore({key, {1}});
+
+    EXPECT_EQ(verifier.streams().size(), Verifier::max_streams);
+    EXPECT_TRUE(std::ranges::is_sorted(verifier.streams(), {}, &Verifier::Stream::key));
 }
 
 TEST(Verifier, AcceptsPymavlinksSignature) {

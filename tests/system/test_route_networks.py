@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: MIT
+"""mavloom route over bad networks: redundant links of every group mode through a seeded impairer, TCP in pieces, lossy and narrow cables."""
+import contextlib
+import dataclasses
+import shutil
+import socket
+import subprocess
+import time
+
+import pytest
+
+import frames
+import harness
+import netns
+import routers
+from impairer import Profile, TcpImpairer, UdpImpairer
+from routers import Router, TcpEnd, UdpEnd
+
+LOCALHOST = "127.0.0.1"
+BAD = Profile(delay=0.005, jitter=0.01, loss=0.2, reorder=0.1)
+DOUBLING = dataclasses.replace(BAD, duplicate=0.05)
+LATE = Profile(delay=0.005, jitter=0.005)
+GROUND_STATION, VEHICLE = (255, 190), (1, 1)
+ATTITUDE = 30
+
+
+class CountingEnd(UdpEnd):
+    sent = 0
+
+    def send(self, data):
+        self.sent += 1
+        super().send(data)
+
+
+# ---- redundant links -------------------------------------------------------------------------------------------------
+
+class Sky:
+    """vehicle - router == two impaired UDP links == router - station."""
+
+    def __init__(self, spawn, rng, mode, profiles, rules=None):
+        self.vehicle = CountingEnd((LOCALHOST, routers.udp_port()))
+        self.station = CountingEnd(label="station")
+        ports = [routers.udp_port() for _ in range(2)]
+        self.links = [UdpImpairer((LOCALHOST, port), rng, profile) for port, profile in zip(ports, profiles)]
+        common = f"group=sky&group_mode={mode}&mtu=0"  # one frame a datagram: the impairer's losses are the links'
+        self.air = Router(spawn, f"udpin://{LOCALHOST}:{self.vehicle.target[1]}",
+                          *(f"udpout://{LOCALHOST}:{link.port}?name=a{i}&{common}" for i, link in enumerate(self.links)), rules=rules)
+        self.ground = Router(spawn, *(f"udpin://{LOCALHOST}:{port}?name=g{i}&{common}" for i, port in enumerate(ports)),
+                             f"udpout://{LOCALHOST}:{self.station.port}?name=station", rules=rules)
+
+    def __enter__(self):
+        for link in self.links:
+            link.__enter__()
+        return self
+
+    def __exit__(self, *_):
+        for link in self.links:
+            link.__exit__()
+        self.vehicle.close()
+        self.station.close()
+
+    def join(self):
+        """Both sides hear each other on both links."""
+        def heard():
+            self.vehicle.send(routers.heartbeat(VEHICLE))
+            if self.station.target is None:
+                self.station.target = self.station.sock.recvfrom(65536)[1]
+            self.station.send(routers.heartbeat(GROUND_STATION))
+            return all(len([link for link in router.links() if link["endpoint"][0] == letter and link["frames_in"]]) == 2
+                       for router, letter in ((self.air, "a"), (self.ground, "g")))
+        harness.wait_for(heard, what="both links")
+        self.settle()
+        self.station.now()
+        self.vehicle.now()
+
+    def settle(self):
+        """Nothing is under way any more."""
+        harness.wait_for(self.is_settled, what="all to have arrived")
+
+    def is_settled(self):
+        air, ground = self.totals(self.air), self.totals(self.ground)
+        if air[""]["frames_in"] != self.vehicle.sent or ground["station"]["frames_in"] != self.station.sent:
+            return False
+        return all(link.idle and air[f"a{i}"]["frames_out"] == link.forth.taken and ground[f"g{i}"]["frames_out"] == link.back.taken and
+                   ground[f"g{i}"]["frames_in"] == len(link.forth.delivered) and air[f"a{i}"]["frames_in"] == len(link.back.delivered)
+                   for i, link in enumerate(self.links))
+
+    @staticmethod
+    def totals(router):
+        """Frames in and out by endpoint; "": the one without a name."""
+        sums = {}
+        for link in router.ask("links"):
+            name = "" if "//" in link["endpoint"] else link["endpoint"]
+            sums[name] = {key: sums.get(name, {}).get(key, 0) + link[key] for key in ("frames_in", "frames_out")}
+        return sums
+
+    def carried(self, number, since=0):
+        """Telemetry that link `number` delivered."""
+        return [frame for frame in self.links[number].forth.delivered[since:] if frame[7] == ATTITUDE]
+
+
+# A link that brings the same bytes again has a sender who repeats himself, unless `dedup_ms` says otherwise (docs/guide/routing.md).
+@pytest.mark.parametrize("profile, rules", [(BAD, None), (DOUBLING, {"dedup_ms": 1500})], ids=["losing", "doubling"])
+def test_of_two_bad_links_each_frame_comes_once(spawn, rng, profile, rules):
+    with Sky(spawn, rng, "all", [profile, profile], rules) as sky:
+        sky.join()
+        for sender, receiver, way, sent in (
+                (sky.vehicle, sky.station, "forth", [routers.attitude(VEHICLE) for _ in range(1500)]),
+                (sky.station, sky.vehicle, "back", [routers.command(GROUND_STATION, VEHICLE) for _ in range(300)])):
+            directions = [getattr(link, way) for link in sky.links]
+            for frame in sent:
+                sender.send(frame)
+            sky.settle()
+            expected = {frame for d in directions for frame in d.delivered} & set(sent)
+            got = receiver.count(len(expected))
+            assert set(got) == expected and receiver.now() == []
+            assert len(sent) * 0.9 < len(expected) < len(sent)
+        duplicates = sum(link["duplicate"] for link in sky.ground.links())
+        assert duplicates > 0 and sum(link["echo"] for link in sky.ground.links()) == 0
+
+
+@pytest.mark.parametrize("victim", [0, 1])
+def test_of_two_links_either_may_die(spawn, rng, victim):
+    with Sky(spawn, rng, "all", [LATE, LATE]) as sky:
+        sky.join()
+        sent = [routers.attitude(VEHICLE) for _ in range(600)]
+        for number, frame in enumerate(sent):
+            if number == 300:
+                sky.links[victim].kill()
+            sky.vehicle.send(frame)
+        assert sorted(sky.station.count(len(sent))) == sorted(sent)
+        commands = [routers.command(GROUND_STATION, VEHICLE) for _ in range(50)]
+        for frame in commands:
+            sky.station.send(frame)
+        assert sorted(sky.vehicle.count(len(commands))) == sorted(commands)
+        assert len(sky.links[victim].forth.cut) >= 300
+        sky.settle()
+        assert sky.station.now() == []
+
+
+class Flow:
+    """Telemetry down, heartbeats both ways, in small steps; keeps what was sent and what came."""
+
+    def __init__(self, sky):
+        self.sky, self.sent, self.got, self.steps = sky, [], [], 0
+
+    def step(self):
+        sky = self.sky
+        if self.steps % 5 == 0:
+            sky.station.send(routers.heartbeat(GROUND_STATION))
+            sky.vehicle.send(routers.heartbeat(VEHICLE))
+        self.steps += 1
+        self.sent.append(routers.attitude(VEHICLE))
+        sky.vehicle.send(self.sent[-1])
+        time.sleep(0.005)  # a rate; no verdict hangs on it
+        self.take()
+
+    def take(self):
+        self.got += [frame for frame in self.sky.station.now() if frame[7] == ATTITUDE]
+
+    def until(self, condition, what):
+        def stepped():
+            self.step()
+            return condition()
+        harness.wait_for(stepped, what=what)
+
+    def carries(self, number, count=40):
+        """Goes on until link `number` alone has carried so much."""
+        self.until(lambda marks=[len(link.forth.delivered) for link in self.sky.links]:
+                   not self.moved(marks, 1 - number) and self.moved(marks, number) >= count, f"link {number} to carry")
+
+    def moved(self, marks, number):
+        moved = len(self.sky.carried(number, marks[number]))
+        if moved and len(self.sky.carried(1 - number, marks[1 - number])):
+            marks[:] = [len(link.forth.delivered) for link in self.sky.links]
+        return moved
+
+    def finish(self):
+        """Each once; missing is only what was on a link when it died."""
+        self.sky.settle()
+        self.take()
+        died = {frame for link in self.sky.links for frame in (*link.forth.cut, *link.forth.lost)}
+        assert len(self.got) == len(set(self.got))
+        assert set(self.sent) - set(self.got) <= died
+        return died & set(self.sent)
+
+
+def test_primary_falls_over_and_comes_back(spawn, rng):
+    with Sky(spawn, rng, "primary", [LATE, LATE]) as sky:
+        sky.join()
+        flow = Flow(sky)
+        flow.carries(0, 100)
+        sky.links[0].kill()
+        flow.carries(1)
+        sky.links[0].revive()
+        flow.carries(0)
+        assert flow.finish()
+
+
+def test_best_leaves_a_dead_link_and_stays_where_it_went(spawn, rng):
+    with Sky(spawn, rng, "best", [LATE, LATE]) as sky:
+        sky.join()
+        flow = Flow(sky)
+        flow.until(lambda: len(flow.got) >= 50, "the first frames")
+        chosen = 0 if sky.carried(0) else 1
+        assert not sky.carried(1 - chosen)
+        sky.links[chosen].kill()
+        flow.carries(1 - chosen)
+        sky.links[chosen].revive()
+        mark = len(sky.links[chosen].forth.delivered)
+        flow.until(lambda: len(sky.links[chosen].forth.delivered) > mark + 20, "heartbeats on the link that is back")
+        flow.carries(1 - chosen)
+        assert not sky.carried(chosen, mark)
+        flow.finish()
+
+
+@pytest.mark.parametrize("bad", [0, 1])
+def test_best_takes_the_link_that_loses_less(spawn, rng, bad):
+    profiles = [LATE, LATE]
+    profiles[bad] = Profile(delay=0.005, loss=0.4)
+    with Sky(spawn, rng, "best", profiles) as sky:
+        sky.join()
+        flow = Flow(sky)
+        flow.carries(1 - bad, 100)
+        flow.finish()
+
+
+# ---- TCP -------------------------------------------------------------------------------------------------------------
+
+def test_tcp_in_pieces_keeps_frames_whole_and_in_order(spawn, rng):
+    port = routers.tcp_port()
+    vehicle, station = UdpEnd((LOCALHOST, routers.udp_port())), UdpEnd(label="station")
+    ground = Router(spawn, f"tcpin://{LOCALHOST}:{port}?name=in", f"udpout://{LOCALHOST}:{station.port}?name=station")
+    with contextlib.closing(vehicle), contextlib.closing(station), \
+            TcpImpairer((LOCALHOST, port), rng, delay=0.002, jitter=0.01, most_bytes=300) as link:
+        air = Router(spawn, f"udpin://{LOCALHOST}:{vehicle.target[1]}", f"tcpout://{LOCALHOST}:{link.port}?name=out")
+        air.wait_links(1)
+        ground.wait_links(2)
+        sent = [routers.attitude() for _ in range(500)]
+        for frame in sent:
+            vehicle.send(frame)
+        assert station.count(len(sent)) == sent
+
+        for _ in range(3):
+            before = link.connections
+            sent = [routers.attitude() for _ in range(100)]
+            for number, frame in enumerate(sent):
+                if number == 50:
+                    link.reset()
+                vehicle.send(frame)
+            harness.wait_for(lambda n=before: link.connections == n + 1 and len(air.links()) == 2, what="the next connection")
+            last = routers.heartbeat()
+            vehicle.send(last)
+            got = station.until(last)  # an End asserts that frame follows frame
+            assert got == [frame for frame in sent if frame in set(got)]
+        assert next(e for e in air.stats("endpoint") if e["endpoint"] == "out")["reconnects"] == 3
+        assert sum(link["crc_error"] for link in ground.links()) == 0
+
+
+# ---- cables ----------------------------------------------------------------------------------------------------------
+
+@pytest.fixture
+def machines():
+    yield from netns.two_machines()
+
+
+@pytest.fixture
+def spawn_in(program):
+    """spawn_in(machine) -> what Router starts the program with."""
+    running = []
+
+    def on(machine):
+        def start(*args, env=None):
+            running.append(harness.Running(machine.command("env", *(f"{k}={v}" for k, v in (env or {}).items()), program, *args)))
+            return running[-1]
+        return start
+    yield on
+    for process in running:
+        process.kill()
+
+
+def on(machine, *command):
+    if not shutil.which(command[0]):
+        pytest.skip(f"no {command[0]} here")
+    done = subprocess.run(machine.command(*command), capture_output=True, text=True)
+    if done.returncode != 0:
+        pytest.skip(f"{' '.join(command)}: {done.stderr.strip()}")
+
+
+class MachineEnd(routers.End):
+    """The far end of a UDP link, on another machine."""
+
+    def __init__(self, machine, target=None, port=0):
+        super().__init__()
+        self.sock, self.target = machine.socket(), target
+        self.sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+        self.sock.bind(("0.0.0.0", port))
+        self.port = self.sock.getsockname()[1]
+
+    def fileno(self):
+        return self.sock.fileno()
+
+    def send(self, data):
+        self.sock.sendto(data, self.target)
+
+    def _read(self):
+        return self.sock.recv(65536)
+
+    def close(self):
+        self.sock.close()
+
+
+PORT = 14550
+
+
+def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
+    """Of every three datagrams the second machine's kernel drops one: by the router's sequence tracking exactly that is missing."""
+    here, there = machines
+    on(there, "iptables", "-A", "INPUT", "-p", "udp", "--dport", str(PORT), "-m", "statistic", "--mode", "nth", "--every", "3", "--packet", "0", "-j", "DROP")
+    vehicle, station = MachineEnd(here, ("127.0.0.1", PORT)), MachineEnd(there)
+    with contextlib.closing(vehicle), contextlib.closing(station):
+        Router(spawn_in(here), f"udpin://127.0.0.1:{PORT}", f"udpout://{there.host}:{PORT}?mtu=0")
+        ground = Router(spawn_in(there), f"udpin://0.0.0.0:{PORT}?name=in", f"udpout://127.0.0.1:{station.port}?name=station")
+        sent = [routers.attitude() for _ in range(901)]  # one is dropped first: the numbers 0, 3, 6, ...
+        for frame in sent:
+            vehicle.send(frame)
+        assert station.count(600) == [frame for number, frame in enumerate(sent) if number % 3]
+        assert station.now() == []
+        source = ground.stats("source")[0]
+        assert source["frames"] == 600
+        assert source["lost"] == 299  # the first and the last are beyond its sight
