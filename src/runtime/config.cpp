@@ -68,6 +68,7 @@ public:
         for (const auto name : config_sections())
             if (auto done = read_section(name, (*root)[name].as_table()); !done)
                 return tl::unexpected(std::move(done.error()));
+        if (auto done = check_requests(); !done) return tl::unexpected(std::move(done.error()));
         if (const auto* endpoints = (*root)["endpoint"].as_array())
             for (const auto& item : *endpoints)
                 if (auto done = read_endpoint(*item.as_table()); !done) return tl::unexpected(std::move(done.error()));
@@ -181,6 +182,17 @@ private:
         }
         config_.sections.push_back(std::move(section));
         return {};
+    }
+
+    // A request needs a sender.
+    [[nodiscard]] SetupResult<void> check_requests() const {
+        if (config_.router.request_streams_hz == 0 || config_.router.heartbeat) return {};
+        constexpr std::string_view what =
+            "request_streams needs heartbeat = \"SYS/COMP\": the id that the router asks by";
+        for (const Section& section : config_.sections)
+            for (const Setting& setting : section.settings)
+                if (setting.key == "request_streams" && setting.origin == Origin::file) return bad(setting.line, what);
+        return setup_error(SetupCode::bad_input, fmt::format("environment: {}", what));
     }
 
     SetupResult<Setting> read_key(const ConfigKey& key, const toml::node* node) {

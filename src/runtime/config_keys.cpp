@@ -38,6 +38,17 @@ SetupResult<void> set_heartbeat(Config& config, std::string_view text) {
     return {};
 }
 
+SetupResult<void> set_request_streams(Config& config, std::string_view text) {
+    if (text == "off") {
+        config.router.request_streams_hz = 0;
+        return {};
+    }
+    const auto rate = parse_integer(text, 1, 1000);
+    if (!rate) return usage(fmt::format("{} is neither off nor a rate from 1 to 1000 Hz", in_quotes(text)));
+    config.router.request_streams_hz = static_cast<std::uint16_t>(*rate);
+    return {};
+}
+
 SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
     const auto timeout = parse_duration(text);
     if (timeout && timeout->count() <= 0) return usage("a route needs some time above 0");
@@ -91,6 +102,7 @@ constexpr std::array keys{
               [](Config& c, std::string_view t) { return put_choice(t, targets, c.router.unknown_target); }},
     ConfigKey{"router", "route_timeout", "60", set_route_timeout},
     ConfigKey{"router", "heartbeat", "off", set_heartbeat},
+    ConfigKey{"router", "request_streams", "off", set_request_streams},
     ConfigKey{"ring", "name", "", set_ring_name},
     ConfigKey{"ring", "capacity", "8MiB", set_capacity},
     ConfigKey{"ring", "full", "evict", [](Config& c, std::string_view t) { return put_choice(t, fulls, c.ring.full); }},

@@ -143,6 +143,7 @@ SetupResult<void> KeyFile::load() {
 }
 
 SetupResult<void> KeyFile::write(KeyState wanted) {
+    const std::lock_guard lock(mutex_);
     if (const auto text = read_file(path_)) {
         if (const auto there = parse_key_state(*text)) {
             wanted.merge_heard(there->heard);

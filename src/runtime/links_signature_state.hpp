@@ -37,7 +37,7 @@ struct KeyState {
 // Empty where the text is none of ours.
 [[nodiscard]] std::optional<KeyState> parse_key_state(std::string_view text);
 
-// One key file's state. `state` belongs to the owner of KeyStates, the rest to who writes.
+// One key file's state. `load` and `state` belong to the owner of KeyStates; `write` may be called by any thread.
 class KeyFile {
 public:
     explicit KeyFile(const std::filesystem::path& key) : path_(key.string() + ".state") {}
@@ -53,7 +53,8 @@ public:
 
 private:
     std::filesystem::path path_;
-    wire::SigningTime written_;
+    std::mutex mutex_;
+    wire::SigningTime written_;  // guarded by mutex_
 };
 
 class KeyStates {

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/request_data_stream.hpp"
 #include "mavloom/wire/frame_writer.hpp"
+#include "runtime/stream_requests.hpp"
 
 namespace mavloom::runtime {
 
@@ -20,6 +22,7 @@ constexpr Nanoseconds fast_beat = 100ms;  // until the far side answers
 constexpr Nanoseconds beat_interval = 1s;
 constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: loss for `best`, duplicate ids
 
+constexpr std::uint8_t ardupilot = 3;                   // MAV_AUTOPILOT_ARDUPILOTMEGA
 constexpr msg::Heartbeat own_heartbeat{.type = 18,      // MAV_TYPE_ONBOARD_CONTROLLER
                                        .autopilot = 8,  // MAV_AUTOPILOT_INVALID
                                        .base_mode = 0,
@@ -55,7 +58,8 @@ Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Noti
       config_(config),
       notice_(std::move(notice)),
       links_(std::move(links)),
-      engine_(dialect.wire_table(), engine_options(config)) {}
+      engine_(dialect.wire_table(), engine_options(config)),
+      stream_requests_(std::make_unique<StreamRequests>()) {}
 
 Router::~Router() = default;
 
@@ -148,6 +152,7 @@ void Router::configure(const RouterConfig& config) {
     engine_ = route::Engine(dialect_.wire_table(), engine_options(config));
     duplicate_ids_told_ = 0;
     heartbeats_.clear();
+    stream_requests_->clear();
     for (const auto& link : links_->links())
         if (link.up) on_link_up(link.id, link.endpoint, link.name);
 }
@@ -181,6 +186,7 @@ bool Router::has(const Endpoint& endpoint) const {
 void Router::on_frame(const RxFrame& rx) {
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
     traffic_.add(rx.link, rx.frame, rx.time);
+    if (config_.request_streams_hz != 0 && rx.frame.id() == msg::Heartbeat::id) ask_for_streams(rx);
     if (explainer_) [[unlikely]] {
         const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_->now(), why_);
         explainer_(rx, decision, why_);
@@ -217,6 +223,7 @@ void Router::on_link_down(LinkId link, EndpointId, std::string_view why) {
 void Router::forget_link(LinkId link) {
     engine_.remove_link(link);
     std::erase_if(heartbeats_, [&](const HeartbeatLink& h) { return h.link == link; });
+    stream_requests_->forget(link);
 }
 
 void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::info, text); }
@@ -264,21 +271,39 @@ void Router::run_posted() {
     for (const auto& each : work) each(*this);
 }
 
-void Router::beat(HeartbeatLink& link, MonoTime now) {
+bool Router::send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now) {
     const auto [system, component] = *config_.heartbeat;
-    std::array<std::uint8_t, msg::Heartbeat::max_length> payload;
-    (void)own_heartbeat.encode(payload);
     wire::FrameBuffer buffer;
     const auto frame = wire::write_frame(
         buffer, {.sequence = link.sequence++, .source = {SystemId{system}, ComponentId{component}}},
-        *dialect_.wire_table().find(msg::Heartbeat::id), payload);
-    if (links_->send(link.link, frame) != 0) {
-        engine_.note_sent(frame, link.link, now);
-        heartbeats_sent_.add();
-    }
+        *dialect_.wire_table().find(id), payload);
+    if (links_->send(link.link, frame) == 0) return false;
+    engine_.note_sent(frame, link.link, now);
+    return true;
+}
+
+void Router::beat(HeartbeatLink& link, MonoTime now) {
+    std::array<std::uint8_t, msg::Heartbeat::max_length> payload;
+    (void)own_heartbeat.encode(payload);
+    if (send_own(link, msg::Heartbeat::id, payload, now)) heartbeats_sent_.add();
     const auto* counters = links_->counters(link.link);
     const bool answered = counters != nullptr && counters->frames_in.value() != 0;
     link.due = std::max(link.due + (answered ? beat_interval : fast_beat), now);
+}
+
+void Router::ask_for_streams(const RxFrame& rx) {
+    if (msg::Heartbeat::decode(rx.frame.payload()).autopilot != ardupilot) return;
+    const auto link = std::ranges::find(heartbeats_, rx.link, &HeartbeatLink::link);
+    const Source source = rx.frame.source();
+    if (link == heartbeats_.end() || !stream_requests_->heard(rx.link, source, links_->now())) return;
+    const msg::RequestDataStream request{.target_system = source.system.value,
+                                         .target_component = source.component.value,
+                                         .req_stream_id = 0,  // MAV_DATA_STREAM_ALL
+                                         .req_message_rate = config_.request_streams_hz,
+                                         .start_stop = 1};
+    std::array<std::uint8_t, msg::RequestDataStream::max_length> payload;
+    (void)request.encode(payload);
+    (void)send_own(*link, msg::RequestDataStream::id, payload, links_->now());
 }
 
 void Router::look_after(MonoTime now) {

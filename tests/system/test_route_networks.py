@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """mavloom route over bad networks: redundant links of every group mode through a seeded impairer, TCP in pieces, lossy and narrow cables."""
 import contextlib
+import ctypes
 import dataclasses
+import os
 import shutil
 import socket
 import subprocess
+import threading
 import time
 
 import pytest
@@ -329,3 +332,112 @@ def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
         source = ground.stats("source")[0]
         assert source["frames"] == 600
         assert source["lost"] == 299  # the first and the last are beyond its sight
+
+
+class Narrow:
+    """vehicle - router - narrow cable - station. The station calls (udpin, tcpin) or is called (udpout)."""
+
+    RATE_BITS = 256_000
+
+    def __init__(self, machines, start, scheme, options, limit=4000):
+        here, self.there = machines
+        self.vehicle = MachineEnd(here, ("127.0.0.1", PORT))
+        self.here, self.scheme = here, scheme
+        near = PORT + 1
+        if scheme == "udpout":
+            self.station = MachineEnd(self.there)
+            url = f"udpout://{self.there.host}:{self.station.port}"
+        else:
+            url = f"{scheme}://0.0.0.0:{near}"
+        self.router = Router(start(here), f"udpin://127.0.0.1:{PORT}", f"{url}?name=far&{options}")
+        if scheme == "udpin":
+            self.station = MachineEnd(self.there, (here.host, near))
+            self.station.send(routers.heartbeat(GROUND_STATION))
+        elif scheme == "tcpin":
+            self.station = TcpEnd(in_machine(self.there, lambda: socket.create_connection((here.host, near), timeout=60)))
+        self.vehicle.send(routers.heartbeat())
+        harness.wait_for(lambda: len(self.router.links()) == 2, what="both links")
+        on(here, "tc", "qdisc", "replace", "dev", here.interface, "root", "tbf", "rate", f"{self.RATE_BITS}bit", "burst", "3000", "limit", str(limit))
+
+    def link(self):
+        return next(link for link in self.router.ask("links") if link["endpoint"] == "far")
+
+    def widen(self):
+        on(self.here, "tc", "qdisc", "change", "dev", self.here.interface, "root", "tbf", "rate", "100mbit", "burst", "100000", "limit", "1000000")
+
+    def close(self):
+        self.vehicle.close()
+        self.station.close()
+
+
+def in_machine(machine, make):
+    """What `make` makes, in the machine's network."""
+    made = []
+
+    def run():
+        with open(f"/run/netns/{machine.name}") as namespace:
+            assert ctypes.CDLL(None, use_errno=True).setns(namespace.fileno(), netns.CLONE_NEWNET) == 0
+        made.append(make())
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    return made[0]
+
+
+def bulk(count):
+    """Telemetry of 280 bytes that no newer one replaces."""
+    return [routers.make(frames.mavlink.MAVLink_encapsulated_data_message(i % 65536, os.urandom(252) + b"\x01")) for i in range(count)]
+
+
+def urgent():
+    """One of each kind that somebody waits for: class 0."""
+    m = frames.mavlink
+    return [routers.heartbeat(), routers.command(VEHICLE, (0, 0)), routers.make(m.MAVLink_command_ack_message(400, 0, routers.unique() % 256)),
+            routers.make(m.MAVLink_statustext_message(6, b"%d" % routers.unique())),
+            routers.make(m.MAVLink_param_value_message(b"P", routers.unique(), 9, 1, 0))]
+
+
+# The kernel tells only who asks for it (IP_RECVERR) that a device's queue was full.
+SILENT = pytest.mark.xfail(reason="udpin does not hear of full device queues: what they drop is lost without a name")
+
+
+@pytest.mark.parametrize("scheme", ["udpout", pytest.param("udpin", marks=SILENT), "tcpin"])
+def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, spawn_in, scheme):
+    """Much more than the cable carries: heartbeats, commands and acknowledgements all get through, telemetry is dropped and counted."""
+    net = Narrow(machines, spawn_in, scheme, "queue_bytes=20k")
+    with contextlib.closing(net):
+        wanted, other = [], []
+        for _ in range(40):
+            wanted += urgent()
+            other += bulk(30)
+            for frame in wanted[-5:] + other[-30:]:
+                net.vehicle.send(frame)
+            harness.wait_for(lambda: sum(link["frames_in"] for link in net.router.links()) >= len(wanted) + len(other), what="all to be in")
+        net.widen()
+        last = routers.heartbeat()
+        net.vehicle.send(last)
+        got = net.station.until(last)
+        assert [frame for frame in got if frame in set(wanted)] == wanted
+        through = len([frame for frame in got if frame in set(other)])
+        assert 0 < through == len(other) - net.link()["queue_bytes"] - net.link()["queue_age"]
+        assert through < len(other)
+
+
+@pytest.mark.parametrize("scheme", ["udpout", "tcpin"])
+def test_telemetry_does_not_grow_old_in_a_queue(machines, spawn_in, scheme):
+    """A queue that may hold all, for 300 ms: what is older goes, counted; then the cable carries what is new at once."""
+    net = Narrow(machines, spawn_in, scheme, "queue_bytes=4M&queue_age=300ms")
+    with contextlib.closing(net):
+        sent = bulk(2500)
+        for number, frame in enumerate(sent):
+            net.vehicle.send(frame)
+            if number % 250 == 249:
+                harness.wait_for(lambda n=number: sum(link["frames_in"] for link in net.router.links()) >= n, what="all to be in")
+        dropped = harness.wait_for(lambda: net.link()["queue_age"] + net.link()["frames_out"] >= len(sent) and net.link()["queue_age"], what="the old ones to go")
+        assert net.link()["queue_bytes"] == 0
+        net.widen()
+        last = routers.attitude()
+        net.vehicle.send(last)
+        got = [frame for frame in net.station.until(last) if frame in set(sent)]
+        assert got == [frame for frame in sent if frame in set(got)]
+        assert len(got) == len(sent) - dropped

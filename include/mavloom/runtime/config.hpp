@@ -30,6 +30,7 @@ struct RouterConfig {
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
     std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat;  // system and component; empty: off
+    std::uint16_t request_streams_hz = 0;                            // of ArduPilot, by the id of `heartbeat`; 0: off
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
 

@@ -23,6 +23,8 @@
 
 namespace mavloom::runtime {
 
+class StreamRequests;
+
 class Router : private LinkHandler {
 public:
     // What a person should know: links that came and went, odd things. Called on the router's thread.
@@ -97,6 +99,9 @@ private:
     void send(const RxFrame& rx, std::span<const LinkId> links);
     void run_posted();
     void beat(HeartbeatLink& link, MonoTime now);
+    // A message of the router itself. False: the link did not take it.
+    bool send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now);
+    void ask_for_streams(const RxFrame& rx);
     void look_after(MonoTime now);
     [[nodiscard]] MonoTime next_due() const noexcept;
 
@@ -114,6 +119,7 @@ private:
     std::vector<std::unique_ptr<Recorder>> recorders_;
     std::vector<Endpoint> recordings_;  // what each recorder was made from
     std::vector<HeartbeatLink> heartbeats_;
+    std::unique_ptr<StreamRequests> stream_requests_;  // never null
     bool any_signs_ = false;
     bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
     Counter heartbeats_sent_, not_signed_;
