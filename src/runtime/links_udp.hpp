@@ -27,6 +27,7 @@ struct UdpPeer final : Link {
     // Datagrams with a good frame count; those of junk do not keep a peer.
     MonoTime last_heard{};
     std::uint64_t datagrams = 0;
+    bool held = false;  // the device's queue had no room for it: waits for its port's retry
 };
 
 // The kernel's time stamp; where it gave none, now.
@@ -66,7 +67,7 @@ public:
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
     void flush() override;
-    [[nodiscard]] bool blocked() const override { return blocked_; }
+    [[nodiscard]] bool blocked() const override { return blocked_ || retry_.valid(); }
     void expire(MonoTime now) override;
 
 private:
@@ -78,9 +79,10 @@ private:
 
     void receive();
     bool submit();
-    bool recover(std::size_t index, net::IoError error, int& refusals);
+    void recover(std::size_t& index, net::IoError error, int& refusals);
     static void account(const Part& part) noexcept;
-    void block(bool wait_for_room);
+    void block();
+    void hold(std::size_t& index);
 
     Core& core_;
     UdpOwner& owner_;
@@ -88,11 +90,11 @@ private:
     std::uint32_t mtu_bytes_;
     net::UdpSocket socket_;
     net::WatchId watch_;
-    net::TimerId retry_;
+    net::TimerId retry_;  // for peers that are held
     PeerTable<UdpPeer> peers_;
     std::vector<UdpPeer*> waiting_;  // with something queued
     std::vector<Part> parts_;
-    bool blocked_ = false;
+    bool blocked_ = false;  // the socket's own buffer is full
     std::uint32_t last_drops_ = 0;
 };
 

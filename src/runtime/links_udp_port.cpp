@@ -65,7 +65,7 @@ void UdpPort::on_io(net::IoEvents events) {
 
 void UdpPort::on_timer(MonoTime) {
     retry_ = {};
-    blocked_ = false;
+    for (UdpPeer* peer : waiting_) peer->held = false;
     core_.schedule(*this);
 }
 
@@ -99,8 +99,8 @@ void UdpPort::flush() {
     for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
         UdpPeer& peer = *waiting_[i];
         auto position = peer.queue.front();
-        for (;;) {
-            if ((batch.full() || batch.room().size() < fewest_pieces) && !submit()) break;
+        while (!peer.held) {
+            if ((batch.full() || batch.room().size() < fewest_pieces) && (!submit() || peer.held)) break;
             const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
             if (gathered.blocks == 0) break;
             batch.add(&peer.address, gathered.pieces);
@@ -111,6 +111,7 @@ void UdpPort::flush() {
     if (!blocked_) submit();
     std::erase_if(waiting_, [](UdpPeer* peer) {
         peer->queued = !peer->queue.empty();
+        peer->held = peer->held && peer->queued;
         return !peer->queued;
     });
 }
@@ -122,8 +123,8 @@ bool UdpPort::submit() {
     for (std::size_t first = 0; first < batch.size();) {
         const auto sent = socket_.send(batch, first);
         if (!sent) {
-            if (!recover(first, sent.error(), refusals)) break;
-            if (refusals == 0) ++first;
+            recover(first, sent.error(), refusals);
+            if (blocked_) break;
             continue;
         }
         for (std::size_t i = first; i < first + *sent; ++i) account(parts_[i]);
@@ -142,31 +143,33 @@ void UdpPort::account(const Part& part) noexcept {
     part.peer->queue.pop(part.until);
 }
 
-// False: stop for now. With refusals at 0 the datagram was given up, else it is to be tried again.
-bool UdpPort::recover(std::size_t index, net::IoError error, int& refusals) {
-    if (error == net::IoError::would_block || error == net::IoError::no_buffers) {
-        block(error == net::IoError::would_block);
-        return false;
-    }
-    if (error == net::IoError::refused && ++refusals < most_refusals) return true;
+// Leaves in `index` the datagram to go on with.
+void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
+    if (error == net::IoError::would_block) return block();
+    if (error == net::IoError::no_buffers) return hold(index);
+    if (error == net::IoError::refused && ++refusals < most_refusals) return;
     refusals = 0;
     counters_.send_errors.add();
     if (const Part& part = parts_[index]; part.peer != nullptr) {
         part.peer->counters.frames_not_sent.add(part.frames);
         part.peer->queue.pop(part.until);
     }
+    ++index;
     owner_.on_send_error(error);
-    return true;
 }
 
-// ENOBUFS comes from a full device queue, and no event tells when it has room again.
-void UdpPort::block(bool wait_for_room) {
+void UdpPort::block() {
     blocked_ = true;
-    if (wait_for_room) {
-        core_.loop().change(watch_, true, true);
-    } else {
-        retry_ = core_.loop().start_timer(core_.now() + retry_after, *this);
-    }
+    core_.loop().change(watch_, true, true);
+}
+
+// ENOBUFS comes from a full device queue, and no event tells when it has room again. Other peers may be reached through another device; a
+// peer's datagrams stand together, and the rest of them keep their order by waiting too.
+void UdpPort::hold(std::size_t& index) {
+    UdpPeer* const peer = parts_[index].peer;
+    if (peer != nullptr) peer->held = true;
+    while (index < parts_.size() && parts_[index].peer == peer) ++index;
+    if (!retry_.valid()) retry_ = core_.loop().start_timer(core_.now() + retry_after, *this);
 }
 
 }  // namespace mavloom::runtime::detail
