@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <array>
 #include <boost/asio.hpp>
@@ -261,6 +262,14 @@ bool is_router_name(std::string_view name) noexcept {
     return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, good);
 }
 
+static SetupResult<std::filesystem::path> checked_length(std::filesystem::path path) {
+    constexpr std::size_t most = sizeof(sockaddr_un::sun_path) - 1;
+    if (path.native().size() <= most) return path;
+    return setup_error(SetupCode::permission, fmt::format("control socket {}: a socket's path has at most {} bytes; a "
+                                                          "shorter --name or XDG_RUNTIME_DIR helps",
+                                                          path.string(), most));
+}
+
 SetupResult<std::filesystem::path> control_path(std::string_view name) {
     if (!is_router_name(name))
         return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
@@ -269,7 +278,7 @@ SetupResult<std::filesystem::path> control_path(std::string_view name) {
         folders.push_back(std::filesystem::path(own) / "mavloom");
     for (const auto& folder : folders) {
         ::mkdir(folder.c_str(), 0755);
-        if (::access(folder.c_str(), W_OK | X_OK) == 0) return folder / fmt::format("{}.ctl", name);
+        if (::access(folder.c_str(), W_OK | X_OK) == 0) return checked_length(folder / fmt::format("{}.ctl", name));
     }
     return setup_error(SetupCode::permission,
                        "no folder for the control socket: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set");

@@ -158,22 +158,29 @@ void Router::configure(const RouterConfig& config) {
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
-    std::vector<std::string> gone;
+    std::vector<Endpoint> gone;
     const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
     for (const auto& e : endpoints_)
-        if (!stays(e->endpoint)) gone.push_back(e->endpoint.label());
+        if (!stays(e->endpoint)) gone.push_back(e->endpoint);
     for (const auto& e : recordings_)
-        if (!stays(e)) gone.push_back(e.label());
-    for (const auto& label : gone) {
-        remove(label);
-        notice_(LogLevel::info, fmt::format("{}: removed", label));
+        if (!stays(e)) gone.push_back(e);
+    for (const auto& endpoint : gone) {
+        remove(endpoint.label());
+        notice_(LogLevel::info, fmt::format("{}: removed", endpoint.label()));
     }
     for (const auto& endpoint : endpoints) {
         if (has(endpoint)) continue;
         const auto added = add(endpoint);
         notice_(added ? LogLevel::info : LogLevel::error,
                 added ? fmt::format("{}: added", endpoint.label()) : fmt::format("left out: {}", added.error().text));
+        if (!added) put_back(gone, endpoint.label());
     }
+}
+
+// What was to be changed and cannot be goes on as it was.
+void Router::put_back(const std::vector<Endpoint>& gone, const std::string& label) {
+    const auto before = std::ranges::find(gone, label, &Endpoint::label);
+    if (before != gone.end() && add(*before)) notice_(LogLevel::info, fmt::format("{}: goes on as it was", label));
 }
 
 bool Router::has(const Endpoint& endpoint) const {

@@ -9,7 +9,7 @@ MR: mavlink-router, P: mavp2p, G: gomavlib, S: mavlink-server, F: MAVSDK, N: nob
 | MR27, P6, G1 to G4, G6, G7, G9, S1, S2, S4, N1 to N16, N20 | below |
 | N10, N12, N16 | also with `relay` in test_serial.py |
 | N19 | test_route_control.py, with the recordings |
-| G8 stream requests | not here: the router sends none |
+| G8 stream requests | test_request_streams.py |
 | S3, and S1, S2 over WebSocket and zenoh | do not apply: no such endpoints |
 | S5 ArduCopter SITL | needs ArduPilot's simulator; test_route_clients.py passes commands, parameters and missions instead |
 | S6 URL grammar | unit tests of endpoints |

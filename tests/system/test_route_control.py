@@ -3,9 +3,12 @@
 import json
 import os
 import re
+import shutil
 import signal
 import socket
 import stat
+import subprocess
+import tempfile
 import time
 import urllib.error
 import urllib.request
@@ -216,6 +219,35 @@ def test_the_socket_goes_with_its_router_and_a_dead_ones_is_taken(spawn):
     assert not os.path.exists(path)
 
 
+def as_somebody(program):
+    """The program, and Popen's options with which it runs as an ordinary user."""
+    if os.geteuid() != 0:
+        return program, {}
+    folder = tempfile.mkdtemp(prefix="mv-")
+    os.chmod(folder, 0o755)
+    return shutil.copy(program, folder), {"user": 65534, "group": 65534, "extra_groups": []}
+
+
+def test_a_folder_whose_name_is_too_long_for_a_socket(program):
+    copy, user = as_somebody(program)
+    folder = tempfile.mkdtemp(prefix="mv-" + "x" * 100)
+    os.chmod(folder, 0o777)
+    if os.geteuid() != 0 and os.access("/run/mavloom", os.W_OK):
+        pytest.skip("/run/mavloom is this user's: XDG_RUNTIME_DIR is not looked at")
+    try:
+        env = {**os.environ, "XDG_RUNTIME_DIR": folder}
+        for args in (("ctl", "x", "links"), ("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", "x")):
+            done = subprocess.run([copy, *args], env=env, capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S, **user)
+            assert done.returncode == 1 and "a socket's path has at most 107 bytes" in done.stderr, done
+        unnamed = harness.Running([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}", "--for", "200ms"], env=env, **user)
+        done = unnamed.wait()
+        assert done.status == 0 and "a socket's path has at most 107 bytes" in done.stderr
+    finally:
+        shutil.rmtree(folder)
+        if user:
+            shutil.rmtree(os.path.dirname(copy))
+
+
 # ---- stat, metrics ---------------------------------------------------------------------------------------------------
 
 def test_stat_as_text_and_as_json(net, ctl):
@@ -412,6 +444,20 @@ def test_reload_leaves_out_what_cannot_be_opened(reloadable):
     sut.reload()
 
     assert sorted(e["endpoint"] for e in sut.router.stats("endpoint")) == ["air", "base", "good", "taken"]
+
+
+def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable, tmp_path):
+    sut = reloadable()
+    sut.write(air=f"verify={tmp_path}/none.key")
+    sut.reload()
+    assert "none.key: No such file or directory" in sut.router.process.stderr
+    assert "air: goes on as it was" in sut.router.process.stderr
+    sut.peer.send(heartbeat(VEHICLE))
+    sut.passes()
+
+    sut.write(air="idle=30")
+    sut.reload()
+    assert sut.router.process.stderr.count("air: added") == 1
 
 
 def test_reload_takes_other_rules_and_keeps_the_connections(reloadable):

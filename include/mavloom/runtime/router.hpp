@@ -45,7 +45,8 @@ public:
     bool remove(std::string_view label);
     // Other [router] values. Links stay; what was learned is learned again within a heartbeat.
     void configure(const RouterConfig& config);
-    // The endpoints become these: those that are the same stay as they are. What could not be opened is told and left out.
+    // The endpoints become these: those that are the same stay as they are. What could not be opened is told and left out; one of the same
+    // name that was there before is opened again.
     void become(const std::vector<Endpoint>& endpoints);
 
     void explain(Explainer explainer) { explainer_ = std::move(explainer); }
@@ -95,6 +96,7 @@ private:
     [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const Endpoint& endpoint);
     [[nodiscard]] route::GroupId group_id(const std::string& name);
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
+    void put_back(const std::vector<Endpoint>& gone, const std::string& label);
     void forget_link(LinkId link);
     void send(const RxFrame& rx, std::span<const LinkId> links);
     void run_posted();
