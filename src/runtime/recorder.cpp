@@ -27,7 +27,7 @@ Recorder::~Recorder() { stop(); }
 
 void Recorder::stop() {
     if (!thread_.joinable()) return;
-    queue_->close();
+    end();
     thread_.join();
 }
 
@@ -38,6 +38,7 @@ void Recorder::run() {
         tell(writer_.flush());
     }
     tell(writer_.close());
+    finished_.store(true, std::memory_order_release);
 }
 
 void Recorder::write(const FrameQueue::Entry& entry) {

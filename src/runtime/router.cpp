@@ -132,6 +132,8 @@ bool Router::remove(std::string_view label) {
     const auto recorder = std::ranges::find_if(recorders_, [&](const auto& r) { return r->label() == label; });
     if (recorder != recorders_.end()) {
         recordings_.erase(recordings_.begin() + (recorder - recorders_.begin()));
+        (*recorder)->end();  // the disk may be slow, and routing goes on
+        ending_recorders_.push_back(std::move(*recorder));
         recorders_.erase(recorder);
         return true;
     }
@@ -257,6 +259,7 @@ void Router::finish(Nanoseconds limit) {
     const MonoTime end = mono_now() + limit;
     while (links_->pending() && mono_now() < end) links_->turn(*this, std::min(end, mono_now() + Nanoseconds{5ms}));
     for (const auto& recorder : recorders_) recorder->stop();
+    for (const auto& recorder : ending_recorders_) recorder->stop();
 }
 
 void Router::post(std::function<void(Router&)> work) {
@@ -315,6 +318,7 @@ void Router::ask_for_streams(const RxFrame& rx) {
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
+    std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
     if (!groups_.empty())

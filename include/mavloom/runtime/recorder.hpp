@@ -5,6 +5,7 @@
 // One thread records, `stop` from the same; counters may be read from any. No allocation and no lock per frame. docs/formats/tlog.md.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -42,7 +43,10 @@ public:
     }
     // After a batch: wakes the writer if it sleeps.
     void publish() noexcept { queue_->publish(); }
-    // Writes what is queued and closes the file.
+    // Begins to end: the writing thread writes what is queued, closes the file, and is then `finished`. Does not wait for the disk.
+    void end() noexcept { queue_->close(); }
+    [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
+    // Ends, and waits for it.
     void stop();
 
     [[nodiscard]] const std::string& label() const noexcept { return label_; }
@@ -60,6 +64,7 @@ private:
     Notice notice_;
     RecorderCounters counters_;
     bool failing_ = false;
+    std::atomic<bool> finished_{false};
     std::thread thread_;
 };
 

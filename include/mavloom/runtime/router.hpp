@@ -119,6 +119,7 @@ private:
     std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null: removed
     std::vector<std::string> groups_;     // by GroupId - 1
     std::vector<std::unique_ptr<Recorder>> recorders_;
+    std::vector<std::unique_ptr<Recorder>> ending_recorders_;  // removed, and still writing
     std::vector<Endpoint> recordings_;  // what each recorder was made from
     std::vector<HeartbeatLink> heartbeats_;
     std::unique_ptr<StreamRequests> stream_requests_;  // never null
