@@ -118,8 +118,10 @@ std::string table_of(const std::vector<std::string>& lines) {
     for (const auto& line : lines) {
         const auto object = Json::parse(line, nullptr, false);
         if (!object.is_object()) continue;
-        if (const auto print = prints.find(object.value("kind", "")); print != prints.end())
-            print->second(fmt::appender(text), object);
+        try {
+            if (const auto print = prints.find(object.value("kind", "")); print != prints.end())
+                print->second(fmt::appender(text), object);
+        } catch (const Json::exception&) {}  // a line of another version
     }
     return fmt::to_string(text);
 }

@@ -101,6 +101,10 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
 // All sets that follow from the links and their policies.
 void Engine::Impl::rebuild() {
     for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
+    std::erase_if(groups_, [&](const Group& group) {
+        return std::ranges::none_of(
+            links, [&](const auto& l) { return l != nullptr && !l->policy.tap && l->policy.group == group.id; });
+    });
     for (Group& group : groups_) {
         group.members.assign(words_, 0);
         group.order.clear();

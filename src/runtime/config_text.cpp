@@ -17,6 +17,7 @@ SetupResult<std::string> read_config_text(const std::filesystem::path& file) {
     constexpr std::size_t longest = 4 * 1024 * 1024;
     std::string text(longest + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad()) return system_error(fmt::format("cannot read {}", file.string()), EIO);
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > longest)
         return setup_error(SetupCode::bad_input,

@@ -129,6 +129,7 @@ public:
 
     void open(const typename Protocol::endpoint& endpoint) {
         acceptor_.open(endpoint.protocol());
+        if constexpr (std::is_same_v<Protocol, Local>) ::fchmod(acceptor_.native_handle(), socket_mode);
         if constexpr (std::is_same_v<Protocol, Tcp>) acceptor_.set_option(asio::socket_base::reuse_address(true));
         acceptor_.bind(endpoint);
         acceptor_.listen();
@@ -166,10 +167,12 @@ tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::
 
 class Control::Impl {
 public:
-    explicit Impl(Router& router) : control_(context_, router), metrics_(context_, router) {}
+    explicit Impl(Router& router) : router_(router), control_(context_, router), metrics_(context_, router) {}
+    // What a session has posted holds that session, whose socket needs the context.
     ~Impl() {
         context_.stop();
         if (thread_.joinable()) thread_.join();
+        router_.drop_posted();
         if (!socket_.empty()) ::unlink(socket_.c_str());
     }
 
@@ -196,9 +199,7 @@ private:
     SetupResult<void> open_socket(const std::filesystem::path& path) {
         if (auto taken = take_over(path); !taken) return taken;
         try {
-            const auto mask = ::umask(0777 & ~socket_mode);
             control_.open(Local::endpoint(path.string()));
-            ::umask(mask);
             socket_ = path;
         } catch (const boost::system::system_error& error) {
             return error_of(fmt::format("control socket {}", path.string()), error);
@@ -214,7 +215,9 @@ private:
             return setup_error(
                 SetupCode::in_use,
                 fmt::format("{} is served by a router that runs; --name gives this one another name", path.string()));
-        if (error == asio::error::connection_refused) ::unlink(path.c_str());
+        struct stat status {};
+        const bool is_left = error == asio::error::connection_refused && ::lstat(path.c_str(), &status) == 0;
+        if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
         return {};
     }
 
@@ -234,6 +237,7 @@ private:
         }
     }
 
+    Router& router_;
     asio::io_context context_{1};
     Acceptor<Local, ControlSession> control_;
     Acceptor<Tcp, MetricsSession> metrics_;
@@ -296,9 +300,12 @@ SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
         at = end + 1;
     }
     const auto last = lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
-    if (!last.is_object() || !last.contains("ok"))
+    if (!last.is_object() || !last.value("/ok"_json_pointer, nlohmann::json()).is_boolean())
         return setup_error(SetupCode::unreachable, "the router's answer was cut off");
-    if (!last["ok"].get<bool>()) return setup_error(SetupCode::unreachable, last.value("error", "the router refused"));
+    if (!last["ok"].get<bool>()) {
+        const auto why = last.value("/error"_json_pointer, nlohmann::json());
+        return setup_error(SetupCode::unreachable, why.is_string() ? why.get<std::string>() : "the router refused");
+    }
     lines.pop_back();
     return lines;
 }

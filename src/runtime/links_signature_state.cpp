@@ -86,10 +86,11 @@ int replace_file(const std::filesystem::path& path, std::string_view text) noexc
     const auto fresh = fmt::format("{}.{}", path.string(), ::getpid());
     const Descriptor file(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600));
     if (file.get() < 0) return errno;
-    const bool whole = ::write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                       ::fsync(file.get()) == 0;
-    if (whole && ::rename(fresh.c_str(), path.c_str()) == 0) return 0;
-    const int error = errno == 0 ? ENOSPC : errno;
+    const ssize_t took = ::write(file.get(), text.data(), text.size());
+    int error = took < 0 ? errno : took != static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
+    if (error == 0 && ::fsync(file.get()) != 0) error = errno;
+    if (error == 0 && ::rename(fresh.c_str(), path.c_str()) != 0) error = errno;
+    if (error == 0) return 0;
     ::unlink(fresh.c_str());
     return error;
 }

@@ -34,22 +34,25 @@ void Recorder::stop() {
 // What is written goes to the system whenever the queue runs empty: whoever reads the file meanwhile sees it.
 void Recorder::run() {
     while (queue_->wait()) {
-        while (const auto entry = queue_->next()) write(*entry);
-        tell(writer_.flush());
+        SetupResult<void> worst;
+        while (const auto entry = queue_->next())
+            if (auto written = write(*entry); !written) worst = std::move(written);
+        const auto flushed = writer_.flush();
+        tell(worst ? flushed : worst);
     }
     tell(writer_.close());
     finished_.store(true, std::memory_order_release);
 }
 
-void Recorder::write(const FrameQueue::Entry& entry) {
-    const auto result = writer_.write(entry.time, entry.frame);
-    if (result) {
+SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
+    auto written = writer_.write(entry.time, entry.frame);
+    if (written) {
         counters_.frames.add();
         counters_.bytes.add(entry.frame.size());
     } else {
         counters_.write_error.add();
     }
-    tell(result);
+    return written;
 }
 
 void Recorder::tell(const SetupResult<void>& result) {

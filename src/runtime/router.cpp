@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <utility>
 
 #include "mavloom/msg/heartbeat.hpp"
@@ -61,7 +62,11 @@ Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Noti
       engine_(dialect.wire_table(), engine_options(config)),
       stream_requests_(std::make_unique<StreamRequests>()) {}
 
-Router::~Router() = default;
+Router::~Router() {
+    // Their threads post.
+    for (const auto& recorder : recorders_) recorder->stop();
+    for (const auto& recorder : ending_recorders_) recorder->stop();
+}
 
 SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dialect, const RouterConfig& config,
                                                     Notice notice) {
@@ -87,11 +92,19 @@ SetupResult<void> Router::add(const Endpoint& endpoint) {
 }
 
 SetupResult<void> Router::add_recording(const Endpoint& endpoint) {
+    const auto same = [&](const Endpoint& e) { return e.path == endpoint.path || e.label() == endpoint.label(); };
+    if (std::ranges::any_of(recordings_, same))
+        return setup_error(SetupCode::usage, fmt::format("{} is recorded already", endpoint.label()));
+    std::error_code unknown;
+    if (std::filesystem::is_fifo(endpoint.path, unknown))
+        return setup_error(SetupCode::usage,
+                           fmt::format("{} is a FIFO, and routing would wait for its reader; mavloom record writes to "
+                                       "one",
+                                       endpoint.path));
     const auto& o = endpoint.options;
     auto recorder = Recorder::create(
         endpoint.label(), endpoint.path, {o.rotate_bytes, o.rotate_every}, [this](std::string_view text) {
             post([line = std::string(text)](Router& r) { r.notice_(LogLevel::warning, line); });
-            wake();
         });
     if (!recorder) return tl::unexpected(std::move(recorder.error()));
     recorders_.push_back(std::move(*recorder));
@@ -218,7 +231,10 @@ void Router::send(const RxFrame& rx, std::span<const LinkId> links) {
 }
 
 void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name) {
-    engine_.add_link(link, by_id_[endpoint.value]->policy);
+    if (engine_.counters(link) != nullptr) return;  // a reload in the same turn has told it
+    if (!engine_.add_link(link, by_id_[endpoint.value]->policy))
+        return notice_(LogLevel::warning,
+                       fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
     if (config_.heartbeat && !by_id_[endpoint.value]->policy.tap) heartbeats_.push_back({link, links_->now()});
     notice_(LogLevel::info, fmt::format("{}: up", name));
 }
@@ -240,7 +256,8 @@ void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::in
 // ---- turns -----------------------------------------------------------------------------------------------------------
 
 void Router::turn(MonoTime deadline) {
-    if (links_->turn(*this, std::min(deadline, next_due())) != 0)
+    if (links_->turn(*this,
+                     has_posted_.load(std::memory_order_acquire) ? MonoTime{} : std::min(deadline, next_due())) != 0)
         for (const auto& recorder : recorders_) recorder->publish();
     const MonoTime now = mono_now();
     if (has_posted_.load(std::memory_order_acquire)) run_posted();
@@ -260,6 +277,7 @@ void Router::finish(Nanoseconds limit) {
     while (links_->pending() && mono_now() < end) links_->turn(*this, std::min(end, mono_now() + Nanoseconds{5ms}));
     for (const auto& recorder : recorders_) recorder->stop();
     for (const auto& recorder : ending_recorders_) recorder->stop();
+    while (has_posted_.load(std::memory_order_acquire)) run_posted();
 }
 
 void Router::post(std::function<void(Router&)> work) {
@@ -271,14 +289,25 @@ void Router::post(std::function<void(Router&)> work) {
     wake();
 }
 
+// One a turn: reports take their time, and frames go first.
 void Router::run_posted() {
-    std::vector<std::function<void(Router&)>> work;
+    std::function<void(Router&)> work;
     {
         const std::lock_guard lock(posted_mutex_);
-        work.swap(posted_);
-        has_posted_.store(false, std::memory_order_relaxed);
+        if (!posted_.empty()) {
+            work = std::move(posted_.front());
+            posted_.pop_front();
+        }
+        has_posted_.store(!posted_.empty(), std::memory_order_relaxed);
     }
-    for (const auto& each : work) each(*this);
+    if (work) work(*this);
+}
+
+void Router::drop_posted() {
+    std::deque<std::function<void(Router&)>> work;
+    const std::lock_guard lock(posted_mutex_);
+    work.swap(posted_);
+    has_posted_.store(false, std::memory_order_relaxed);
 }
 
 bool Router::send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now) {

@@ -30,13 +30,14 @@ SetupResult<void> SigningKey::create_file(const std::filesystem::path& file) con
     std::array<char, 2 * length + 1> text;
     sodium_bin2hex(text.data(), text.size(), bytes_.data(), bytes_.size());
     text.back() = '\n';
-    const bool whole = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
-    const int error = whole ? 0 : errno;
+    const ssize_t took = ::write(fd, text.data(), text.size());
+    int error = took < 0 ? errno : took != static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
+    if (error == 0 && ::fsync(fd) != 0) error = errno;
     sodium_memzero(text.data(), text.size());
     ::close(fd);
-    if (whole) return {};
+    if (error == 0) return {};
     ::unlink(file.c_str());
-    return system_error(fmt::format("cannot write {}", file.string()), error == 0 ? ENOSPC : error);
+    return system_error(fmt::format("cannot write {}", file.string()), error);
 }
 
 }  // namespace mavloom::wire

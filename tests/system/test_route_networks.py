@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import dataclasses
 import os
+import select
 import shutil
 import socket
 import subprocess
@@ -67,6 +68,8 @@ class Sky:
         def heard():
             self.vehicle.send(routers.heartbeat(VEHICLE))
             if self.station.target is None:
+                if not select.select([self.station.sock], [], [], 0.1)[0]:
+                    return False  # lost on both links: the next heartbeat
                 self.station.target = self.station.sock.recvfrom(65536)[1]
             self.station.send(routers.heartbeat(GROUND_STATION))
             return all(len([link for link in router.links() if link["endpoint"][0] == letter and link["frames_in"]]) == 2

@@ -55,7 +55,7 @@ public:
 private:
     Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice);
     void run();
-    void write(const FrameQueue::Entry& entry);
+    [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
     void tell(const SetupResult<void>& result);
 
     std::string label_;

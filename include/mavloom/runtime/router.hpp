@@ -7,6 +7,7 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -60,6 +61,8 @@ public:
     void wake() noexcept { links_->wake(); }
     // Any thread: `work` is run on the router's thread between two turns. What is still waiting when the router goes is destroyed unrun.
     void post(std::function<void(Router&)> work);
+    // Destroys what was posted and not yet run; for who posted it and is about to go.
+    void drop_posted();
 
     // For reports, on the router's thread.
     [[nodiscard]] Links& links() noexcept { return *links_; }
@@ -120,7 +123,7 @@ private:
     std::vector<std::string> groups_;     // by GroupId - 1
     std::vector<std::unique_ptr<Recorder>> recorders_;
     std::vector<std::unique_ptr<Recorder>> ending_recorders_;  // removed, and still writing
-    std::vector<Endpoint> recordings_;  // what each recorder was made from
+    std::vector<Endpoint> recordings_;                         // what each recorder was made from
     std::vector<HeartbeatLink> heartbeats_;
     std::unique_ptr<StreamRequests> stream_requests_;  // never null
     bool any_signs_ = false;
@@ -132,7 +135,7 @@ private:
 
     std::atomic<bool> has_posted_{false};
     std::mutex posted_mutex_;
-    std::vector<std::function<void(Router&)>> posted_;  // guarded by posted_mutex_
+    std::deque<std::function<void(Router&)>> posted_;  // guarded by posted_mutex_
 };
 
 }  // namespace mavloom::runtime

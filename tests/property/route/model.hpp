@@ -63,6 +63,11 @@ public:
         }
         for (auto& [group, current] : current_)
             if (current == id) current = 0;
+        const auto is_empty = [&](const auto& of_group) {
+            return std::ranges::none_of(links_, [&](const auto& l) { return l.second.policy.group == of_group.first; });
+        };
+        std::erase_if(group_modes_, is_empty);
+        std::erase_if(current_, is_empty);
     }
     void set_loss(std::uint32_t id, std::uint32_t permille) {
         if (links_.contains(id)) links_[id].loss = permille;
