@@ -9,8 +9,6 @@
 namespace mavloom::route {
 
 static constexpr std::size_t pairs = 1u << 16;
-// Echoes come back soon: without groups and `dedup` a part of the table does, which then stays in the processor's cache.
-static constexpr std::size_t recent_for_echoes = 4;
 // Longer times mean for ever, and sums with the clock stay in range.
 static constexpr Nanoseconds longest = std::chrono::hours{24 * 365 * 50};
 
@@ -149,9 +147,7 @@ void Engine::Impl::rebuild() {
     }
     // With one link nothing is sent anywhere, and nothing can come back.
     const bool remembers = link_count > 1 || options.dedup > Nanoseconds{} || recent_.active();
-    const bool looks_for_copies = options.dedup > Nanoseconds{} || !groups_.empty();
-    const std::size_t capacity = looks_for_copies ? options.recent_frames : options.recent_frames / recent_for_echoes;
-    recent_.resize(remembers ? capacity : 0, words_);
+    recent_.resize(remembers ? options.recent_frames : 0, words_);
 }
 
 std::vector<RouteInfo> Engine::Impl::routes(MonoTime now) const {

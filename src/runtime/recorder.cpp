@@ -8,7 +8,11 @@
 namespace mavloom::runtime {
 
 Recorder::Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice)
-    : label_(std::move(label)), writer_(std::move(writer)), queue_(std::move(queue)), notice_(std::move(notice)) {}
+    : label_(std::move(label)),
+      renamed_to_(writer.renamed_to()),
+      writer_(std::move(writer)),
+      queue_(std::move(queue)),
+      notice_(std::move(notice)) {}
 
 SetupResult<std::unique_ptr<Recorder>> Recorder::create(std::string label, const std::filesystem::path& path,
                                                         record::Rotation rotation, Notice notice,

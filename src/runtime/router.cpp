@@ -95,6 +95,10 @@ SetupResult<void> Router::add_recording(const Endpoint& endpoint) {
     const auto same = [&](const Endpoint& e) { return e.path == endpoint.path || e.label() == endpoint.label(); };
     if (std::ranges::any_of(recordings_, same))
         return setup_error(SetupCode::usage, fmt::format("{} is recorded already", endpoint.label()));
+    if (endpoint.options.speed)
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("{}: 'speed' is for a recording that is read; a router writes one", endpoint.label()));
     std::error_code unknown;
     if (std::filesystem::is_fifo(endpoint.path, unknown))
         return setup_error(SetupCode::usage,
@@ -107,6 +111,8 @@ SetupResult<void> Router::add_recording(const Endpoint& endpoint) {
             post([line = std::string(text)](Router& r) { r.notice_(LogLevel::warning, line); });
         });
     if (!recorder) return tl::unexpected(std::move(recorder.error()));
+    if (const auto& old = (*recorder)->renamed_to(); !old.empty())
+        notice_(LogLevel::info, fmt::format("{} existed and is now {}", endpoint.path, old.string()));
     recorders_.push_back(std::move(*recorder));
     recordings_.push_back(endpoint);
     return {};

@@ -32,9 +32,8 @@ struct Options {
         UnknownComponent::system;  // the system is known, the component is not: to the system's links
     UnknownTarget unknown_target = UnknownTarget::drop;
     Nanoseconds route_timeout = std::chrono::seconds{60};
-    std::optional<Source> own{};  // the program's own id: what is targeted at exactly it is for the program
-    // Remembered for copies; a quarter of it where only echoes are looked for. Rounded up to a power of two.
-    std::size_t recent_frames = 1u << 16;
+    std::optional<Source> own{};           // the program's own id: what is targeted at exactly it is for the program
+    std::size_t recent_frames = 1u << 16;  // remembered for copies and echoes; rounded up to a power of two
     std::uint64_t seed = 0;  // a random number keeps a hostile sender from making frames that look like another's copies
 };
 

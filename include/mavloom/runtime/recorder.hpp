@@ -50,6 +50,8 @@ public:
     void stop();
 
     [[nodiscard]] const std::string& label() const noexcept { return label_; }
+    // Where an existing file went; empty if there was none.
+    [[nodiscard]] const std::filesystem::path& renamed_to() const noexcept { return renamed_to_; }
     [[nodiscard]] const RecorderCounters& counters() const noexcept { return counters_; }
 
 private:
@@ -59,6 +61,7 @@ private:
     void tell(const SetupResult<void>& result);
 
     std::string label_;
+    std::filesystem::path renamed_to_;
     record::RotatingWriter writer_;  // the thread's, once it runs
     std::unique_ptr<FrameQueue> queue_;
     Notice notice_;
