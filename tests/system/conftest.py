@@ -26,7 +26,7 @@ def run(program):
         options = {"input": input} if input is not None else {"stdin": subprocess.DEVNULL}
         encoding = {"encoding": "utf-8", "errors": "replace"} if text else {}
         done = subprocess.run(command, capture_output=True, timeout=timeout, cwd=cwd,
-                              env={**os.environ, **(env or {})}, **options, **encoding)
+                              env=harness.environment(env), **options, **encoding)
         return harness.Finished(command, done.returncode, done.stdout, done.stderr)
     return call
 
@@ -38,7 +38,7 @@ def spawn(program):
     running = []
 
     def start(*args, env=None, **options):
-        running.append(harness.Running([program, *args], env={**os.environ, **(env or {})}, **options))
+        running.append(harness.Running([program, *args], env=harness.environment(env), **options))
         return running[-1]
     yield start
     for process in running:

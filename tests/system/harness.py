@@ -19,6 +19,11 @@ DEFAULT_TIMEOUT_S = 60
 SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
 
 
+def environment(more=None) -> dict:
+    """What the program gets: ours without what only tests know, and `more`."""
+    return {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_SEED")} | (more or {})
+
+
 def program_path() -> pathlib.Path:
     """MAVLOOM_PROGRAM, or the release build's program; relative paths count from the top of the checkout."""
     return ROOT / os.environ.get("MAVLOOM_PROGRAM", "build/release/bin/mavloom")

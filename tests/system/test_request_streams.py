@@ -28,7 +28,7 @@ def route(spawn, tmp_path, udp_port):
         port = udp_port()
         (tmp_path / "router.toml").write_text(f'[router]\n{router}\n[[endpoint]]\nurl = "udpin://127.0.0.1:{port}"\nname = "air"\n')
         running = spawn("route", "--config", tmp_path / "router.toml", "--name", f"streams-{port}")
-        running.wait_output("mavloom: ")
+        running.wait_output("receive buffer")
         return ("127.0.0.1", port)
     return start
 
