@@ -126,6 +126,7 @@ SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
     auto out = route::Filter::compile(dialect_, terms_of("out_allow", o.out_allow), terms_of("out_block", o.out_block));
     if (!out) return tl::unexpected(std::move(out.error()));
     std::vector<route::RateTerm> terms;
+    terms.reserve(o.max_rate.size());
     for (const auto& term : o.max_rate) terms.push_back({term.message, term.rate_hz});
     auto rates = route::Rates::compile(dialect_, terms);
     if (!rates) return tl::unexpected(std::move(rates.error()));
