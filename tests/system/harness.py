@@ -21,7 +21,7 @@ SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
 
 def environment(more=None) -> dict:
     """What the program gets: ours without what only tests know, and `more`."""
-    return {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_SEED")} | (more or {})
+    return {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")} | (more or {})
 
 
 def program_path() -> pathlib.Path:
