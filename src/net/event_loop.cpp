@@ -20,11 +20,11 @@ static std::uint32_t interest(bool readable, bool writable) noexcept {
     return (readable ? std::uint32_t{EPOLLIN} : 0) | (writable ? std::uint32_t{EPOLLOUT} : 0);
 }
 
-// Generations begin at 1, so that no token equals those above.
 static timespec timespec_of(Nanoseconds time) noexcept {
     return {static_cast<std::time_t>(time.count() / 1'000'000'000), static_cast<long>(time.count() % 1'000'000'000)};
 }
 
+// Generations begin at 1, so that no token equals those above.
 static std::uint64_t token_of(WatchId id) noexcept { return std::uint64_t{id.generation} << 32 | id.slot; }
 
 SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {

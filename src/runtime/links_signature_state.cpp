@@ -15,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "mavloom/net/fd.hpp"
 #include "runtime/links_core.hpp"
 
 namespace mavloom::runtime::detail {
@@ -27,20 +28,6 @@ constexpr std::string_view heading = "mavloom signing times 1";
 constexpr std::uint64_t time_limit = std::uint64_t{1} << 48;
 constexpr std::size_t longest_file = 256 * 1024;  // max_streams lines and to spare
 constexpr std::uint64_t clock_tolerance_ticks = 60 * 100'000;
-
-class Descriptor {
-public:
-    explicit Descriptor(int fd) noexcept : fd_(fd) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int get() const noexcept { return fd_; }
-
-private:
-    int fd_;
-};
 
 std::string_view take_until(std::string_view& text, char end) noexcept {
     const auto at = text.find(end);
@@ -73,10 +60,10 @@ bool read_line(std::string_view line, KeyState& state) {
 }
 
 SetupResult<std::string> read_file(const std::filesystem::path& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.get() < 0 && errno == ENOENT) return std::string();
+    const net::Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file && errno == ENOENT) return std::string();
     std::string text(longest_file, '\0');
-    const ssize_t size = file.get() < 0 ? -1 : ::read(file.get(), text.data(), text.size());
+    const ssize_t size = !file ? -1 : ::read(file.get(), text.data(), text.size());
     if (size < 0) return system_error(fmt::format("cannot read {}", path.string()), errno);
     text.resize(static_cast<std::size_t>(size));
     return text;
@@ -84,8 +71,8 @@ SetupResult<std::string> read_file(const std::filesystem::path& path) {
 
 int replace_file(const std::filesystem::path& path, std::string_view text) noexcept {
     const auto fresh = fmt::format("{}.{}", path.string(), ::getpid());
-    const Descriptor file(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600));
-    if (file.get() < 0) return errno;
+    const net::Fd file(::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0600));
+    if (!file) return errno;
     const ssize_t took = ::write(file.get(), text.data(), text.size());
     int error = took < 0 ? errno : took != static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
     if (error == 0 && ::fsync(file.get()) != 0) error = errno;

@@ -288,7 +288,7 @@ Lines add(Router& router, const std::string& url) {
     return added ? with_end({}) : failed(added.error().text);
 }
 
-// An endpoint by its name, or the endpoint of a link.
+// An endpoint or a recording by its name.
 Lines remove(Router& router, const std::string& name) {
     if (router.remove(name)) return with_end({});
     return failed(fmt::format("there is no endpoint {}; links shows them", name));

@@ -125,12 +125,14 @@ class End:
 
 
 class UdpEnd(End):
-    def __init__(self, target=None, label=None, port=0):
+    """On loopback, or with `sock`, an unbound socket of another machine, on all addresses there."""
+
+    def __init__(self, target=None, label=None, port=0, sock=None):
         super().__init__(label)
         self.target = target
-        self.sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.sock = sock or socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
-        self.sock.bind(("127.0.0.1", port))
+        self.sock.bind(("0.0.0.0" if sock else "127.0.0.1", port))
         self.port = self.sock.getsockname()[1]
 
     def fileno(self):

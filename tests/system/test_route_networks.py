@@ -293,27 +293,9 @@ def on(machine, *command):
         pytest.skip(f"{' '.join(command)}: {done.stderr.strip()}")
 
 
-class MachineEnd(routers.End):
+def machine_end(machine, target=None, port=0):
     """The far end of a UDP link, on another machine."""
-
-    def __init__(self, machine, target=None, port=0):
-        super().__init__()
-        self.sock, self.target = machine.socket(), target
-        self.sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
-        self.sock.bind(("0.0.0.0", port))
-        self.port = self.sock.getsockname()[1]
-
-    def fileno(self):
-        return self.sock.fileno()
-
-    def send(self, data):
-        self.sock.sendto(data, self.target)
-
-    def _read(self):
-        return self.sock.recv(65536)
-
-    def close(self):
-        self.sock.close()
+    return UdpEnd(target, port=port, sock=machine.socket())
 
 
 PORT = 14550
@@ -323,7 +305,7 @@ def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
     """Of every three datagrams the second machine's kernel drops one: by the router's sequence tracking exactly that is missing."""
     here, there = machines
     on(there, "iptables", "-A", "INPUT", "-p", "udp", "--dport", str(PORT), "-m", "statistic", "--mode", "nth", "--every", "3", "--packet", "0", "-j", "DROP")
-    vehicle, station = MachineEnd(here, ("127.0.0.1", PORT)), MachineEnd(there)
+    vehicle, station = machine_end(here, ("127.0.0.1", PORT)), machine_end(there)
     with contextlib.closing(vehicle), contextlib.closing(station):
         Router(spawn_in(here), f"udpin://127.0.0.1:{PORT}", f"udpout://{there.host}:{PORT}?mtu=0")
         ground = Router(spawn_in(there), f"udpin://0.0.0.0:{PORT}?name=in", f"udpout://127.0.0.1:{station.port}?name=station")
@@ -344,17 +326,17 @@ class Narrow:
 
     def __init__(self, machines, start, scheme, options, limit=4000):
         here, self.there = machines
-        self.vehicle = MachineEnd(here, ("127.0.0.1", PORT))
+        self.vehicle = machine_end(here, ("127.0.0.1", PORT))
         self.here, self.scheme = here, scheme
         near = PORT + 1
         if scheme == "udpout":
-            self.station = MachineEnd(self.there)
+            self.station = machine_end(self.there)
             url = f"udpout://{self.there.host}:{self.station.port}"
         else:
             url = f"{scheme}://0.0.0.0:{near}"
         self.router = Router(start(here), f"udpin://127.0.0.1:{PORT}", f"{url}?name=far&{options}")
         if scheme == "udpin":
-            self.station = MachineEnd(self.there, (here.host, near))
+            self.station = machine_end(self.there, (here.host, near))
             self.station.send(routers.heartbeat(GROUND_STATION))
         elif scheme == "tcpin":
             self.station = TcpEnd(in_machine(self.there, lambda: socket.create_connection((here.host, near), timeout=60)))
