@@ -49,6 +49,15 @@ def attitude(source=(1, 1), **options) -> bytes:
     return make(mavlink.MAVLink_attitude_message(unique(), 0.1, -0.2, 3.0, 0.01, 0.02, 0.03), source, **options)
 
 
+def damaged() -> bytes:
+    """A frame with a wrong checksum, and no byte in which the scan of what is left could find another start."""
+    while True:
+        frame = bytearray(attitude())
+        frame[20] ^= 1
+        if not {0xFD, 0xFE} & set(frame[1:]):
+            return bytes(frame)
+
+
 def command(source, target, **options) -> bytes:
     return make(mavlink.MAVLink_command_long_message(*target, 400, 0, unique(), 0, 0, 0, 0, 0, 0), source, **options)
 

@@ -28,7 +28,7 @@ import frames
 import harness
 import routers
 from frames import mavlink
-from routers import Net, Router, SerialEnd, TcpEnd, UdpEnd, attitude, command, heartbeat, make, ping, raw, unique, unknown
+from routers import Net, Router, SerialEnd, TcpEnd, UdpEnd, attitude, command, damaged, heartbeat, make, ping, raw, unique, unknown
 
 GCS, VEHICLE = (255, 190), (1, 1)
 
@@ -344,7 +344,7 @@ def test_g1_datagrams_with_errors_lose_no_good_frame(net, kind):
     sut = net((kind, "udpout"))
     first, second = heartbeat(), heartbeat()
     sut[1].send(b"\xfd")
-    sut[1].send(raw(0, 50, bytes(9), incompat=4))
+    sut[1].send(raw(0, 50, bytes(9), incompat=4, source=(77, 1)))
     sut[1].send(first + b"\xfd\x01\x02\x03\x04")
     sut[1].send(second)
 
@@ -673,10 +673,8 @@ def test_n6_noise_that_announces_a_long_frame_holds_nothing_back(net, kind):
 
 def test_n7_a_damaged_frame_is_not_forwarded(net, kind):
     sut = net(kind)
-    damaged = bytearray(attitude())
-    damaged[20] ^= 1
 
-    assert sut.send(1, bytes(damaged)) == []
+    assert sut.send(1, damaged()) == []
     assert sut.link(1)["crc_error"] == 1
 
 

@@ -20,7 +20,7 @@ import frames
 import harness
 import routers
 from frames import mavlink
-from routers import Net, Router, UdpEnd, attitude, command, heartbeat, unknown
+from routers import Net, Router, UdpEnd, attitude, command, damaged, heartbeat, unknown
 from pymavlink import mavutil  # after frames, which says that it is MAVLink 2
 
 pytestmark = pytest.mark.short
@@ -692,9 +692,7 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
         sut.router.wait_counter(sut[1], "frames_in", sent.index(frame))
     sut[3].send(sent[5])  # filtered on the way in, and recorded all the same
     sut.router.wait_counter(sut[3], "filtered", 1)
-    damaged = bytearray(attitude())
-    damaged[15] ^= 1
-    sut[1].send(bytes(damaged))
+    sut[1].send(damaged())
     sut.router.wait_counter(sut[1], "crc_error", 1)
     # What is there can be read while it goes on.
     harness.wait_for(lambda: log.stat().st_size == sum(8 + len(frame) for frame in sent), what="the records")
