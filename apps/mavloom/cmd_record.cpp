@@ -27,7 +27,7 @@ SetupResult<void> record_all(const Options& options, runtime::Receiver& receiver
         while (const auto entry = receiver.next()) {
             if (!options.selection.takes(entry->frame)) continue;
             if (auto written = writer.write(entry->time, entry->frame); !written) return written;
-            if (writer.records() == options.receive.count) return {};
+            if (writer.taken_records() == options.receive.count) return {};
         }
         if (auto flushed = writer.flush(); !flushed) return flushed;
     }
@@ -70,11 +70,11 @@ Exit record(const Common& common, Options& options) {
     (*receiver)->stop();
     (*receiver)->join();
     auto closed = writer->close();
-    if (!recorded) return fail(recorded.error());
-    if (!closed) return fail(closed.error());
     say_recorded(common, *writer);
     say_losses(common, (*receiver)->totals());
     const auto status = options.json ? print_at_end(summary(*writer, (*receiver)->totals()), Exit::done) : Exit::done;
+    if (!recorded) return fail(recorded.error());
+    if (!closed) return fail(closed.error());
     if (status != Exit::done) return status;
     if (const auto* error = (*receiver)->error()) return fail(*error);
     return Signals::status(Exit::done);

@@ -119,9 +119,9 @@ private:
                         "signature_removed: changed frames that lost their signature (--sign gives a new one)");
         say_unless_zero(unheard_answers_, "answers of the far side that no source was there for");
         say_losses(common_, totals_);
+        const auto printed = json_ ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
-        if (json_)
-            if (const auto status = print_at_end(summary(), Exit::done); status != Exit::done) return status;
+        if (printed != Exit::done) return printed;
         if (sources_.finished() && destinations_.lost_any()) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);

@@ -102,9 +102,9 @@ private:
         if (counters.damaged_places.value() != 0)
             say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file,
                                      counters.damaged_places.value(), counters.lost_bytes.value()));
+        const auto printed = options_.json ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
-        if (options_.json)
-            if (const auto status = print_at_end(summary(), Exit::done); status != Exit::done) return status;
+        if (printed != Exit::done) return printed;
         if (destinations_.lost_any() && !options_.no_wait) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);

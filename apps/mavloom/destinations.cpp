@@ -25,14 +25,17 @@ SetupResult<record::RotatingWriter> create_recording(const Common& common, const
 
 void say_recorded(const Common& common, const record::RotatingWriter& file) {
     const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
-    say(common,
-        fmt::format("{}: {} frames, {} bytes written{}", file.path().string(), file.records(), file.size(), files));
+    say(common, fmt::format("{}: {} frames, {} bytes written{}", file.path().string(), file.written_records(),
+                            file.written_bytes(), files));
+    if (file.lost_records() != 0)
+        say(common, fmt::format("{}: {} frames not written", file.path().string(), file.lost_records()));
 }
 
 Json recorded_json(const record::RotatingWriter& file) {
     return {{"endpoint", file.path().string()},
-            {"frames", file.records()},
-            {"bytes", file.size()},
+            {"frames", file.written_records()},
+            {"bytes", file.written_bytes()},
+            {"not_written", file.lost_records()},
             {"files", file.segments()}};
 }
 
@@ -74,8 +77,9 @@ bool Destinations::send(const wire::FrameView& frame, WallTime time) {
         takers += taken;
     }
     for (auto& file : files_) {
-        keep(file.write(time, frame));
-        ++takers;
+        auto written = file.write(time, frame);
+        takers += written.has_value();
+        keep(std::move(written));
     }
     sent_ += takers != 0;
     return takers != 0;

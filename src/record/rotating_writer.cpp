@@ -77,11 +77,11 @@ fs::path RotatingWriter::free_name(WallTime time) const {
 SetupResult<void> RotatingWriter::begin_segment(WallTime time) {
     auto next = TlogWriter::create(free_name(time));
     if (!next) return tl::unexpected(std::move(next.error()));
-    SetupResult<void> closed;
+    auto closed = close_segment();
     if (writer_) {
-        closed = writer_->close();
-        closed_records_ += writer_->records();
-        closed_bytes_ += writer_->size();
+        before_.taken += writer_->records();
+        before_.written += writer_->written_records();
+        before_.bytes += writer_->written_bytes();
     }
     writer_.emplace(std::move(*next));
     begin_ = time;
@@ -89,18 +89,41 @@ SetupResult<void> RotatingWriter::begin_segment(WallTime time) {
     return closed;
 }
 
+SetupResult<void> RotatingWriter::close_segment() {
+    if (!writer_) return {};
+    auto closed = writer_->close();
+    lost_ += writer_->records() - writer_->written_records();
+    return closed;
+}
+
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
+    auto taken = take(time, frame);
+    if (!taken) ++lost_;
+    return taken;
+}
+
+SetupResult<void> RotatingWriter::take(WallTime time, const wire::FrameView& frame) {
     if (is_due(time, time_length + frame.size()))
         if (auto begun = begin_segment(time); !begun) return begun;
     return writer_->write(time, frame);
 }
 
 SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }
-SetupResult<void> RotatingWriter::close() { return writer_ ? writer_->close() : SetupResult<void>{}; }
+SetupResult<void> RotatingWriter::close() { return close_segment(); }
 
 fs::path RotatingWriter::segment_path() const { return writer_ ? writer_->path() : fs::path{}; }
 fs::path RotatingWriter::renamed_to() const { return writer_ ? writer_->renamed_to() : fs::path{}; }
-std::uint64_t RotatingWriter::records() const noexcept { return closed_records_ + (writer_ ? writer_->records() : 0); }
-std::uint64_t RotatingWriter::size() const noexcept { return closed_bytes_ + (writer_ ? writer_->size() : 0); }
+
+std::uint64_t RotatingWriter::taken_records() const noexcept {
+    return before_.taken + (writer_ ? writer_->records() : 0);
+}
+
+std::uint64_t RotatingWriter::written_records() const noexcept {
+    return before_.written + (writer_ ? writer_->written_records() : 0);
+}
+
+std::uint64_t RotatingWriter::written_bytes() const noexcept {
+    return before_.bytes + (writer_ ? writer_->written_bytes() : 0);
+}
 
 }  // namespace mavloom::record

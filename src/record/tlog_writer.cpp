@@ -86,7 +86,7 @@ SetupResult<void> TlogWriter::write(WallTime time, const wire::FrameView& frame)
     store_be64(record, time_on_file(time));
     std::memcpy(record + time_length, frame.bytes().data(), frame.size());
     used_ += length;
-    records_.add();
+    ++records_;
     return {};
 }
 
@@ -103,6 +103,7 @@ SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
         const std::size_t next = record_length({buffer_.get() + whole, used_ - whole});
         if (next == 0 || whole + next > taken) break;
         whole += next;
+        ++written_records_;
     }
     written_ += whole;
     used_ -= whole;

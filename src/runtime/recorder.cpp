@@ -42,21 +42,25 @@ void Recorder::run() {
         while (const auto entry = queue_->next())
             if (auto written = write(*entry); !written) worst = std::move(written);
         const auto flushed = writer_.flush();
+        count();
         tell(worst ? flushed : worst);
     }
-    tell(writer_.close());
+    const auto closed = writer_.close();
+    count();
+    tell(closed);
     finished_.store(true, std::memory_order_release);
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
-    auto written = writer_.write(entry.time, entry.frame);
-    if (written) {
-        counters_.frames.add();
-        counters_.bytes.add(entry.frame.size());
-    } else {
-        counters_.write_error.add();
-    }
-    return written;
+    auto taken = writer_.write(entry.time, entry.frame);
+    count();
+    return taken;
+}
+
+void Recorder::count() noexcept {
+    counters_.frames.set(writer_.written_records());
+    counters_.bytes.set(writer_.written_bytes() - record::time_length * writer_.written_records());
+    counters_.write_error.set(writer_.lost_records());
 }
 
 void Recorder::tell(const SetupResult<void>& result) {

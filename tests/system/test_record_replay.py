@@ -78,7 +78,7 @@ def test_the_sums_of_record_as_json(run, tmp_path):
     stats = sums(run("record", log, "-o", tmp_path / "x.tlog", "--json", "-q"))
 
     assert list(stats) == ["destinations", "totals"]
-    assert stats["destinations"] == [{"endpoint": str(tmp_path / "x.tlog"), "frames": 5, "bytes": 5 * 29, "files": 1}]
+    assert stats["destinations"] == [{"endpoint": str(tmp_path / "x.tlog"), "frames": 5, "bytes": 5 * 29, "not_written": 0, "files": 1}]
     assert list(stats["totals"]) == ["frames", "bytes", *LOSSES]
     assert (stats["totals"]["frames"], stats["totals"]["bytes"], stats["totals"]["crc_error"]) == (5, 5 * 21, 0)
 
@@ -94,7 +94,7 @@ def test_the_sums_of_replay_as_json(run, tmp_path):
     assert done.status == 0 and "5 frames" in done.stderr
     assert stats["destinations"] == [
         {"endpoint": address, "frames": 5, "bytes": 5 * 21, "dropped": 0, "refused": 0, "nobody_there": 0, "queued_bytes": 0},
-        {"endpoint": f"tlog://{tmp_path}/copy.tlog".removeprefix("tlog://"), "frames": 5, "bytes": 5 * 29, "files": 1}]
+        {"endpoint": f"tlog://{tmp_path}/copy.tlog".removeprefix("tlog://"), "frames": 5, "bytes": 5 * 29, "not_written": 0, "files": 1}]
     assert list(stats["totals"]) == ["frames", "bytes", *LOSSES]
     assert (stats["totals"]["frames"], stats["totals"]["junk_bytes"], stats["totals"]["damaged_places"]) == (5, 6, 1)
 
@@ -181,14 +181,20 @@ def test_a_full_disk_is_an_error(run):
     assert "No space left" in done.stderr
 
 
-def test_a_file_at_its_limit_keeps_whole_records(program, tmp_path):
+@pytest.mark.parametrize("command", ["record '{flight}' -o", "relay '{flight}' --to", "replay '{flight}' --speed max --to"])
+def test_a_file_at_its_limit_keeps_whole_records_and_counts_no_others(program, tmp_path, command):
     log = tmp_path / "x.tlog"
-    limited = f"ulimit -f 100; exec '{program}' record '{frames.FLIGHT}' -o '{log}'"  # 100 KiB
+    limited = f"ulimit -f 100; exec '{program}' {command.format(flight=frames.FLIGHT)} '{log}' --json"  # 100 KiB
     done = harness.subprocess.run(["bash", "-c", limited], capture_output=True, text=True, timeout=60)
 
     assert done.returncode == 1, done.stderr
     assert "too large" in done.stderr.lower()
-    assert [frame for _, frame in frames.read_tlog(log)] == [frame for _, frame in frames.read_tlog(frames.FLIGHT)][:len(frames.read_tlog(log))]
+    written = frames.read_tlog(log)
+    assert written == frames.read_tlog(frames.FLIGHT)[:len(written)]
+    recorded = json.loads(done.stdout)["stats"]["destinations"][0]
+    assert (recorded["frames"], recorded["bytes"]) == (len(written), log.stat().st_size)
+    assert recorded["not_written"] > 0
+    assert f"{recorded['not_written']} frames not written" in done.stderr
 
 
 def test_an_unwritable_place_is_an_error(run, tmp_path):

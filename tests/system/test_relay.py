@@ -169,7 +169,7 @@ def test_the_sums_as_json(run, tmp_path):
     assert (done.status, done.stderr, len(done.lines)) == (0, "", 1), done
     stats = json.loads(done.stdout)["stats"]
     assert list(stats) == ["destinations", "edit", "totals"]
-    assert stats["destinations"] == [{"endpoint": f"{tmp_path}/x.tlog", "frames": 5, "bytes": 5 * 29, "files": 1}]
+    assert stats["destinations"] == [{"endpoint": f"{tmp_path}/x.tlog", "frames": 5, "bytes": 5 * 29, "not_written": 0, "files": 1}]
     assert stats["edit"] == {"frames": 6, "reencoded": 5, "rewrapped": 0, "passed_untouched": 0, "filtered": 1, "rate_limited": 0, "not_v1": 0,
                              "not_signed": 0, "signature_removed": 0, "backward": 0, "unheard_answers": 0}
     assert set(stats["totals"].values()) == {0} and "kernel_drop" in stats["totals"]

@@ -696,7 +696,7 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
     sut.router.wait_counter(sut[1], "crc_error", 1)
     # What is there can be read while it goes on.
     harness.wait_for(lambda: log.stat().st_size == sum(8 + len(frame) for frame in sent), what="the records")
-    recording = sut.router.stats("recording")[0]
+    recording = harness.wait_for(lambda: (r := sut.router.stats("recording")[0])["frames"] == 6 and r, what="the counters")
     sut.router.process.stop()
     end = time.time()
 

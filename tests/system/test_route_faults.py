@@ -358,6 +358,29 @@ def test_a_full_disk_stops_the_recording_only_and_only_while_it_is_full(pair, tm
         assert order == sorted(set(order)) and order[-1] == len(sent) - 1
 
 
+def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_path):
+    """Neither those that the writer still buffers when the disk fills, nor those that come later."""
+    path = tmp_path / "flight.tlog"
+    net = pair(f"tlog://{path}?name=tape")
+    SmallLimit(tmp_path).fill(net.process.pid)
+    sent = [net.first]
+
+    def recording():
+        return net.router.stats("recording")[0]
+
+    def passes_more():
+        more = bulk(50)
+        net.passes(*more)
+        sent.extend(more)
+        return recording()
+    end = harness.wait_for(lambda: (r := passes_more())["write_error"] > 20 and r, what="the disk to be full")
+    recorded = frames.read_tlog(path)
+
+    assert (end["frames"], end["bytes"]) == (len(recorded), sum(len(frame) for _, frame in recorded))
+    assert net.process.stop().status == 130
+    assert len(frames.read_tlog(path)) == len(recorded)
+
+
 def faketime_library():
     found = sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))
     return found[0] if found else pytest.skip("a stepped clock needs libfaketime (Debian: faketime)")

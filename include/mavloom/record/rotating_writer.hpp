@@ -38,15 +38,20 @@ public:
     // Where an existing file went; empty if there was none.
     [[nodiscard]] std::filesystem::path renamed_to() const;
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
-    // Of all segments.
-    [[nodiscard]] std::uint64_t records() const noexcept;
-    [[nodiscard]] std::uint64_t size() const noexcept;
+    // Of all segments. Taken: written, buffered, or lost after all because the disk stayed full.
+    [[nodiscard]] std::uint64_t taken_records() const noexcept;
+    [[nodiscard]] std::uint64_t written_records() const noexcept;
+    [[nodiscard]] std::uint64_t written_bytes() const noexcept;
+    // Records that are in no file: refused by `write`, or still buffered when their segment was closed.
+    [[nodiscard]] std::uint64_t lost_records() const noexcept { return lost_; }
 
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
     [[nodiscard]] SetupResult<void> begin_segment(WallTime time);
+    [[nodiscard]] SetupResult<void> close_segment();
+    [[nodiscard]] SetupResult<void> take(WallTime time, const wire::FrameView& frame);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
 
     std::filesystem::path path_;
@@ -54,7 +59,10 @@ private:
     std::optional<TlogWriter> writer_;
     WallTime begin_{};  // of the segment: its first frame's time
     std::uint64_t segments_ = 0;
-    std::uint64_t closed_records_ = 0, closed_bytes_ = 0;  // of the segments before
+    struct Sums {
+        std::uint64_t taken = 0, written = 0, bytes = 0;
+    } before_;  // of the segments before
+    std::uint64_t lost_ = 0;
 };
 
 }  // namespace mavloom::record

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes a tlog: whole records only. Records gather in a buffer and go to the system when it is full, at `flush` and at `close`. When the disk
 // is full the file is cut back to its last whole record, the error is returned, and what is still in the buffer can be tried again.
-// One owner thread (counters may be read from any). Allocates at opening only. Follows docs/formats/tlog.md.
+// One owner thread. Allocates at opening only. Follows docs/formats/tlog.md.
 #pragma once
 
 #include <memory>
 
-#include "mavloom/base/counter.hpp"
 #include "mavloom/record/file.hpp"
 #include "mavloom/record/tlog.hpp"
 
@@ -36,9 +35,12 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file_.path(); }
     // Where an existing file went; empty if there was none.
     [[nodiscard]] const std::filesystem::path& renamed_to() const noexcept { return renamed_to_; }
-    [[nodiscard]] std::uint64_t records() const noexcept { return records_.value(); }
-    // Written and buffered bytes together: how large the file will be.
+    // Written and buffered together: what the file will hold.
+    [[nodiscard]] std::uint64_t records() const noexcept { return records_; }
     [[nodiscard]] std::uint64_t size() const noexcept { return written_ + used_; }
+    // What the system has taken, whole records only.
+    [[nodiscard]] std::uint64_t written_records() const noexcept { return written_records_; }
+    [[nodiscard]] std::uint64_t written_bytes() const noexcept { return written_; }
     [[nodiscard]] std::size_t buffered_bytes() const noexcept { return used_; }
 
 private:
@@ -53,8 +55,8 @@ private:
     std::size_t used_ = 0;
     // Bytes of the first buffered record that a pipe or device has taken already: they cannot be taken back.
     std::size_t half_ = 0;
-    std::uint64_t written_ = 0;
-    Counter records_;
+    std::uint64_t written_ = 0, written_records_ = 0;
+    std::uint64_t records_ = 0;
 };
 
 }  // namespace mavloom::record

@@ -18,7 +18,7 @@
 namespace mavloom::runtime {
 
 struct RecorderCounters {
-    Counter frames, bytes;  // written
+    Counter frames, bytes;  // in the file; what the writer still buffers is not among them
     Counter queue_full;     // frames: the writer was too slow
     Counter write_error;    // frames: the disk did not take them
 };
@@ -58,6 +58,7 @@ private:
     Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice);
     void run();
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
+    void count() noexcept;
     void tell(const SetupResult<void>& result);
 
     std::string label_;

@@ -53,7 +53,7 @@ TEST(RotatingWriter, WritesExactlyThePathWithoutRotation) {
 
     EXPECT_THAT(names_in(dir), ElementsAre("x.tlog"));
     EXPECT_EQ(writer.segments(), 1u);
-    EXPECT_EQ(writer.size(), 3 * heartbeat_record_bytes);
+    EXPECT_EQ(writer.written_bytes(), 3 * heartbeat_record_bytes);
 }
 
 // Case P6 of the routing rules.
@@ -67,8 +67,8 @@ TEST(RotatingWriter, TwoFramesElevenTenthsApartWithSegmentsOfASecondAreTwoFiles)
     EXPECT_EQ(content_of(dir / "x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
     EXPECT_EQ(content_of(dir / "x-20231114T221321.100Z.tlog").size(), heartbeat_record_bytes);
     EXPECT_EQ(writer.segments(), 2u);
-    EXPECT_EQ(writer.records(), 2u);
-    EXPECT_EQ(writer.size(), 2 * heartbeat_record_bytes);
+    EXPECT_EQ(writer.written_records(), 2u);
+    EXPECT_EQ(writer.written_bytes(), 2 * heartbeat_record_bytes);
 }
 
 TEST(RotatingWriter, AFrameJustBelowTheIntervalStays) {
@@ -171,8 +171,20 @@ TEST(RotatingWriter, AFolderThatGoesAwayIsAnErrorAndKeepsTheOpenSegment) {
     EXPECT_FALSE(writer.write(begin + 2s, heartbeat()).has_value());
 
     EXPECT_TRUE(writer.close().has_value());
-    EXPECT_EQ(writer.records(), 1u);
+    EXPECT_EQ(writer.written_records(), 1u);
     EXPECT_EQ(content_of(dir / "other/x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, CountsWhatADiskThatStaysFullNeverTook) {
+    auto writer = created("/dev/full", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+
+    EXPECT_FALSE(writer.close().has_value());
+
+    EXPECT_EQ(writer.taken_records(), 1u);
+    EXPECT_EQ(writer.written_records(), 0u);
+    EXPECT_EQ(writer.written_bytes(), 0u);
+    EXPECT_EQ(writer.lost_records(), 1u);
 }
 
 }  // namespace

@@ -151,6 +151,9 @@ TEST(TlogWriter, AShortWriteIsCutBackToTheLastWholeRecordAndCanBeTriedAgain) {
         EXPECT_EQ(flushed.error().code, SetupCode::no_space);
         EXPECT_EQ(content_of(dir / "x.tlog").size(), 87u);
         EXPECT_EQ(writer.buffered_bytes(), 203u);
+        EXPECT_EQ(writer.written_records(), 3u);
+        EXPECT_EQ(writer.written_bytes(), 87u);
+        EXPECT_EQ(writer.records(), 10u);
     }
 
     ASSERT_TRUE(writer.close().has_value());
@@ -173,6 +176,7 @@ TEST(TlogWriter, RefusesRecordsWhileItsBufferCannotBeWritten) {
     EXPECT_EQ(taken, 10);  // three in the file, seven in the buffer: one try to write them, then no room
     EXPECT_FALSE(writer.close().has_value());
     EXPECT_EQ(content_of(dir / "x.tlog").size(), 87u);
+    EXPECT_EQ(writer.written_records(), 3u);
 }
 
 TEST(TlogWriter, WritesToAPipe) {
