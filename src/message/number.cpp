@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace mavloom::message {
 namespace {
@@ -74,36 +77,95 @@ char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept 
     return write_scientific(at, digits, point - 1);
 }
 
-// The same for the at most nine digits of a float32, from registers: no byte is read back after it was written.
-char* write_decimal(char* at, std::uint32_t significand, int exponent) noexcept {
-    const bool nine = significand >= detail::eight_digit_limit;
-    const auto digits = detail::eight_digits(nine ? significand / 10 : significand);
-    const auto leading = nine ? 0 : detail::leading_zeros(digits);
-    const auto first_eight = (digits + detail::ascii_zeros) >> (8 * leading);
-    const auto ninth = std::uint64_t{'0' + significand % 10};  // only read where there is one
-    const int count = 8 + nine - static_cast<int>(leading);
-    const int point = count + exponent;
-    if (point >= 1 && exponent < 0) {
+// ---- float32 in plain notation
+
+constexpr int fraction_bits = 23;                  // stored; the leading one is not
+constexpr std::uint32_t least_plain = 0x38d1b717;  // 1e-4f, from where on Python writes no exponent
+constexpr std::uint32_t end_plain = 0x4b000000;    // 2^23: all that follow are whole
+
+// Without the powers of two, whose neighbours are not equally far.
+bool is_plain(std::uint32_t bits) noexcept {
+    return bits - least_plain < end_plain - least_plain && bits << (32 - fraction_bits) != 0;
+}
+
+// By exponent: after multiplication by 10^decimals neighbours are 0.1 to 1 apart. Half of that gap is half_gap / 2^unit, exactly.
+struct PlainScale {
+    std::uint32_t half_gap;
+    std::uint8_t unit, decimals;
+};
+
+consteval auto make_plain_scales() {
+    std::array<PlainScale, (end_plain >> fraction_bits) - (least_plain >> fraction_bits)> scales{};
+    for (std::size_t i = 0; i < scales.size(); ++i) {
+        const auto exponent = static_cast<int>((least_plain >> fraction_bits) + i) - 127 - fraction_bits;  // -37 to -1
+        const int decimals = -exponent * 1233 >> 12;                                                       // log10(2)
+        std::uint32_t power_of_5 = 1;
+        for (int n = 0; n < decimals; ++n) power_of_5 *= 5;
+        scales[i] = {power_of_5, static_cast<std::uint8_t>(1 - exponent - decimals),
+                     static_cast<std::uint8_t>(decimals)};
+    }
+    return scales;
+}
+constexpr auto plain_scales = make_plain_scales();
+
+// (whole + tenths / 10) / 10^decimals
+struct Decimal {
+    std::uint32_t whole;  // six to eight digits
+    std::uint32_t tenths;
+    std::uint32_t decimals;
+};
+
+// The whole number that reads back as the float, else the nearest tenth: Schubfach's method (Giulietti, 2020), without its table of powers:
+// in this range all products are exact.
+Decimal shortest_of(std::uint32_t bits) noexcept {
+    const auto& scale = plain_scales[(bits >> fraction_bits) - (least_plain >> fraction_bits)];
+    const auto fraction = (bits & ((1u << fraction_bits) - 1)) | 1u << fraction_bits;
+    const std::uint64_t one = std::uint64_t{1} << scale.unit;
+    const std::uint64_t value = std::uint64_t{fraction} * 2 * scale.half_gap;
+    const std::uint64_t rest = value & (one - 1);
+    const std::uint64_t reach = scale.half_gap - (bits & 1);  // the middle itself reads as the even neighbour
+    const bool up = rest + reach >= one;
+    const bool between = rest > reach && !up;
+    const std::uint64_t tenths = 10 * rest;
+    const std::uint64_t half = (one >> 1) - 1 + (tenths >> scale.unit & 1);  // to even where both are as near
+    return {static_cast<std::uint32_t>(value >> scale.unit) + up,
+            static_cast<std::uint32_t>((tenths + half) >> scale.unit) & (0u - between), scale.decimals};
+}
+
+// Without branches, which nothing would foretell, and from registers: no byte is read back after it was written.
+char* write_plain(char* at, std::uint32_t bits) noexcept {
+    constexpr std::uint64_t zero_point_zeros = detail::ascii_zeros - (std::uint64_t{'0' - '.'} << 8);
+    const auto [whole, tenths, decimals] = shortest_of(bits);
+    const auto digits = detail::eight_digits(whole);
+    const auto leading = static_cast<int>(detail::leading_zeros(digits));
+    const auto ninth = std::uint64_t{'0' + tenths};
+    const auto first_eight = (digits + detail::ascii_zeros) >> (8 * leading) | ninth << 8 << (56 - 8 * leading);
+    const auto behind_first = digits >> 8 | std::uint64_t{tenths} << 56;
+    const int used = (static_cast<int>(std::bit_width(behind_first << 4 | 1)) + 3) / 8 + 1 - leading;
+    const int point = 8 - leading - static_cast<int>(decimals);
+    if (point > 0) {
         store_le(at, first_eight);
         at[point] = '.';
-        store_le(at + point + 1, first_eight >> 8 >> (8 * (point - 1)) | ninth << (64 - 8 * point));
-        return at + count + 1;
+        at += point + 1;
+        store_le(at, first_eight >> (8 * point));
+        at[8 - point] = static_cast<char>(ninth);  // where there is none, it is not looked at
+        return at + std::max(used - point, 1);
     }
-    if (point > -4 && point < 1) {
-        constexpr std::uint64_t zero_point_zeros = detail::ascii_zeros - (std::uint64_t{'0' - '.'} << 8);
-        store_le(at, zero_point_zeros);
-        at += 2 - point;
-        store_le(at, first_eight);
-        at[8] = static_cast<char>(ninth);
-        return at + count;
-    }
-    return write_decimal(at, std::uint64_t{significand}, exponent);
+    store_le(at, zero_point_zeros);
+    at += 2 - point;
+    store_le(at, first_eight);
+    at[8] = static_cast<char>(ninth);
+    return at + used;
 }
 
 template <class Float>
 char* write_shortest(char* at, Float value) noexcept {
-    if (std::signbit(value)) *at++ = '-';
+    *at = '-';
+    at += std::signbit(value);
     const Float magnitude = std::abs(value);
+    if constexpr (std::is_same_v<Float, float>)
+        if (const auto bits = std::bit_cast<std::uint32_t>(magnitude); is_plain(bits)) [[likely]]
+            return write_plain(at, bits);
     if (magnitude < Float{1000000}) {
         // Whole numbers are common (0, 1, counts) and need no search for the shortest digits.
         const auto whole = static_cast<std::uint32_t>(magnitude);

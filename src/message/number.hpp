@@ -4,9 +4,11 @@
 // returns the end. Pure; allocates nothing.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "mavloom/base/bytes.hpp"
 
@@ -56,6 +58,33 @@ inline char* write_unsigned(char* at, std::uint64_t value) noexcept {
     if (value < detail::eight_digit_limit) [[likely]]
         return detail::write_below_limit(at, static_cast<std::uint32_t>(value));
     return detail::write_above_limit(at, value);
+}
+
+namespace detail {
+
+struct ByteText {
+    std::array<char, 3> digits;
+    std::uint8_t length;
+};
+
+consteval std::array<ByteText, 256> make_byte_texts() {
+    std::array<ByteText, 256> texts{};
+    for (unsigned v = 0; v < texts.size(); ++v) {
+        auto& [digits, length] = texts[v];
+        for (unsigned by = v < 10 ? 1 : v < 100 ? 10 : 100; by != 0; by /= 10)
+            digits[length++] = static_cast<char>('0' + v / by % 10);
+    }
+    return texts;
+}
+
+inline constexpr auto byte_texts = make_byte_texts();
+
+}  // namespace detail
+
+inline char* write_byte(char* at, std::uint8_t value) noexcept {
+    const auto& text = detail::byte_texts[value];
+    std::memcpy(at, &text, sizeof text);
+    return at + text.length;
 }
 
 inline char* write_integer(char* at, std::int64_t value) noexcept {

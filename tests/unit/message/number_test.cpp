@@ -6,6 +6,7 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -42,6 +43,11 @@ TEST(Number, PrintsFloatsWithTheShortestDigitsOfTheirWidth) {
     EXPECT_EQ(f32(3.14159274f), "3.1415927");
     EXPECT_EQ(f32(-0.0031415927f), "-0.0031415927");
     EXPECT_EQ(f32(123456.79f), "123456.79");
+    EXPECT_EQ(f32(0.5f), "0.5");
+    EXPECT_EQ(f32(-0.99999994f), "-0.99999994");
+    EXPECT_EQ(f32(2097152.25f), "2097152.2");
+    EXPECT_EQ(f32(2097152.75f), "2097152.8");
+    EXPECT_EQ(f32(8388607.5f), "8388607.5");
     EXPECT_EQ(f64(0.1), "0.1");
     EXPECT_EQ(f64(0.30000000000000004), "0.30000000000000004");
     EXPECT_EQ(f64(47.3977418), "47.3977418");
@@ -68,6 +74,8 @@ TEST(Number, ChangesToScientificWherePythonDoes) {
     EXPECT_EQ(f64(1e16), "1e+16");
     EXPECT_EQ(f64(1.5e16), "1.5e+16");
     EXPECT_EQ(f64(1e100), "1e+100");
+    EXPECT_EQ(f32(0.0001f), "0.0001");
+    EXPECT_EQ(f32(std::nextafter(0.0001f, 0.0f)), "9.999999e-05");
     EXPECT_EQ(f32(1e-5f), "1e-05");
     EXPECT_EQ(f32(1e16f), "1e+16");
 }
@@ -96,6 +104,22 @@ TEST(Number, FloatsReadBackAsThemselves) {
     }
 }
 
+TEST(Number, FloatsHaveTheDigitsOfTheStandardLibrary) {
+    constexpr std::uint32_t first = 0x38d1b717, end = 0x4b000000;  // 1e-4 to 2^23: no exponent, not only whole numbers
+    std::mt19937 random(2);                                        // NOLINT: as above
+    std::uniform_int_distribution<std::uint32_t> any(first, end);
+    for (int i = 0; i < 200'000; ++i) {
+        const auto value = std::bit_cast<float>(any(random) & (i % 2 == 0 ? ~0u : ~0u << (i / 2 % 24)));  // or few bits
+        std::array<char, 64> room{};
+        const auto end_of_text = std::to_chars(room.data(), room.data() + room.size(), value, std::chars_format::fixed).ptr;
+        std::string expected(room.data(), end_of_text);
+        if (expected.find('.') == std::string::npos) expected += ".0";
+        if (value >= 1e-4f) {
+            ASSERT_EQ(f32(value), expected);
+        }
+    }
+}
+
 TEST(Number, PrintsIntegersOfEveryLength) {
     std::uint64_t value = 0;
     std::string expected;
@@ -114,6 +138,12 @@ TEST(Number, PrintsIntegersOfEveryLength) {
     EXPECT_EQ(i64(-1), "-1");
     EXPECT_EQ(i64(std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");
     EXPECT_EQ(i64(std::numeric_limits<std::int64_t>::max()), "9223372036854775807");
+}
+
+TEST(Number, PrintsEveryByte) {
+    for (unsigned value = 0; value < 256; ++value)
+        EXPECT_EQ(text_of([&](char* at) { return write_byte(at, static_cast<std::uint8_t>(value)); }),
+                  std::to_string(value));
 }
 
 TEST(Number, ScalesExactly) {
