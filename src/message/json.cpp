@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
-#include "mavloom/message/view.hpp"
 #include "message/number.hpp"
 #include "message/utf8.hpp"
 #include "message/visit.hpp"
@@ -25,10 +24,10 @@ bool all_plain(const char* eight) noexcept {
     constexpr std::uint64_t ones = 0x0101010101010101u, tops = 0x8080808080808080u;
     std::uint64_t word;
     std::memcpy(&word, eight, sizeof word);
-    const auto has_zero = [](std::uint64_t w) { return (w - ones) & ~w & tops; };
-    const auto below_space = (word - ones * 0x20) & ~word & tops;
-    return ((word & tops) | below_space | has_zero(word ^ ones * '"') | has_zero(word ^ ones * '\\') |
-            has_zero(word ^ ones * 0x7f)) == 0;
+    // Each sets the top bit of the first byte that it finds: 128 and up, 127, below space, '"', '\'. A carry comes out of such bytes only.
+    const auto found = word | (word + ones) | (word - ones * ' ') | ((word ^ ones * '"') - ones) |
+                       ((word ^ ones * '\\') - ones);
+    return (found & tops) == 0;
 }
 
 bool is_plain(char c) noexcept { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; }
@@ -122,6 +121,8 @@ char* write_value(char* at, T value) noexcept {
         const auto magnitude = negative ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
         if (magnitude > largest_exact) return write_quoted(at, negative, magnitude);
         return write_integer(at, static_cast<std::int64_t>(value));
+    } else if constexpr (std::is_same_v<T, std::uint8_t>) {
+        return write_byte(at, value);
     } else if constexpr (std::is_signed_v<T>) {
         return write_integer(at, value);
     } else {
@@ -129,29 +130,53 @@ char* write_value(char* at, T value) noexcept {
     }
 }
 
+// `array_length` as a field has it: 0 for a scalar.
 template <class T>
-char* write_field(char* at, const MessageView& view, const dialect::Field& field) noexcept {
-    if (!field.is_array()) [[likely]]
-        return write_value(at, view.get<T>(field));
+char* write_numbers(char* at, const std::uint8_t* from, std::size_t array_length) noexcept {
+    if (array_length == 0) [[likely]]
+        return write_value(at, load_le<T>(from));
     *at++ = '[';
-    for (std::size_t i = 0; i < field.array_length; ++i) {
-        at = write_value(at, view.get<T>(field, i));
+    for (std::size_t i = 0; i < array_length; ++i) {
+        at = write_value(at, load_le<T>(from + i * sizeof(T)));
         *at++ = ',';
     }
     at[-1] = ']';
     return at;
 }
 
-char* write_characters_of(char* at, const MessageView& view, const dialect::Field& field) noexcept {
-    if (field.is_array()) return write_string(at, view.text(field));
-    const auto character = view.get<char>(field);
-    return write_string(at, {&character, character == 0 ? 0u : 1u});
+// Up to the NULs at the end.
+char* write_characters_of(char* at, const std::uint8_t* from, std::size_t array_length) noexcept {
+    std::size_t used = std::max<std::size_t>(array_length, 1);
+    while (used > 0 && from[used - 1] == 0) --used;
+    return write_string(at, {reinterpret_cast<const char*>(from), used});
 }
 
-char* write_field_value(char* at, const MessageView& view, const dialect::Field& field) noexcept {
-    if (field.type == dialect::FieldType::char8) return write_characters_of(at, view, field);
-    return visit_type(field.type, [&](auto tag) { return write_field<decltype(tag)>(at, view, field); });
+char* write_field_value(char* at, const std::uint8_t* from, dialect::FieldType type, std::size_t array_length) noexcept {
+    if (type == dialect::FieldType::char8) return write_characters_of(at, from, array_length);
+    return visit_type(type, [&](auto tag) { return write_numbers<decltype(tag)>(at, from, array_length); });
 }
+
+// The payload in its full length: what the sender cut off is 0.
+class FullPayload {
+public:
+    FullPayload(const dialect::Message& message, ByteView payload) noexcept {
+        const std::size_t length = message.wire.max_length;
+        if (payload.size() >= length) {
+            data_ = payload.data();
+            return;
+        }
+        if (!payload.empty()) std::memcpy(copy_.data(), payload.data(), payload.size());
+        std::memset(copy_.data() + payload.size(), 0, length - payload.size());
+    }
+    FullPayload(const FullPayload&) = delete;
+    FullPayload& operator=(const FullPayload&) = delete;
+
+    [[nodiscard]] const std::uint8_t* data() const noexcept { return data_; }
+
+private:
+    std::array<std::uint8_t, wire::max_payload_length> copy_;  // NOLINT: as long as needed only
+    const std::uint8_t* data_ = copy_.data();
+};
 
 char* write_key(char* at, std::string_view name) noexcept {
     *at++ = '"';
@@ -185,10 +210,10 @@ void commit(TextBuffer& buffer, const char* end) { buffer.resize(static_cast<std
 constexpr std::size_t header_room = 160 + 6 * number_room;  // all but the link's name, the message's name and its fields
 
 char* write_fields(char* at, const dialect::Message& message, ByteView payload) noexcept {
-    const MessageView view(message, payload);
+    const FullPayload full(message, payload);
     for (const auto& field : message.fields) {
         at = write_key(at, field.name);
-        at = write_field_value(at, view, field);
+        at = write_field_value(at, full.data() + field.offset, field.type, field.array_length);
         *at++ = ',';
     }
     return message.fields.empty() ? at : at - 1;
@@ -201,11 +226,11 @@ char* write_header(char* at, const Received& received) noexcept {
     at = write_literal(at, ",\"link\":");
     at = write_string(at, received.link);
     at = write_literal(at, ",\"sys\":");
-    at = write_unsigned(at, received.frame.system().value);
+    at = write_byte(at, received.frame.system().value);
     at = write_literal(at, ",\"comp\":");
-    at = write_unsigned(at, received.frame.component().value);
+    at = write_byte(at, received.frame.component().value);
     at = write_literal(at, ",\"seq\":");
-    return write_unsigned(at, received.frame.sequence());
+    return write_byte(at, received.frame.sequence());
 }
 
 char* write_id_and_name(char* at, MessageId id, const dialect::Message* message) noexcept {
@@ -266,18 +291,9 @@ void append_json(TextBuffer& buffer, const Received& received) {
     commit(buffer, write_literal(at, "}}\n"));
 }
 
-// ---- with keys made ahead
+// ---- with all that is known ahead made ahead
 
 namespace {
-
-JsonFormatter::Key key_of(const dialect::Field& field) noexcept {
-    JsonFormatter::Key key;
-    const auto length = field.name.size() + 3;
-    if (length > key.text.size()) return key;
-    write_key(key.text.data(), field.name);
-    key.length = static_cast<std::uint8_t>(length);
-    return key;
-}
 
 std::string id_and_name_of(const dialect::Message& message) {
     std::string text(header_room + message.name.size(), '\0');
@@ -287,13 +303,23 @@ std::string id_and_name_of(const dialect::Message& message) {
 
 }  // namespace
 
+JsonFormatter::Step JsonFormatter::step_of(const dialect::Field& field, char before) noexcept {
+    Step step{{before}, 0, field.type, field.offset, field.array_length};
+    const auto length = field.name.size() + 4;
+    if (length > step.key.size()) return step;
+    write_key(step.key.data() + 1, field.name);
+    step.key_length = static_cast<std::uint8_t>(length);
+    return step;
+}
+
 JsonFormatter::JsonFormatter(const dialect::Dialect& dialect) : messages_(dialect.messages()) {
     prepared_.reserve(messages_.size());
     for (const auto& message : messages_) {
         auto id_and_name = id_and_name_of(message);
-        const auto room = header_room + id_and_name.size() + room_of(message) + sizeof(Key);
-        prepared_.push_back({std::move(id_and_name), keys_.size(), room});
-        for (const auto& field : message.fields) keys_.push_back(key_of(field));
+        const auto room = header_room + id_and_name.size() + room_of(message) + sizeof(Step);
+        prepared_.push_back({std::move(id_and_name), steps_.size(), room});
+        for (const auto& field : message.fields)
+            steps_.push_back(step_of(field, &field == message.fields.data() ? '{' : ','));
     }
 }
 
@@ -312,16 +338,15 @@ void JsonFormatter::append(TextBuffer& buffer, const Received& received) const {
     at = write_text(at, prepared->id_and_name);
     at = write_version(at, received.frame);
     at = write_literal(at, ",\"fields\":{");
-    const MessageView view(*received.message, received.frame.payload());
-    const auto* key = keys_.data() + prepared->first_key;
-    for (const auto& field : received.message->fields) {
-        std::memcpy(at, key, sizeof *key);  // more than its text, which is cheaper than as much as its text
-        at = key->length != 0 ? at + key->length : write_key(at, field.name);
-        ++key;
-        at = write_field_value(at, view, field);
-        *at++ = ',';
+    const auto& fields = received.message->fields;
+    if (!fields.empty()) --at;  // each step brings what stands before its key
+    const FullPayload full(*received.message, received.frame.payload());
+    const auto* step = steps_.data() + prepared->first_step;
+    for (std::size_t i = 0; i < fields.size(); ++i, ++step) {
+        std::memcpy(at, step, sizeof *step);  // more than its text, which is cheaper than as much as its text
+        at = step->key_length != 0 ? at + step->key_length : write_key(at + 1, fields[i].name);
+        at = write_field_value(at, full.data() + step->offset, step->type, step->array_length);
     }
-    if (!received.message->fields.empty()) --at;
     commit(buffer, write_literal(at, "}}\n"));
 }
 

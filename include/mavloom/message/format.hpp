@@ -33,7 +33,7 @@ struct Received {
 // {"time_us":…,"link":"…","sys":1,"comp":1,"seq":7,"id":30,"name":"ATTITUDE","v":2,"signed":false,"fields":{…}} and a newline.
 void append_json(TextBuffer& out, const Received& received);
 
-// The same object, a sixth faster: the keys of every message of a dialect are made ahead. For programs that print many messages.
+// The same object, faster: the keys of every message of a dialect are made ahead. For programs that print many messages.
 // Allocates when built, then like append_json. The dialect's records must outlive it; immutable, safe from any thread.
 class JsonFormatter {
 public:
@@ -41,23 +41,25 @@ public:
     // A message of another dialect is printed too, by append_json.
     void append(TextBuffer& out, const Received& received) const;
 
-    struct Key {  // `"roll":`
-        static constexpr std::size_t size = 32;
-        std::array<char, size - 1> text{};
-        std::uint8_t length = 0;  // 0: longer than fits here
-    };
-
 private:
+    struct Step {                  // a field
+        std::array<char, 28> key;  // `,"roll":`; `{` before the first of a message
+        std::uint8_t key_length;   // 0: longer than fits here
+        dialect::FieldType type;   // these three as in dialect::Field
+        std::uint8_t offset;
+        std::uint8_t array_length;
+    };
     struct Prepared {
         std::string id_and_name;  // `,"id":30,"name":"ATTITUDE"`
-        std::size_t first_key;
+        std::size_t first_step;
         std::size_t room;  // the most bytes that its line takes, without the link's name
     };
+    [[nodiscard]] static Step step_of(const dialect::Field& field, char before) noexcept;
     [[nodiscard]] const Prepared* find(const dialect::Message* message) const noexcept;
 
     std::span<const dialect::Message> messages_;
     std::vector<Prepared> prepared_;  // by message
-    std::vector<Key> keys_;           // by message and field
+    std::vector<Step> steps_;         // by message and field
 };
 
 // "12:34:56.789012 link 1/1 ATTITUDE  roll=0.01 rad …" and a newline: units and enum names (flags as A|B) where they help; MAV_CMD

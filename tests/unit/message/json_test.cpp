@@ -115,6 +115,19 @@ TEST(Json, EveryByteGivesValidJson) {
     }
 }
 
+TEST(Json, EveryCharacterAtEveryPlaceReadsBack) {
+    for (int character = 1; character < 0x80; ++character) {
+        for (std::size_t place = 0; place < 19; ++place) {
+            std::string text = "nineteen characters";
+            text[place] = static_cast<char>(character);
+            const SampleFrame frame(statustext, statustext_payload(6, text));
+            const auto line = json_of(frame.received());
+            ASSERT_EQ(nlohmann::json::parse(line)["fields"]["text"], text) << line;
+            ASSERT_EQ(line.find('\x7f'), std::string::npos);
+        }
+    }
+}
+
 // The formatter with keys made ahead prints what append_json prints; here over all kinds of message, and one of another dialect.
 TEST(JsonFormatter, PrintsTheSameObject) {
     const JsonFormatter sut(sample_dialect());
@@ -131,25 +144,29 @@ TEST(JsonFormatter, PrintsTheSameObject) {
     }
 }
 
-TEST(JsonFormatter, PrintsUnknownIdsAndLongNames) {
+TEST(JsonFormatter, PrintsUnknownIdsLongNamesAndNoFields) {
     static constexpr std::string_view long_name = "a_field_with_a_name_of_more_than_thirty_characters";
     const Field fields[] = {
         heartbeat_fields[0],
         {.name = long_name, .type = FieldType::u8, .array_length = 0, .offset = 5, .units = {}, .invalid = {}}};
     const Message definitions[] = {
-        {.name = "LONG", .wire = {MessageId{1}, 1, 9, 9}, .fields = fields, .origin = {}, .deprecated = {}}};
+        {.name = "LONG", .wire = {MessageId{1}, 1, 9, 9}, .fields = fields, .origin = {}, .deprecated = {}},
+        {.name = "EMPTY", .wire = {MessageId{2}, 1, 0, 0}, .fields = {}, .origin = {}, .deprecated = {}}};
     const dialect::Dialect dialect("long", definitions, enums);
     const JsonFormatter sut(dialect);
     const SampleFrame frame(definitions[0], std::vector<std::uint8_t>(9, 3));
 
-    TextBuffer known, unknown;
+    const SampleFrame no_fields(definitions[1], {});
+    TextBuffer known, empty, unknown;
     sut.append(known, frame.received());
+    sut.append(empty, no_fields.received());
     auto received = frame.received();
     received.message = nullptr;
     sut.append(unknown, received);
 
     EXPECT_NE(fmt::to_string(known).find(fmt::format(R"("fields":{{"type":3,"{}":3}}}})", long_name)),
               std::string::npos);
+    EXPECT_TRUE(fmt::to_string(empty).ends_with("\"fields\":{}}\n"));
     EXPECT_EQ(fmt::to_string(unknown), json_of(received));
 }
 
