@@ -323,6 +323,22 @@ class SmallLimit:
         pass
 
 
+class Tape:
+    """What is sent through a router, and what it says of its recording."""
+
+    def __init__(self, net):
+        self.net, self.sent = net, [net.first]
+
+    def counters(self):
+        return self.net.router.stats("recording")[0]
+
+    def after_more(self):
+        more = bulk(50)
+        self.net.passes(*more)
+        self.sent.extend(more)
+        return self.counters()
+
+
 @pytest.mark.parametrize("kind", [SmallDisk, SmallLimit])
 def test_a_full_disk_stops_the_recording_only_and_only_while_it_is_full(pair, tmp_path, kind):
     disk = kind(tmp_path)
@@ -330,32 +346,23 @@ def test_a_full_disk_stops_the_recording_only_and_only_while_it_is_full(pair, tm
         path = tmp_path / "flight.tlog"
         net = pair(f"tlog://{path}?name=tape")
         disk.fill(net.process.pid)
-        sent = [net.first]
-
-        def recording():
-            return net.router.stats("recording")[0]
-
-        def passes_more():
-            more = bulk(50)
-            net.passes(*more)
-            sent.extend(more)
-            return recording()
-        harness.wait_for(lambda: passes_more()["write_error"] > 20, what="the disk to be full")
+        tape = Tape(net)
+        harness.wait_for(lambda: tape.after_more()["write_error"] > 20, what="the disk to be full")
         net.answers()
         disk.free(net.process.pid)
-        before = recording()["frames"]
-        harness.wait_for(lambda: passes_more()["frames"] > before + 500, what="the recording to go on")
+        before = tape.counters()["frames"]
+        harness.wait_for(lambda: tape.after_more()["frames"] > before + 500, what="the recording to go on")
         net.process.wait_output("records are written again", stream="err")
         assert "write_error" in net.process.stderr
 
-        harness.wait_for(lambda: (r := recording())["frames"] + r["write_error"] == len(sent) + 1, what="the last record")
-        end = recording()
+        harness.wait_for(lambda: (r := tape.counters())["frames"] + r["write_error"] == len(tape.sent) + 1, what="the last record")
+        end = tape.counters()
         assert net.process.stop().status == 130
         recorded = [frame for _, frame in frames.read_tlog(path)]  # whole records and nothing else
         assert len(recorded) == end["frames"] and end["queue_full"] == 0
-        places = {frame: place for place, frame in enumerate(sent)}
+        places = {frame: place for place, frame in enumerate(tape.sent)}
         order = [places[frame] for frame in recorded if frame in places]
-        assert order == sorted(set(order)) and order[-1] == len(sent) - 1
+        assert order == sorted(set(order)) and order[-1] == len(tape.sent) - 1
 
 
 def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_path):
@@ -363,17 +370,8 @@ def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_
     path = tmp_path / "flight.tlog"
     net = pair(f"tlog://{path}?name=tape")
     SmallLimit(tmp_path).fill(net.process.pid)
-    sent = [net.first]
-
-    def recording():
-        return net.router.stats("recording")[0]
-
-    def passes_more():
-        more = bulk(50)
-        net.passes(*more)
-        sent.extend(more)
-        return recording()
-    end = harness.wait_for(lambda: (r := passes_more())["write_error"] > 20 and r, what="the disk to be full")
+    tape = Tape(net)
+    end = harness.wait_for(lambda: (r := tape.after_more())["write_error"] > 20 and r, what="the disk to be full")
     recorded = frames.read_tlog(path)
 
     assert (end["frames"], end["bytes"]) == (len(recorded), sum(len(frame) for _, frame in recorded))
