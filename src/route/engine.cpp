@@ -35,10 +35,6 @@ Decision Engine::explain(const wire::FrameView& frame, const wire::MessageInfo* 
 void Engine::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept {
     impl_->note_sent(frame, link, now);
 }
-void Engine::set_loss(LinkId link, std::uint32_t permille) noexcept {
-    const Slot slot = impl_->slot_of(link);
-    if (slot != no_slot) impl_->links[slot]->loss_permille = permille;
-}
 std::vector<RouteInfo> Engine::routes(MonoTime now) const { return impl_->routes(now); }
 std::span<const DuplicateId> Engine::duplicate_ids() const noexcept { return impl_->duplicates; }
 std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(); }
@@ -139,6 +135,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         // The link is not noted as one where it was heard: a copy of the copy must not pass for a repetition.
         p.is_copy = age < echo_window && !again_here;
         if (p.is_copy) return false;
+        p.is_doubled = again_here && age < doubled_within;
     }
     remember(p, hash, found);
     return false;
@@ -157,7 +154,20 @@ static std::uint32_t boot_ms_of(ByteView payload) noexcept {
     return value;
 }
 
+// HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
+// of the rest. A link that is heard for the first time, or again, is compared from there on.
+void Engine::Impl::count_beats(const Passage& p) noexcept {
+    const std::vector<Slot>& members = groups_[p.link.group].order;
+    if (!is_alive(p.link, p.now)) {
+        for (const Slot slot : members) links[slot]->beats = 0;
+        return;
+    }
+    if (p.id != heartbeat_id || p.is_doubled || ++p.link.beats < most_beats) return;
+    for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
+}
+
 void Engine::Impl::learn(Passage& p) noexcept {
+    if (p.link.group != no_group) count_beats(p);
     p.link.heard = true;
     p.link.last_heard = p.now;
     if (p.info == nullptr || p.frame.system().value == 0) return;
@@ -303,14 +313,14 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
         const Link& link = *links[slot];
         if (!has(candidates, slot) || !is_alive(link, now)) continue;
         if (group.mode == GroupMode::primary) return slot;
-        if (best == no_slot || link.loss_permille < links[best]->loss_permille ||
-            (link.loss_permille == links[best]->loss_permille && link.last_heard > links[best]->last_heard))
+        if (best == no_slot || link.beats > links[best]->beats ||
+            (link.beats == links[best]->beats && link.last_heard > links[best]->last_heard))
             best = slot;
     }
     if (best == no_slot) return no_slot;
     const Slot current = group.current;
     const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
-                       links[current]->loss_permille < links[best]->loss_permille + better_by_permille;
+                       links[best]->beats < links[current]->beats + better_by_beats;
     if (!stays) group.current = best;
     return group.current;
 }

@@ -39,7 +39,7 @@ public:
         bool filters_in = false;
         bool heard = false;
         MonoTime last_heard{};
-        std::uint32_t loss_permille = 0;
+        std::uint32_t beats = 0;  // HEARTBEATs heard, as `best` counts them
         LinkCounters counters{};
         // The last long list of where its frames went.
         std::size_t listed = 0;  // 0: none
@@ -86,8 +86,9 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
-        bool is_copy = false;    // of a frame that another link brought
-        std::size_t recent = 0;  // its place among the recent frames
+        bool is_copy = false;     // of a frame that another link brought
+        bool is_doubled = false;  // the link brought it a moment ago
+        std::size_t recent = 0;   // its place among the recent frames
     };
 
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
@@ -95,6 +96,7 @@ private:
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
     void remember(Passage& p, std::uint64_t hash, bool found) noexcept;
     void learn(Passage& p) noexcept;
+    void count_beats(const Passage& p) noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;

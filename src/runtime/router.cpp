@@ -21,7 +21,7 @@ namespace {
 
 constexpr Nanoseconds fast_beat = 100ms;  // until the far side answers
 constexpr Nanoseconds beat_interval = 1s;
-constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: loss for `best`, duplicate ids
+constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: duplicate ids, rows of links that went
 
 constexpr std::uint8_t ardupilot = 3;                   // MAV_AUTOPILOT_ARDUPILOTMEGA
 constexpr msg::Heartbeat own_heartbeat{.type = 18,      // MAV_TYPE_ONBOARD_CONTROLLER
@@ -45,11 +45,6 @@ route::Options engine_options(const RouterConfig& config) {
 
 route::FilterTerms terms_of(std::string_view option, const FilterTerms& terms) {
     return {option, terms.messages, terms.systems, terms.components};
-}
-
-std::uint32_t loss_permille(const LinkCounters& counters) noexcept {
-    const std::uint64_t lost = counters.lost.value(), all = counters.frames_in.value() + lost;
-    return all == 0 ? 0 : static_cast<std::uint32_t>(lost * 1000 / all);
 }
 
 }  // namespace
@@ -357,8 +352,6 @@ void Router::look_after(MonoTime now) {
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
-    if (!groups_.empty())
-        for (const auto& link : links_->links()) engine_.set_loss(link.id, loss_permille(*link.counters));
     const auto ids = engine_.duplicate_ids();
     for (; duplicate_ids_told_ < ids.size(); ++duplicate_ids_told_) {
         const auto& d = ids[duplicate_ids_told_];

@@ -130,6 +130,11 @@ class UdpImpairer(Impairer):
         with self._lock:
             self._alive = True
 
+    def become(self, profile):
+        """From now on, both ways."""
+        with self._lock:
+            self.forth.profile = self.back.profile = profile
+
     @property
     def idle(self) -> bool:
         """All that was taken has met its fate."""

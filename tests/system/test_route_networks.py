@@ -191,6 +191,12 @@ class Flow:
         return died & set(self.sent)
 
 
+class BothWays(Flow):
+    def step(self):
+        super().step()
+        self.sky.station.send(routers.command(GROUND_STATION, VEHICLE))
+
+
 def test_primary_falls_over_and_comes_back(spawn, rng):
     with Sky(spawn, rng, "primary", [LATE, LATE]) as sky:
         sky.join()
@@ -228,6 +234,18 @@ def test_best_takes_the_link_that_loses_less(spawn, rng, bad):
         sky.join()
         flow = Flow(sky)
         flow.carries(1 - bad, 100)
+        flow.finish()
+
+
+def test_best_leaves_a_link_that_turns_bad_while_traffic_goes_both_ways(spawn, rng):
+    """Both sides choose: the spare link carries heartbeats only, and what was never sent on it is no loss."""
+    with Sky(spawn, rng, "best", [LATE, LATE]) as sky:
+        sky.join()
+        flow = BothWays(sky)
+        flow.until(lambda: len(flow.got) >= 300, "the first frames")
+        chosen = 0 if sky.carried(0) else 1
+        sky.links[chosen].become(dataclasses.replace(LATE, loss=0.5))
+        flow.carries(1 - chosen, 300)
         flow.finish()
 
 

@@ -139,8 +139,12 @@ public:
     static constexpr Nanoseconds echo_window = std::chrono::seconds{2};
     // A link of a group that was not heard for this long is silent: `best` and `primary` choose another.
     static constexpr Nanoseconds member_silence = std::chrono::seconds{3};
-    // `best` leaves its link for another only if that loses at least this much less.
-    static constexpr std::uint32_t better_by_permille = 20;
+    // `best` leaves its link for another only if that heard so many more HEARTBEATs of the last 128 to 256: 2 %, and more than are under way
+    // at one time on links of unequal delay.
+    static constexpr std::uint32_t better_by_beats = 5;
+    static constexpr std::uint32_t most_beats = 256;  // then all links of the group go on with half of theirs
+    // The same HEARTBEAT once more on its link within this time is a datagram that was doubled, and counts once.
+    static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
     // SYSTEM_TIME.time_boot_ms that falls by more is a reboot; by less, two frames that overtook each other.
     static constexpr std::uint32_t reboot_tolerance_ms = 1000;
 
@@ -167,8 +171,6 @@ public:
 
     // The program itself sent this frame to the link: if it comes back, it is an echo.
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
-    // The link's own loss, for groups of mode `best`; 0 until told.
-    void set_loss(LinkId link, std::uint32_t permille) noexcept;
 
     // Learned routes that are not too old, by system, component and link. Allocates.
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;

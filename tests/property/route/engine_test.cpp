@@ -105,7 +105,7 @@ public:
             case 22:
             case 23: return frames_.empty() ? void() : again(link, s);
             case 24: return add(s);
-            case 25: return s[2] % 2 == 0 ? remove(link) : lose(link, s[2]);
+            case 25: return s[2] % 2 == 0 ? remove(link) : beat(link, s[2] / 2);
             case 26:
             case 27:
             case 28:
@@ -136,10 +136,9 @@ private:
         explaining_.remove_link(LinkId{link});
         model_.remove(link);
     }
-    void lose(std::uint32_t link, std::uint32_t permille) {
-        routing_.set_loss(LinkId{link}, permille);
-        explaining_.set_loss(LinkId{link}, permille);
-        model_.set_loss(link, permille);
+    // HEARTBEATs that no other link hears.
+    void beat(std::uint32_t link, std::uint32_t count) {
+        while (count-- > 0) pass(link, test::make_frame("HEARTBEAT", {1, 1}, {{"custom_mode", ++beats_}}));
     }
     void pass(std::uint32_t link, const Bytes& bytes) {
         const auto frame = wire::FrameView::unchecked(bytes);
@@ -170,7 +169,7 @@ private:
     Model model_;
     std::vector<Bytes> frames_;
     MonoTime now_{std::chrono::hours{1}};
-    std::uint32_t last_ = 0;
+    std::uint32_t last_ = 0, beats_ = 0;
     std::uint32_t still_;
 };
 

@@ -69,9 +69,6 @@ public:
         std::erase_if(group_modes_, is_empty);
         std::erase_if(current_, is_empty);
     }
-    void set_loss(std::uint32_t id, std::uint32_t permille) {
-        if (links_.contains(id)) links_[id].loss = permille;
-    }
 
     Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now) {
         const auto frame = wire::FrameView::unchecked(bytes);
@@ -104,7 +101,7 @@ private:
     struct Link {
         ModelPolicy policy{};
         std::optional<MonoTime> last_heard{};
-        std::uint32_t loss = 0;
+        std::uint32_t heartbeats = 0;             // against those of the other links of its group
         std::map<std::uint64_t, MonoTime> due{};  // by source and message
         double tokens = 0;
         std::optional<MonoTime> filled{};
@@ -153,6 +150,7 @@ private:
         Link& link = links_[ingress];
         if (link.policy.tap) return Verdict::tap;
         if (!admits(link.policy.in_allow, link.policy.in_block, frame)) return Verdict::filtered;
+        bool doubled = false;
         const auto same = [&](const Recent& r) { return r.bytes == bytes; };
         if (const auto r = std::find_if(recent_.begin(), recent_.end(), same); r != recent_.end()) {
             const auto age = now_ - r->time;
@@ -170,21 +168,39 @@ private:
                 remembered = &*r;
                 return decide_unless_private(ingress, frame, why, r->sent);
             }
+            doubled = again && age < std::chrono::milliseconds{500};
             recent_.erase(r);
         }
         recent_.push_back({bytes, now_, {ingress}, {}});
         remembered = &recent_.back();
-        return decide_unless_private(ingress, frame, why, {});
+        return decide_unless_private(ingress, frame, why, {}, doubled);
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
-                                  const std::set<std::uint32_t>& have_it) {
-        learn(ingress, frame);
+                                  const std::set<std::uint32_t>& have_it, bool doubled = false) {
+        learn(ingress, frame, doubled);
         if (links_[ingress].policy.is_private) return Verdict::private_link;
         return decide(ingress, frame, why, have_it);
     }
 
-    void learn(std::uint32_t ingress, const wire::FrameView& frame) {
+    [[nodiscard]] bool is_silent(const Link& link) const {
+        return !link.last_heard || now_ - *link.last_heard >= std::chrono::seconds{3};
+    }
+
+    // A link that was silent begins even with the others of its group; who has heard 256 HEARTBEATs halves what all have heard.
+    void count_heartbeat(Link& link, bool is_heartbeat) {
+        const auto each_of_group = [&](auto change) {
+            for (auto& [id, other] : links_)
+                if (other.policy.group == link.policy.group) change(other.heartbeats);
+        };
+        if (is_silent(link)) return each_of_group([](std::uint32_t& n) { n = 0; });
+        if (!is_heartbeat) return;
+        ++link.heartbeats;
+        if (link.heartbeats == 256) each_of_group([](std::uint32_t& n) { n = (n + 1) / 2; });
+    }
+
+    void learn(std::uint32_t ingress, const wire::FrameView& frame, bool doubled = false) {
+        if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame.id().value == 0 && !doubled);
         links_[ingress].last_heard = now_;
         const auto system = frame.system().value, component = frame.component().value;
         if (system == 0 || info(frame) == nullptr) return;
@@ -273,18 +289,18 @@ private:
             if (reason == Reason::sent && links_[id].policy.group == group) members.push_back(id);
         if (members.size() < 2) return;
         for (const auto id : members)
-            if (links_[id].last_heard && now_ - *links_[id].last_heard < std::chrono::seconds{3}) alive.push_back(id);
+            if (!is_silent(links_[id])) alive.push_back(id);
         if (alive.empty()) return;
         std::stable_sort(alive.begin(), alive.end(),
                          [&](auto a, auto b) { return links_[a].policy.order < links_[b].policy.order; });
         std::uint32_t chosen = alive.front();
         if (mode == GroupMode::best) {
             std::stable_sort(alive.begin(), alive.end(), [&](auto a, auto b) {
-                return std::pair{links_[a].loss, -links_[a].last_heard->time_since_epoch()} <
-                       std::pair{links_[b].loss, -links_[b].last_heard->time_since_epoch()};
+                return std::pair{links_[a].heartbeats, *links_[a].last_heard} >
+                       std::pair{links_[b].heartbeats, *links_[b].last_heard};
             });
             chosen = alive.front();
-            if (in(alive, current_[group]) && links_[current_[group]].loss < links_[chosen].loss + 20)
+            if (in(alive, current_[group]) && links_[current_[group]].heartbeats + 5 > links_[chosen].heartbeats)
                 chosen = current_[group];
             current_[group] = chosen;
         }

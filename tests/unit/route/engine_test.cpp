@@ -405,14 +405,80 @@ TEST(Engine, BestStaysWhileItsLinkIsNoWorse) {
     sut.wait(1ms);
     sut.hears(1, vehicle);
     EXPECT_THAT(where(), ElementsAre(2));  // stays
-    sut.engine.set_loss(LinkId{2}, 19);
-    EXPECT_THAT(where(), ElementsAre(2));
-    sut.engine.set_loss(LinkId{2}, 20);
+    for (int more = 1; more < 4; ++more) sut.hears(1, vehicle);
+    EXPECT_THAT(where(), ElementsAre(2));  // 1 heard 4 more
+    sut.hears(1, vehicle);
     EXPECT_THAT(where(), ElementsAre(1));
     sut.wait(2s);
     sut.hears(2, vehicle);
     sut.wait(1s);
     EXPECT_THAT(where(), ElementsAre(2));  // 1 is silent
+}
+
+// A network whose links 1 and 2 lead to a vehicle, and 3 to a ground station.
+struct BestNetwork : Network {
+    BestNetwork() {
+        links(2, {.group = GroupId{1}, .group_mode = GroupMode::best});
+        link();
+        both_hear();
+    }
+    void both_hear() { heard_on({1, 2}); }
+    void heard_on(std::initializer_list<std::uint32_t> on) {
+        const auto frame = make_frame("HEARTBEAT", vehicle, {{"custom_mode", ++count}});
+        for (const auto number : on) pass(number, frame);
+        wait(1s);
+    }
+    void telemetry(std::uint32_t on) { send(on, "ATTITUDE", vehicle, {{"time_boot_ms", ++count}}); }
+    test::Ids where() { return send(3, "ATTITUDE", gcs, {{"time_boot_ms", ++count}}); }
+};
+
+TEST(Engine, BestCountsHeartbeatsOnlyForTheSpareLinkGetsNothingElse) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_THAT(sut.where(), ElementsAre(1));
+        for (int n = 0; n < 50; ++n) sut.telemetry(1);
+        sut.heard_on({2});
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(2));
+}
+
+TEST(Engine, BestForgetsOldLoss) {
+    BestNetwork sut;
+    for (int i = 0; i < 100; ++i) sut.both_hear();
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 5; ++i) {
+        sut.heard_on({2});
+        sut.telemetry(1);
+    }
+    ASSERT_THAT(sut.where(), ElementsAre(2));
+    for (int i = 0; i < 1000; ++i) sut.both_hear();
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_THAT(sut.where(), ElementsAre(2));
+        sut.heard_on({1});
+        sut.telemetry(2);
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(1));
+}
+
+TEST(Engine, BestComparesALinkFromWhenItIsHeardAgain) {
+    BestNetwork sut;
+    for (int i = 0; i < 50; ++i) sut.heard_on({1});
+    sut.both_hear();
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_THAT(sut.where(), ElementsAre(1));
+        sut.heard_on({2});
+        sut.telemetry(1);
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(2));
+}
+
+TEST(Engine, BestTakesADoubledHeartbeatOnce) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 10; ++i) sut.heard_on({1, 2, 2});
+
+    EXPECT_THAT(sut.where(), ElementsAre(1));
 }
 
 TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
