@@ -69,6 +69,7 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     if (to == answer->end()) return setup_error(SetupCode::usage, "IPv6 has no broadcast; udpmcast:// has groups");
     net::UdpOptions options = udp_options(info.endpoint.options);
     options.broadcast = true;
+    options.report_refused = true;  // which also has a full device queue reported
     if (auto done = port_.open(local_.value_or(*net::Address::parse("0.0.0.0", 0)), options); !done) return done;
     info.local_port = port_.socket().local().port();
     info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();
@@ -103,7 +104,8 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
     return info.endpoint.options.fixed ? &everybody_ : peers_.of(port, datagram);
 }
 
-void UdpBroadcast::on_send_error(net::IoError) {
+void UdpBroadcast::on_send_error(net::IoError error) {
+    if (error == net::IoError::refused) return;  // a peer's port that was closed
     if (std::exchange(told_unreachable_, true)) return;
     core_.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
                                       everybody_.address.text()));

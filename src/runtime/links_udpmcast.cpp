@@ -67,6 +67,7 @@ private:
 
 SetupResult<void> UdpMulticast::join() {
     net::UdpOptions options = udp_options(info.endpoint.options);
+    options.report_refused = true;  // which also has a full device queue reported
     options.device.clear();
     options.group_interface = group_.address.scope();
     if (const auto& name = info.endpoint.options.iface; !name.empty()) {
@@ -96,7 +97,8 @@ void UdpMulticast::fail(const SetupError& error) {
     again_after(backoff_.next());
 }
 
-void UdpMulticast::on_send_error(net::IoError) {
+void UdpMulticast::on_send_error(net::IoError error) {
+    if (error == net::IoError::refused) return;
     if (std::exchange(failing_, true)) return;
     fail({SetupCode::unreachable, 0, "no network reaches the group now"});
 }

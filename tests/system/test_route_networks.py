@@ -338,7 +338,7 @@ def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
 
 
 class Narrow:
-    """vehicle - router - narrow cable - station. The station calls (udpin, tcpin) or is called (udpout)."""
+    """vehicle - router - narrow cable - station. The station calls (udpin, tcpin) or is called (the others)."""
 
     RATE_BITS = 256_000
 
@@ -347,9 +347,13 @@ class Narrow:
         self.vehicle = machine_end(here, ("127.0.0.1", PORT))
         self.here, self.scheme = here, scheme
         near = PORT + 1
-        if scheme == "udpout":
+        called = {"udpout": self.there.host, "udpbcast": "10.77.0.255", "udpmcast": "239.255.77.1"}
+        if scheme in called:
             self.station = machine_end(self.there)
-            url = f"udpout://{self.there.host}:{self.station.port}"
+            url = f"{scheme}://{called[scheme]}:{self.station.port}"
+            if scheme == "udpmcast":
+                self.station.sock.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
+                                             socket.inet_aton(called[scheme]) + socket.inet_aton(self.there.host))
         else:
             url = f"{scheme}://0.0.0.0:{near}"
         self.router = Router(start(here), f"udpin://127.0.0.1:{PORT}", f"{url}?name=far&{options}")
@@ -400,10 +404,10 @@ def urgent():
             routers.make(m.MAVLink_param_value_message(b"P", routers.unique(), 9, 1, 0))]
 
 
-@pytest.mark.parametrize("scheme", ["udpout", "udpin", "tcpin"])
-def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, spawn_in, scheme):
+@pytest.mark.parametrize("scheme, options", [("udpout", ""), ("udpin", ""), ("udpbcast", "&fixed=true"), ("udpmcast", ""), ("tcpin", "")])
+def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, spawn_in, scheme, options):
     """Much more than the cable carries: heartbeats, commands and acknowledgements all get through, telemetry is dropped and counted."""
-    net = Narrow(machines, spawn_in, scheme, "queue_bytes=20k")
+    net = Narrow(machines, spawn_in, scheme, "queue_bytes=20k" + options)
     with contextlib.closing(net):
         wanted, other = [], []
         for _ in range(40):
