@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whom an ArduPilot is to be asked for its streams, and when: each source on each link when it is first heard, and again when it is heard 30 s
-// later. ArduPilot sends nothing but heartbeats on a link until it is asked. Private to module runtime; one owner thread; allocates for a
-// new source. Time is a parameter.
+// later. ArduPilot sends nothing but heartbeats on a link until it is asked. Of more sources than it has room for, the one that was not heard
+// for longest makes room: who sends heartbeats outlasts a crowd that is heard once. Private to module runtime; one owner thread; allocates for
+// a new source. Time is a parameter.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +25,11 @@ public:
         const auto asked = std::ranges::find_if(asked_,
                                                 [&](const Asked& a) { return a.link == link && a.source == source; });
         if (asked == asked_.end()) {
-            if (asked_.size() == most_sources) return false;
-            asked_.push_back({link, source, now});
+            if (asked_.size() == most_sources) asked_.erase(std::ranges::min_element(asked_, {}, &Asked::heard));
+            asked_.push_back({link, source, now, now});
             return true;
         }
+        asked->heard = now;
         if (now - asked->at < interval) return false;
         asked->at = now;
         return true;
@@ -41,7 +43,7 @@ private:
     struct Asked {
         LinkId link;
         Source source;
-        MonoTime at;
+        MonoTime at, heard;
     };
     std::vector<Asked> asked_;
 };

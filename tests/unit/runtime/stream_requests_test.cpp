@@ -35,12 +35,20 @@ TEST(StreamRequests, ALinkThatWentIsAskedAnew) {
     EXPECT_FALSE(requests.heard(cable, copter, start + 1s));
 }
 
-TEST(StreamRequests, SendersWithoutEndAreNotAsked) {
+TEST(StreamRequests, ACrowdKeepsNobodyOut) {
     StreamRequests requests;
-    for (std::uint32_t link = 0; link < StreamRequests::most_sources; ++link)
-        EXPECT_TRUE(requests.heard(LinkId{link}, copter, start));
+    const auto crowd = [&](std::uint32_t first, MonoTime now) {
+        for (std::uint32_t link = first; link < first + StreamRequests::most_sources - 1; ++link)
+            EXPECT_TRUE(requests.heard(LinkId{link}, plane, now));
+    };
+    EXPECT_TRUE(requests.heard(radio, copter, start));
+    crowd(1000, start + 500ms);
+    EXPECT_FALSE(requests.heard(radio, copter, start + 1s));
+    crowd(5000, start + 1500ms);
 
-    EXPECT_FALSE(requests.heard(LinkId{5000}, copter, start));
+    EXPECT_FALSE(requests.heard(radio, copter, start + 2s));  // what was heard once made room
+    EXPECT_TRUE(requests.heard(cable, copter, start + 2s));
+    EXPECT_TRUE(requests.heard(radio, copter, start + 31s));
 }
 
 }  // namespace
