@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "runtime/links_core.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_serial.hpp"
@@ -36,6 +38,7 @@ public:
     Core core;
     RoutingOptions routing = RoutingOptions::refused;
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
+    std::map<std::string, EndpointId> signs_as;  // by label: to the far side an endpoint that is opened anew stays the same link
 };
 
 Links::Links(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -82,21 +85,25 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     impl_->core.refresh_now();
     if (auto checked = check_supported(endpoint, impl_->routing); !checked)
         return tl::unexpected(std::move(checked).error());
+    // Several may have a port of their own each from port 0.
+    const bool has_name = endpoint.scheme == Scheme::serial || endpoint.address.port != 0;
     for (const auto& other : impl_->endpoints) {
-        const bool own_port_each = endpoint.scheme != Scheme::serial && endpoint.address.port == 0;
-        if (other && other->info.endpoint.label() == endpoint.label() && !own_port_each) {
+        if (other && other->info.endpoint.label() == endpoint.label() && has_name) {
             return setup_error(SetupCode::usage,
                                fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
         }
     }
     const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
     std::vector<std::string> notices;
-    auto signature = Signature::load(endpoint.options, id, impl_->core.key_states(), notices);
+    const auto before = impl_->signs_as.find(endpoint.label());
+    const EndpointId signs_as = has_name && before != impl_->signs_as.end() ? before->second : id;
+    auto signature = Signature::load(endpoint.options, signs_as, impl_->core.key_states(), notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
     for (auto& text : notices) impl_->core.notice(id, std::move(text));
     auto opened = open({impl_->core, endpoint, id, std::move(*signature)});
     if (!opened) return tl::unexpected(std::move(opened).error());
     impl_->endpoints.push_back(std::move(*opened));
+    impl_->signs_as.try_emplace(endpoint.label(), id);
     return id;
 }
 

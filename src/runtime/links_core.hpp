@@ -65,8 +65,9 @@ struct Link {
 class Signature {
 public:
     // The times of an earlier run come from `states`, which outlives the object; `notices` gets what is to be said of them.
+    // `signs_as` gives its frames their link id.
     [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const EndpointOptions& options,
-                                                                      EndpointId endpoint, KeyStates& states,
+                                                                      EndpointId signs_as, KeyStates& states,
                                                                       std::vector<std::string>& notices);
     explicit Signature(KeyStates& states) : states_(states) { states_.add(*this); }
     Signature(const Signature&) = delete;

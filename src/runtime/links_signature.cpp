@@ -7,7 +7,7 @@
 
 namespace mavloom::runtime::detail {
 
-SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& options, EndpointId endpoint,
+SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& options, EndpointId signs_as,
                                                         KeyStates& states, std::vector<std::string>& notices) {
     if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
     auto signature = std::make_unique<Signature>(states);
@@ -23,7 +23,7 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& o
         if (!key) return tl::unexpected(std::move(key).error());
         signature->sign_file_ = states.open(options.sign_key_file, notices);
         KeyStates::begin_signing(*signature->sign_file_);
-        signature->signer_.emplace(*key, static_cast<std::uint8_t>(endpoint.value),
+        signature->signer_.emplace(*key, static_cast<std::uint8_t>(signs_as.value),
                                    signature->sign_file_->state.last_signed);
     }
     return signature;

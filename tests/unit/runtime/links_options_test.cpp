@@ -174,5 +174,28 @@ TEST_F(LinksSigning, AMissingKeyIsAnError) {
     EXPECT_THAT(error.text, HasSubstr("/no/such/key"));
 }
 
+// A receiver keeps a time for each link id.
+TEST_F(LinksSigning, AnEndpointThatIsOpenedAnewSignsAsTheSameLink) {
+    Node node;
+    const auto first = PlainSocket::udp(), second = PlainSocket::udp();
+    const auto url = [&](const PlainSocket& to, const char* more) {
+        return fmt::format("udpout://127.0.0.1:{}?sign={}{}", to.port(), key_file('a'), more);
+    };
+    const auto signing_id = [&](EndpointId id, const PlainSocket& to) {
+        EXPECT_EQ(node.links->send(id, view(heartbeat(0))), 1u);
+        Bytes got;
+        EXPECT_TRUE(until([&] { return !(got = to.read()).empty(); }, node));
+        return int{got.at(heartbeat(0).size())};
+    };
+    const auto before = node.add(url(first, "")), other = node.add(url(second, ""));
+    const auto was = signing_id(before, first), of_other = signing_id(other, second);
+    node.links->remove(before);
+    const auto after = node.add(url(first, "&queue_age=1"));
+
+    EXPECT_EQ(signing_id(after, first), was);
+    EXPECT_EQ(signing_id(other, second), of_other);
+    EXPECT_NE(was, of_other);
+}
+
 }  // namespace
 }  // namespace mavloom::runtime
