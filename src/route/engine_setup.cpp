@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <utility>
 
 #include "route/engine_impl.hpp"
 
@@ -75,6 +76,12 @@ void Engine::Impl::remove_link(LinkId id) {
     --link_count;
     index_links();
     rebuild();
+}
+
+void Engine::Impl::set_group_order(LinkId id, std::uint32_t order) {
+    const Slot slot = slot_of(id);
+    if (slot == no_slot || std::exchange(links[slot]->policy.group_order, order) == order) return;
+    if (links[slot]->policy.group.value != 0) rebuild();
 }
 
 void Engine::Impl::index_links() {

@@ -133,7 +133,7 @@ SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
     policy.is_private = o.is_private;
     if (!o.group.empty()) policy.group = group_id(o.group);
     policy.group_mode = o.group_mode;
-    policy.group_order = static_cast<std::uint32_t>(endpoints_.size());
+    policy.group_order = endpoints_.empty() ? 0 : endpoints_.back()->policy.group_order + 1;
     return policy;
 }
 
@@ -192,6 +192,17 @@ void Router::become(const std::vector<Endpoint>& endpoints) {
                 added ? fmt::format("{}: added", endpoint.label()) : fmt::format("left out: {}", added.error().text));
         if (!added) put_back(gone, endpoint.label());
     }
+    order_as(endpoints);
+}
+
+// Groups of mode `primary` prefer in the order of the configuration, not in that of opening.
+void Router::order_as(const std::vector<Endpoint>& endpoints) {
+    std::ranges::stable_sort(endpoints_, {}, [&](const auto& e) {
+        return std::ranges::find(endpoints, e->endpoint.label(), &Endpoint::label) - endpoints.begin();
+    });
+    for (std::uint32_t order = 0; const auto& e : endpoints_) e->policy.group_order = order++;
+    for (const auto& link : links_->links())
+        engine_.set_group_order(link.id, by_id_[link.endpoint.value]->policy.group_order);
 }
 
 // What was to be changed and cannot be goes on as it was.

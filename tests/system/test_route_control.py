@@ -500,6 +500,39 @@ def test_reload_leaves_the_command_line_and_the_recording_alone(reloadable, tmp_
     assert len(frames.read_tlog(log)) == 3
 
 
+def test_reload_keeps_a_groups_order_of_the_file(spawn, tmp_path):
+    """The first link of a `primary` group stays the first when it alone is opened anew."""
+    first, second, station = (routers.UdpEnd(label=label) for label in ("first", "second", "station"))
+    for end in (first, second, station):
+        end.target = ("127.0.0.1", routers.udp_port())
+    path = tmp_path / "router.toml"
+
+    def write(first_options=""):
+        path.write_text("".join(f"[[endpoint]]\nurl = \"udpout://127.0.0.1:{end.port}?name={end.label}&bind=127.0.0.1:{end.target[1]}{options}\"\n"
+                                for end, options in ((first, "&group=sky&group_mode=primary" + first_options), (second, "&group=sky&group_mode=primary"), (station, ""))))
+    write()
+    router = Router(spawn, "--config", path)
+    router.wait_links(3)
+
+    def both_hear_and_carries():
+        """Which of the two gets a command."""
+        for end in (first, second):
+            end.send(heartbeat(VEHICLE))
+        station.count(2)
+        sent = command(GCS, VEHICLE)
+        station.send(sent)
+        return harness.wait_for(lambda: [end.label for end in (first, second) if sent in end.now()], what="the command")
+    assert both_hear_and_carries() == ["first"]
+    write("&queue_age=1")
+    router.process.send(signal.SIGHUP)
+    router.process.wait_output("was read again", stream="err")
+    router.wait_links(3)
+
+    assert both_hear_and_carries() == ["first"]
+    for end in (first, second, station):
+        end.close()
+
+
 def test_a_hangup_without_a_file_is_noted(spawn):
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     router.process.send(signal.SIGHUP)

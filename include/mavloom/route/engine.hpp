@@ -159,6 +159,8 @@ public:
     // Forgets the link and its routes. Nothing happens for an id that is not there.
     void remove_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
+    // Instead of the group_order that its policy gave.
+    void set_group_order(LinkId link, std::uint32_t order);
 
     // Where the frame goes. `info` is null for an id without definition. `now` never goes back. At most a few tens of nanoseconds.
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,

@@ -99,6 +99,7 @@ private:
     [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const Endpoint& endpoint);
     [[nodiscard]] route::GroupId group_id(const std::string& name);
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
+    void order_as(const std::vector<Endpoint>& endpoints);
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
     void forget_link(LinkId link);
     void send(const RxFrame& rx, std::span<const LinkId> links);

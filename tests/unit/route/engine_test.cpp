@@ -392,6 +392,18 @@ TEST(Engine, PrimaryFallsOverWhenSilentAndComesBack) {
     EXPECT_THAT(sut.hears(3, gcs), ElementsAre(1, 2));  // HEARTBEAT goes everywhere
 }
 
+TEST(Engine, PrimaryTakesAnotherOrderLater) {
+    Network sut;
+    sut.links(2, {.group = GroupId{1}, .group_mode = GroupMode::primary});
+    sut.link();
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(1));
+    sut.engine.set_group_order(LinkId{1}, 1);
+
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2));
+}
+
 TEST(Engine, BestStaysWhileItsLinkIsNoWorse) {
     Network sut;
     sut.links(2, {.group = GroupId{1}, .group_mode = GroupMode::best});
