@@ -11,8 +11,26 @@ double TrafficRow::rate_hz() const noexcept {
     return count > 1 && span.count() > 0 ? static_cast<double>(count - 1) / span.count() : 0;
 }
 
+double TrafficRow::recent_rate_hz(WallTime now) const noexcept {
+    const bool is_long_ago = last - older.time > 3 * rate_window && count > newer.count;
+    const Mark& from = is_long_ago ? newer : older;
+    const std::chrono::duration<double> span = last - from.time, silence = now - last;
+    if (span.count() <= 0) return 0;
+    const double rate = static_cast<double>(count - from.count) / span.count();
+    return silence <= 2 * rate_window ? rate : std::min(rate, 1 / silence.count());
+}
+
 Nanoseconds TrafficRow::mean_gap() const noexcept {
     return count > 1 ? (last - first) / static_cast<std::int64_t>(count - 1) : Nanoseconds{};
+}
+
+// After a pause the frame before it counts; after a clock that was set back, none.
+static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
+    const auto age = now.time - row.newer.time;
+    row.older = age < Nanoseconds{}                 ? now
+                : age > 2 * TrafficRow::rate_window ? TrafficRow::Mark{row.last, row.count}
+                                                    : row.newer;
+    row.newer = now;
 }
 
 void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time) {
@@ -27,11 +45,15 @@ void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time)
         }
         it = rows_.emplace(key, TrafficRow{link, source, frame.id()}).first;
         it->second.first = time;
+        it->second.older = it->second.newer = {time, 1};
     } else {
         auto& row = it->second;
         const auto gap = time - row.last;
         row.shortest_gap = row.count == 1 ? gap : std::min(row.shortest_gap, gap);
         row.longest_gap = row.count == 1 ? gap : std::max(row.longest_gap, gap);
+        const auto age = time - row.newer.time;
+        if (age >= TrafficRow::rate_window || age < Nanoseconds{}) [[unlikely]]
+            move_marks(row, {time, row.count + 1});
     }
     auto& row = it->second;
     row.last = time;

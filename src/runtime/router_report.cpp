@@ -147,7 +147,7 @@ void add_messages(Lines& lines, Router& router) {
                                  {"name", message == nullptr ? Json() : Json(message->name)},
                                  {"frames", row.count},
                                  {"bytes", row.bytes},
-                                 {"rate_hz", row.rate_hz()}}));
+                                 {"rate_hz", row.recent_rate_hz(wall_now())}}));
     }
 }
 

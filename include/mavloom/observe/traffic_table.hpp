@@ -24,8 +24,18 @@ struct TrafficRow {
     WallTime first{}, last{};
     Nanoseconds shortest_gap{}, longest_gap{};  // 0 before the second frame
 
+    // A moment, and how many frames had come by then.
+    struct Mark {
+        WallTime time{};
+        std::uint64_t count = 0;
+    };
+    Mark older{}, newer{};  // at least rate_window apart
+    static constexpr Nanoseconds rate_window = std::chrono::seconds{5};
+
     // Frames a second between the first and the last arrival; 0 before the second frame or where no time has passed.
     [[nodiscard]] double rate_hz() const noexcept;
+    // Of the last 5 to 10 s in which it came; when it was silent for longer, or comes that seldom, at most one a gap.
+    [[nodiscard]] double recent_rate_hz(WallTime now) const noexcept;
     [[nodiscard]] Nanoseconds mean_gap() const noexcept;
 };
 

@@ -29,11 +29,40 @@ TEST(TrafficTable, TakesTheRateFromMeasuredTime) {
     EXPECT_EQ(rows[0].mean_gap(), 125ms);
 }
 
+TEST(TrafficTable, TheRecentRateForgetsWhatIsTenSecondsOld) {
+    TrafficTable sut;
+    const auto rate = [&](Nanoseconds now) { return sut.sorted()[0].recent_rate_hz(at(now)); };
+    const auto hear = [&](Nanoseconds from, Nanoseconds to, Nanoseconds gap) {
+        for (auto t = from; t < to; t += gap) sut.add(LinkId{1}, heartbeat, at(t));
+    };
+    hear(0s, 1s, 100ms);
+    EXPECT_DOUBLE_EQ(rate(1s), 10);
+    hear(1s, 100s, 100ms);
+    EXPECT_DOUBLE_EQ(rate(100s), 10);
+    hear(100s, 111s, 1s);
+    EXPECT_DOUBLE_EQ(rate(111s), 1);
+    EXPECT_DOUBLE_EQ(rate(120s), 1);
+    EXPECT_DOUBLE_EQ(rate(130s), 0.05);  // silent for 20 s
+    hear(3600s, 3610s, 20ms);
+    EXPECT_DOUBLE_EQ(rate(3610s), 50);
+    sut.add(LinkId{1}, heartbeat, at(3670s));
+    EXPECT_NEAR(rate(3670s), 1. / 60, 1e-3);
+}
+
+TEST(TrafficTable, TheRecentRateOutlivesAClockThatIsSetBack) {
+    TrafficTable sut;
+    for (auto t = 1000s; t < 1010s; t += 1s) sut.add(LinkId{1}, heartbeat, at(t));
+    for (auto t = 0s; t < 7s; t += 1s) sut.add(LinkId{1}, heartbeat, at(t));
+
+    EXPECT_DOUBLE_EQ(sut.sorted()[0].recent_rate_hz(at(7s)), 1);
+}
+
 TEST(TrafficTable, OneFrameHasNoRate) {
     TrafficTable sut;
     sut.add(LinkId{1}, heartbeat, at(1s));
 
     EXPECT_EQ(sut.sorted()[0].rate_hz(), 0);
+    EXPECT_EQ(sut.sorted()[0].recent_rate_hz(at(2s)), 0);
     EXPECT_EQ(sut.sorted()[0].mean_gap(), 0ns);
 }
 
