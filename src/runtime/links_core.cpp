@@ -56,6 +56,7 @@ Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_
 std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     assert(handler_ == nullptr && "turn must not be called inside a callback");
     handler_ = &handler;
+    running_ = true;
     frames_this_turn_ = 0;
     now_ = mono_now();
     tell_backlog();
@@ -249,7 +250,7 @@ std::optional<net::Resolver::Answer> Core::resolve_now(const HostPort& host, std
                                                        OpenEndpoint& endpoint) {
     if (const auto numeric = net::Address::parse(host.host, host.port)) return std::vector<net::Address>{*numeric};
     const std::uint64_t ticket = resolver_.ask(host.host, host.port);
-    auto answer = resolver_.wait(ticket, limit);
+    auto answer = running_ ? std::nullopt : resolver_.wait(ticket, limit);
     if (!answer) questions_.emplace_back(ticket, &endpoint);
     return answer;
 }

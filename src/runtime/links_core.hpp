@@ -204,8 +204,10 @@ public:
     }
     void forget(Outlet& outlet) noexcept;
 
-    // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for.
+    // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for: but when the turns have begun there are
+    // frames to be passed on, and nobody waits.
     void resolve(OpenEndpoint& endpoint, const HostPort& host);
+    [[nodiscard]] bool running() const noexcept { return running_; }
     [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const HostPort& host, std::chrono::milliseconds limit,
                                                                    OpenEndpoint& endpoint);
     void forget(const OpenEndpoint& endpoint) noexcept;
@@ -249,6 +251,7 @@ private:
     LinkTable links_;
     LinkHandler* handler_ = nullptr;  // inside a turn only
     MonoTime now_ = mono_now();
+    bool running_ = false;  // a turn was made
     std::size_t frames_this_turn_ = 0;
     std::vector<Outlet*> outlets_, flushing_;
     std::vector<Ticker*> tickers_;

@@ -183,7 +183,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening) {
     auto local = local_address(endpoint);
     if (!local) return tl::unexpected(std::move(local).error());
     auto opened = std::make_unique<TcpOut>(opening, *local);
-    if (!endpoint.options.required) {
+    if (!endpoint.options.required || opening.core.running()) {
         opened->begin();
     } else if (auto done = opened->begin_and_wait(); !done) {
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));

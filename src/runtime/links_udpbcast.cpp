@@ -123,7 +123,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
     auto opened = std::make_unique<UdpBroadcast>(opening, *local);
     const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
     auto answer = core.resolve_now(endpoint.address, limit, *opened);
-    if (!answer && !required) return opened;
+    if (!answer && (!required || core.running())) return opened;
     if (!answer)
         return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
                                                                endpoint.label(), endpoint.address.host));

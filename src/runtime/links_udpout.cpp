@@ -169,7 +169,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
     const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
     auto answer = core.resolve_now(endpoint.address, limit, *opened);
     if (!answer) {
-        if (!required) return opened;
+        if (!required || core.running()) return opened;
         return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
                                                                endpoint.label(), endpoint.address.host));
     }

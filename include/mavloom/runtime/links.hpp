@@ -119,6 +119,7 @@ public:
 
     // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
     // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
+    // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
     [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);

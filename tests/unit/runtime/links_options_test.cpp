@@ -74,6 +74,16 @@ TEST(LinksOptions, AnUnknownHostIsNamed) {
     EXPECT_THAT(node.recorder.notices[0], HasSubstr("no-such-host.invalid"));
 }
 
+TEST(LinksOptions, NobodyWaitsForANameOnceTheTurnsHaveBegun) {
+    Node node;
+    node.poll();
+    const auto in = node.add("udpin://localhost:0");
+    EXPECT_EQ(node.port(in), 0u) << "its name is still looked up";
+    for (const auto* scheme : {"udpout", "udpbcast", "tcpout"})
+        node.add(fmt::format("{}://no-such-host.invalid:14550?required=true", scheme));
+    EXPECT_TRUE(until([&] { return node.port(in) != 0; }, node));
+}
+
 TEST(LinksOptions, TwoEndpointsOfOneNameAreRefused) {
     Node node;
     node.add("udpout://127.0.0.1:14550?name=gcs");
