@@ -61,10 +61,14 @@ void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time)
     row.bytes += frame.size();
 }
 
-std::vector<TrafficRow> TrafficTable::sorted() const {
+std::vector<TrafficRow> TrafficTable::rows() const {
     std::vector<TrafficRow> rows;
     rows.reserve(rows_.size());
     for (const auto& [key, row] : rows_) rows.push_back(row);
+    return rows;
+}
+
+std::vector<TrafficRow> TrafficTable::sorted(std::vector<TrafficRow> rows) {
     std::ranges::sort(rows, {}, [](const TrafficRow& r) { return std::tuple(r.link, r.source, r.id); });
     return rows;
 }

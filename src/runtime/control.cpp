@@ -63,7 +63,7 @@ private:
         std::getline(stream, line);
         on_router(
             router_, socket_.get_executor(), [line](Router& r) { return answer_request(r, line); },
-            [self = shared_from_this()](const Lines& lines) { self->write(lines); });
+            [self = shared_from_this()](const Later<Lines>& answer) { self->write(answer()); });
     }
     void write(const Lines& lines) {
         output_.clear();
@@ -99,7 +99,7 @@ private:
         if (request_.target() != "/metrics") return write(http::status::not_found, "metrics are at /metrics\n");
         on_router(
             router_, stream_.get_executor(), [](Router& r) { return report_metrics(r); },
-            [self = shared_from_this()](std::string text) { self->write(http::status::ok, std::move(text)); });
+            [self = shared_from_this()](const Later<std::string>& text) { self->write(http::status::ok, text()); });
     }
     void write(http::status status, std::string body) {
         response_ = {status, request_.version()};

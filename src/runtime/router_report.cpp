@@ -67,7 +67,7 @@ std::vector<NamedCount> counts_of(const RecorderCounters& c) {
             {"write_error", c.write_error.value()}};
 }
 
-std::vector<NamedCount> counts_of(const Router& router) {
+std::vector<NamedCount> counts_of(Router& router) {
     const auto& c = router.engine().counters();
     return {{"heartbeats_sent", router.heartbeats_sent()},
             {"not_signed", router.not_signed()},
@@ -88,39 +88,110 @@ std::string line_of(const Json& object) { return object.dump(-1, ' ', false, Jso
 
 double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
-std::string endpoint_label(Router& router, EndpointId id) {
+// What a router was between two turns.
+struct Snapshot {
+    struct OfEndpoint {
+        EndpointId id;
+        std::string label;
+        Scheme scheme;
+        std::uint64_t rcvbuf_bytes;
+        std::vector<NamedCount> counts;
+    };
+    struct OfLink {
+        LinkId id;
+        EndpointId endpoint;
+        std::string name;
+        bool up;
+        std::vector<NamedCount> counts;
+        std::vector<wire::SequenceStats> sources;
+    };
+    struct OfRecording {
+        std::string label;
+        std::vector<NamedCount> counts;
+    };
+
+    const dialect::Dialect* dialect = nullptr;
+    WallTime time{};
+    Nanoseconds uptime{};
+    std::vector<NamedCount> counts{};
+    std::vector<OfEndpoint> endpoints{};  // by id, as the links are
+    std::vector<OfLink> links{};
+    std::vector<observe::TrafficRow> messages{};
+    std::vector<OfRecording> recordings{};
+    std::vector<route::UnknownTargetInfo> unknown_targets{};
+
+    // Null: gone.
+    [[nodiscard]] const OfLink* link(LinkId id) const {
+        const auto at = std::ranges::lower_bound(links, id, {}, &OfLink::id);
+        return at != links.end() && at->id == id ? &*at : nullptr;
+    }
+    [[nodiscard]] std::string_view endpoint_label(EndpointId id) const {
+        const auto at = std::ranges::find(endpoints, id, &OfEndpoint::id);
+        return at != endpoints.end() ? std::string_view(at->label) : std::string_view{};
+    }
+};
+
+Snapshot snapshot_of_links(Router& router) {
+    Snapshot s{.dialect = &router.dialect()};
     for (const auto& info : router.links().endpoints())
-        if (info.id == id) return info.label();
-    return {};
+        s.endpoints.push_back(
+            {info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes, counts_of(*info.counters)});
+    for (auto& link : router.links().links())
+        s.links.push_back({link.id,
+                           link.endpoint,
+                           std::move(link.name),
+                           link.up,
+                           counts_of(*link.counters, router.engine().counters(link.id)),
+                           {}});
+    return s;
 }
 
-Json link_json(Router& router, const LinkInfo& link) {
-    Json object{
-        {"kind", "link"}, {"link", link.name}, {"endpoint", endpoint_label(router, link.endpoint)}, {"up", link.up}};
-    put(object, counts_of(*link.counters, router.engine().counters(link.id)));
-    return object;
+Snapshot snapshot_of_all(Router& router) {
+    router.links().refresh_kernel_drops();
+    Snapshot s = snapshot_of_links(router);
+    s.time = wall_now();
+    s.uptime = mono_now() - router.started();
+    s.counts = counts_of(router);
+    for (auto& link : s.links) {
+        const auto sources = router.links().sources(link.id);
+        link.sources.assign(sources.begin(), sources.end());
+    }
+    s.messages = router.traffic().rows();
+    for (const auto& recorder : router.recorders())
+        s.recordings.push_back({recorder->label(), counts_of(recorder->counters())});
+    s.unknown_targets = router.engine().unknown_targets();
+    return s;
 }
 
-void add_router(Lines& lines, Router& router) {
-    Json object{{"kind", "router"}, {"uptime_s", seconds(mono_now() - router.started())}};
-    put(object, counts_of(router));
+void add_router(Lines& lines, const Snapshot& s) {
+    Json object{{"kind", "router"}, {"uptime_s", seconds(s.uptime)}};
+    put(object, s.counts);
     lines.push_back(line_of(object));
 }
 
-void add_endpoints(Lines& lines, Router& router) {
-    for (const auto& info : router.links().endpoints()) {
+void add_endpoints(Lines& lines, const Snapshot& s) {
+    for (const auto& endpoint : s.endpoints) {
         Json object{{"kind", "endpoint"},
-                    {"endpoint", info.label()},
-                    {"scheme", scheme_name(info.endpoint.scheme)},
-                    {"rcvbuf", info.rcvbuf_bytes}};
-        put(object, counts_of(*info.counters));
+                    {"endpoint", endpoint.label},
+                    {"scheme", scheme_name(endpoint.scheme)},
+                    {"rcvbuf", endpoint.rcvbuf_bytes}};
+        put(object, endpoint.counts);
         lines.push_back(line_of(object));
     }
 }
 
-void add_sources(Lines& lines, Router& router) {
-    for (const auto& link : router.links().links()) {
-        for (const auto& s : router.links().sources(link.id))
+void add_links(Lines& lines, const Snapshot& s) {
+    for (const auto& link : s.links) {
+        Json object{
+            {"kind", "link"}, {"link", link.name}, {"endpoint", s.endpoint_label(link.endpoint)}, {"up", link.up}};
+        put(object, link.counts);
+        lines.push_back(line_of(object));
+    }
+}
+
+void add_sources(Lines& lines, const Snapshot& snapshot) {
+    for (const auto& link : snapshot.links) {
+        for (const auto& s : link.sources)
             lines.push_back(line_of({{"kind", "source"},
                                      {"link", link.name},
                                      {"sys", s.source.system.value},
@@ -134,70 +205,82 @@ void add_sources(Lines& lines, Router& router) {
     }
 }
 
-void add_messages(Lines& lines, Router& router) {
-    for (const auto& row : router.traffic().sorted()) {
-        const auto* message = router.dialect().find(row.id);
-        const auto link = router.links().link_name(row.link);
-        if (link.empty()) continue;  // gone
+void add_messages(Lines& lines, const Snapshot& s) {
+    for (const auto& row : observe::TrafficTable::sorted(s.messages)) {
+        const auto* message = s.dialect->find(row.id);
+        const auto* link = s.link(row.link);
+        if (link == nullptr) continue;
         lines.push_back(line_of({{"kind", "message"},
-                                 {"link", link},
+                                 {"link", link->name},
                                  {"sys", row.source.system.value},
                                  {"comp", row.source.component.value},
                                  {"id", row.id.value},
                                  {"name", message == nullptr ? Json() : Json(message->name)},
                                  {"frames", row.count},
                                  {"bytes", row.bytes},
-                                 {"rate_hz", row.recent_rate_hz(wall_now())}}));
+                                 {"rate_hz", row.recent_rate_hz(s.time)}}));
     }
 }
 
-void add_recordings(Lines& lines, const Router& router) {
-    for (const auto& recorder : router.recorders()) {
-        Json object{{"kind", "recording"}, {"endpoint", recorder->label()}};
-        put(object, counts_of(recorder->counters()));
+void add_recordings(Lines& lines, const Snapshot& s) {
+    for (const auto& recording : s.recordings) {
+        Json object{{"kind", "recording"}, {"endpoint", recording.label}};
+        put(object, recording.counts);
         lines.push_back(line_of(object));
     }
 }
 
-void add_unknown_targets(Lines& lines, const Router& router) {
-    for (const auto& unknown : router.engine().unknown_targets())
+void add_unknown_targets(Lines& lines, const Snapshot& s) {
+    for (const auto& unknown : s.unknown_targets)
         lines.push_back(line_of({{"kind", "unknown_target"},
                                  {"sys", unknown.target.system.value},
                                  {"comp", unknown.target.component.value},
                                  {"frames", unknown.frames}}));
 }
 
-}  // namespace
-
-Lines report_links(Router& router) {
+Lines route_lines(const Snapshot& s, const std::vector<route::RouteInfo>& routes) {
     Lines lines;
-    for (const auto& link : router.links().links()) lines.push_back(line_of(link_json(router, link)));
-    return lines;
-}
-
-Lines report_routes(Router& router) {
-    Lines lines;
-    for (const auto& r : router.engine().routes(mono_now()))
+    for (const auto& r : routes) {
+        const auto* link = s.link(r.link);
         lines.push_back(line_of({{"kind", "route"},
                                  {"sys", r.source.system.value},
                                  {"comp", r.source.component.value},
-                                 {"link", router.links().link_name(r.link)},
+                                 {"link", link == nullptr ? std::string_view{} : std::string_view(link->name)},
                                  {"age_s", seconds(r.age)},
                                  {"frames", r.frames}}));
+    }
     return lines;
 }
 
-Lines report_stats(Router& router) {
-    router.links().refresh_kernel_drops();
+Lines stat_lines(const Snapshot& s) {
     Lines lines;
-    add_router(lines, router);
-    add_endpoints(lines, router);
-    for (auto& line : report_links(router)) lines.push_back(std::move(line));
-    add_sources(lines, router);
-    add_messages(lines, router);
-    add_recordings(lines, router);
-    add_unknown_targets(lines, router);
+    add_router(lines, s);
+    add_endpoints(lines, s);
+    add_links(lines, s);
+    add_sources(lines, s);
+    add_messages(lines, s);
+    add_recordings(lines, s);
+    add_unknown_targets(lines, s);
     return lines;
+}
+
+}  // namespace
+
+Later<Lines> report_links(Router& router) {
+    return [s = snapshot_of_links(router)] {
+        Lines lines;
+        add_links(lines, s);
+        return lines;
+    };
+}
+
+Later<Lines> report_routes(Router& router) {
+    return
+        [s = snapshot_of_links(router), routes = router.engine().routes(mono_now())] { return route_lines(s, routes); };
+}
+
+Later<Lines> report_stats(Router& router) {
+    return [s = snapshot_of_all(router)] { return stat_lines(s); };
 }
 
 // ---- metrics ---------------------------------------------------------------------------------------------------------
@@ -241,31 +324,34 @@ std::string source_labels(std::string_view link, Source source) {
     return fmt::format("{},sys=\"{}\",comp=\"{}\"", label("link", link), source.system.value, source.component.value);
 }
 
-}  // namespace
-
-std::string report_metrics(Router& router) {
-    router.links().refresh_kernel_drops();
+std::string metrics_text(const Snapshot& s) {
     Metrics metrics;
-    metrics.add("router", counts_of(router), "");
-    for (const auto& info : router.links().endpoints())
-        metrics.add("endpoint", counts_of(*info.counters), label("endpoint", info.label()));
-    for (const auto& link : router.links().links()) {
-        metrics.add("link", counts_of(*link.counters, router.engine().counters(link.id)), label("link", link.name));
-        for (const auto& s : router.links().sources(link.id))
-            metrics.add("source", {{"frames", s.received}, {"lost", s.lost}, {"late", s.late}},
-                        source_labels(link.name, s.source));
+    metrics.add("router", s.counts, "");
+    for (const auto& endpoint : s.endpoints)
+        metrics.add("endpoint", endpoint.counts, label("endpoint", endpoint.label));
+    for (const auto& link : s.links) {
+        metrics.add("link", link.counts, label("link", link.name));
+        for (const auto& source : link.sources)
+            metrics.add("source", {{"frames", source.received}, {"lost", source.lost}, {"late", source.late}},
+                        source_labels(link.name, source.source));
     }
-    for (const auto& row : router.traffic().sorted()) {
-        const auto link = router.links().link_name(row.link);
-        if (link.empty()) continue;
-        const auto* message = router.dialect().find(row.id);
+    for (const auto& row : observe::TrafficTable::sorted(s.messages)) {
+        const auto* link = s.link(row.link);
+        if (link == nullptr) continue;
+        const auto* message = s.dialect->find(row.id);
         const auto name = message == nullptr ? fmt::format("{}", row.id.value) : std::string(message->name);
         metrics.add("message", {{"frames", row.count}, {"bytes", row.bytes}},
-                    fmt::format("{},{}", source_labels(link, row.source), label("message", name)));
+                    fmt::format("{},{}", source_labels(link->name, row.source), label("message", name)));
     }
-    for (const auto& recorder : router.recorders())
-        metrics.add("recording", counts_of(recorder->counters()), label("endpoint", recorder->label()));
+    for (const auto& recording : s.recordings)
+        metrics.add("recording", recording.counts, label("endpoint", recording.label));
     return metrics.text();
+}
+
+}  // namespace
+
+Later<std::string> report_metrics(Router& router) {
+    return [s = snapshot_of_all(router)] { return metrics_text(s); };
 }
 
 // ---- requests --------------------------------------------------------------------------------------------------------
@@ -274,23 +360,32 @@ namespace {
 
 constexpr std::array commands{"links", "routes", "stats", "add", "remove"};
 
-Lines failed(std::string_view why) { return {line_of({{"ok", false}, {"error", why}})}; }
-
-Lines with_end(Lines lines) {
-    lines.push_back(line_of({{"ok", true}}));
-    return lines;
+Later<Lines> failed(std::string_view why) {
+    return [line = line_of({{"ok", false}, {"error", why}})] { return Lines{line}; };
 }
 
-Lines add(Router& router, const std::string& url) {
+Later<Lines> with_end(Later<Lines> report) {
+    return [report = std::move(report)] {
+        Lines lines = report();
+        lines.push_back(line_of({{"ok", true}}));
+        return lines;
+    };
+}
+
+Later<Lines> done() {
+    return with_end([] { return Lines{}; });
+}
+
+Later<Lines> add(Router& router, const std::string& url) {
     const auto endpoint = parse_router_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     const auto added = router.add(*endpoint);
-    return added ? with_end({}) : failed(added.error().text);
+    return added ? done() : failed(added.error().text);
 }
 
 // An endpoint or a recording by its name.
-Lines remove(Router& router, const std::string& name) {
-    if (router.remove(name)) return with_end({});
+Later<Lines> remove(Router& router, const std::string& name) {
+    if (router.remove(name)) return done();
     return failed(fmt::format("there is no endpoint {}; links shows them", name));
 }
 
@@ -312,7 +407,7 @@ SetupResult<Endpoint> parse_router_endpoint(std::string_view text) {
     return endpoint;
 }
 
-Lines answer_request(Router& router, std::string_view request) {
+Later<Lines> answer_request(Router& router, std::string_view request) {
     const auto parsed = Json::parse(request, nullptr, false);
     if (!parsed.is_object()) return failed("a request is one JSON object a line, as in {\"cmd\":\"links\"}");
     const auto command = text_at(parsed, "cmd");

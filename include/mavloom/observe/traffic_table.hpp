@@ -50,8 +50,11 @@ public:
         std::erase_if(rows_, [&](const auto& row) { return !is_there(row.second.link); });
     }
 
+    // In no order: a copy and nothing more, for who has no time.
+    [[nodiscard]] std::vector<TrafficRow> rows() const;
     // By link, system, component, then message id.
-    [[nodiscard]] std::vector<TrafficRow> sorted() const;
+    [[nodiscard]] std::vector<TrafficRow> sorted() const { return sorted(rows()); }
+    [[nodiscard]] static std::vector<TrafficRow> sorted(std::vector<TrafficRow> rows);
     // Frames of rows beyond `max_rows`.
     [[nodiscard]] std::uint64_t unlisted() const noexcept { return unlisted_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a running router is looked at and changed: a Unix stream socket that takes one JSON request a line and answers in JSON lines
 // (router_report.hpp), and, where asked, an HTTP address that gives metrics to Prometheus. Both run on a thread of their own and ask the
-// router's thread between two of its turns; whoever stalls or floods there harms himself only.
+// router's thread between two of its turns, which copies counters; the text is made here. Whoever stalls or floods there harms himself only.
 //
 // The socket is RUN/NAME.ctl, mode 0600: /run/mavloom where it can be made, else $XDG_RUNTIME_DIR/mavloom (DESIGN.md section 5).
 #pragma once

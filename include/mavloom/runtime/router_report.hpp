@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a router says of itself: JSON objects, one a line, for `mavloom ctl` and `stat`, and Prometheus' text form. Keys are documented in
-// docs/guide/route.md. Called on the router's thread; allocates.
+// docs/guide/route.md.
+//
+// Called on the router's thread, between two turns, where it copies counters and nothing more (a few milliseconds for the largest tables). What
+// it returns makes the text, which takes a hundred times as long, on any one thread while the router's dialect is there. Allocates.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,21 +15,23 @@
 namespace mavloom::runtime {
 
 using Lines = std::vector<std::string>;
+template <class Text>
+using Later = std::function<Text()>;
 
 // {"kind":"link",...} for each link that is there.
-[[nodiscard]] Lines report_links(Router& router);
+[[nodiscard]] Later<Lines> report_links(Router& router);
 // {"kind":"route",...} for each system and component, and the link that it was heard on.
-[[nodiscard]] Lines report_routes(Router& router);
+[[nodiscard]] Later<Lines> report_routes(Router& router);
 // All there is: one "router" line, then "endpoint", "link", "source", "message", "recording" and "unknown_target" lines.
-[[nodiscard]] Lines report_stats(Router& router);
+[[nodiscard]] Later<Lines> report_stats(Router& router);
 // Prometheus' text exposition format, version 0.0.4.
-[[nodiscard]] std::string report_metrics(Router& router);
+[[nodiscard]] Later<std::string> report_metrics(Router& router);
 
 // An endpoint as a router takes it: port 0 is refused, because a router's port is known to others.
 [[nodiscard]] SetupResult<Endpoint> parse_router_endpoint(std::string_view text);
 
 // Does what one request line asks for ({"cmd":"links"}, {"cmd":"add","url":"udpout://…"}, {"cmd":"remove","name":"…"}) and gives the answer's
 // lines, the last of which is {"ok":true} or {"ok":false,"error":"…"}.
-[[nodiscard]] Lines answer_request(Router& router, std::string_view request);
+[[nodiscard]] Later<Lines> answer_request(Router& router, std::string_view request);
 
 }  // namespace mavloom::runtime
