@@ -79,6 +79,10 @@ void print_endpoint(fmt::appender out, const Json& o) {
     const auto odd = nonzero(o, {"rcvbuf"});
     if (!odd.empty()) fmt::format_to(out, "endpoint {}: {}\n", o.value("endpoint", ""), odd);
 }
+void print_gone(fmt::appender out, const Json& o) {
+    const auto all = nonzero(o, {});
+    if (!all.empty()) fmt::format_to(out, "links that are gone of {}: {}\n", o.value("endpoint", ""), all);
+}
 void print_link(fmt::appender out, const Json& o) {
     fmt::format_to(out, "link {}{}\n  in {} frames, {} bytes; out {} frames, {} bytes\n", o.value("link", ""),
                    o.value("up", false) ? "" : " (down)", o.value("frames_in", 0ull), o.value("bytes_in", 0ull),
@@ -107,13 +111,11 @@ void print_unknown_target(fmt::appender out, const Json& o) {
 
 std::string table_of(const std::vector<std::string>& lines) {
     using Print = void (*)(fmt::appender, const Json&);
-    static const std::map<std::string_view, Print> prints{{"router", print_router},
-                                                          {"endpoint", print_endpoint},
-                                                          {"link", print_link},
-                                                          {"source", print_source},
-                                                          {"message", print_message},
-                                                          {"recording", print_recording},
-                                                          {"unknown_target", print_unknown_target}};
+    static const std::map<std::string_view, Print> prints{
+        {"router", print_router},       {"endpoint", print_endpoint},
+        {"gone", print_gone},           {"link", print_link},
+        {"source", print_source},       {"message", print_message},
+        {"recording", print_recording}, {"unknown_target", print_unknown_target}};
     fmt::memory_buffer text;
     for (const auto& line : lines) {
         const auto object = Json::parse(line, nullptr, false);

@@ -33,6 +33,7 @@ std::vector<NamedCount> counts_of(const LinkCounters& c, const route::LinkCounte
                                 {"junk_bytes", c.junk_bytes.value()},
                                 {"unknown_flags", c.unknown_flags.value()},
                                 {"unknown_ids", c.unknown_ids.value()},
+                                {"implausible_unknown", c.implausible_unknown.value()},
                                 {"bad_signature", c.bad_signature.value()},
                                 {"queue_bytes", c.queue_bytes.value()},
                                 {"queue_age", c.queue_age.value()},
@@ -47,6 +48,8 @@ std::vector<NamedCount> counts_of(const LinkCounters& c, const route::LinkCounte
                            {"echo", r.echo.value()},
                            {"unknown_target", r.unknown_target.value()},
                            {"consumed", r.consumed.value()},
+                           {"tap", r.tap.value()},
+                           {"private_link", r.private_link.value()},
                            {"out_filtered", r.out_filtered.value()},
                            {"out_rate_limited", r.out_rate_limited.value()},
                            {"out_bytes_limited", r.out_bytes_limited.value()}});
@@ -60,6 +63,13 @@ std::vector<NamedCount> counts_of(const EndpointCounters& c) {
             {"reconnects", c.reconnects.value()}};
 }
 
+// Of the links that are gone.
+std::vector<NamedCount> gone_of(const EndpointCounters& c) {
+    auto all = counts_of(c.gone, nullptr);
+    all.push_back({"queued", c.gone_queued.value()});
+    return all;
+}
+
 std::vector<NamedCount> counts_of(const RecorderCounters& c) {
     return {{"frames", c.frames.value()},
             {"bytes", c.bytes.value()},
@@ -71,6 +81,8 @@ std::vector<NamedCount> counts_of(Router& router) {
     const auto& c = router.engine().counters();
     return {{"heartbeats_sent", router.heartbeats_sent()},
             {"not_signed", router.not_signed()},
+            {"unknown_link", c.unknown_link.value()},
+            {"unlisted", router.traffic().unlisted()},
             {"routes_learned", c.routes_learned.value()},
             {"routes_expired", c.routes_expired.value()},
             {"routes_evicted", c.routes_evicted.value()},
@@ -96,6 +108,7 @@ struct Snapshot {
         Scheme scheme;
         std::uint64_t rcvbuf_bytes;
         std::vector<NamedCount> counts;
+        std::vector<NamedCount> gone;
     };
     struct OfLink {
         LinkId id;
@@ -134,8 +147,8 @@ struct Snapshot {
 Snapshot snapshot_of_links(Router& router) {
     Snapshot s{.dialect = &router.dialect()};
     for (const auto& info : router.links().endpoints())
-        s.endpoints.push_back(
-            {info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes, counts_of(*info.counters)});
+        s.endpoints.push_back({info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes,
+                               counts_of(*info.counters), gone_of(*info.counters)});
     for (auto& link : router.links().links())
         s.links.push_back({link.id,
                            link.endpoint,
@@ -176,6 +189,14 @@ void add_endpoints(Lines& lines, const Snapshot& s) {
                     {"scheme", scheme_name(endpoint.scheme)},
                     {"rcvbuf", endpoint.rcvbuf_bytes}};
         put(object, endpoint.counts);
+        lines.push_back(line_of(object));
+    }
+}
+
+void add_gone(Lines& lines, const Snapshot& s) {
+    for (const auto& endpoint : s.endpoints) {
+        Json object{{"kind", "gone"}, {"endpoint", endpoint.label}};
+        put(object, endpoint.gone);
         lines.push_back(line_of(object));
     }
 }
@@ -256,6 +277,7 @@ Lines stat_lines(const Snapshot& s) {
     Lines lines;
     add_router(lines, s);
     add_endpoints(lines, s);
+    add_gone(lines, s);
     add_links(lines, s);
     add_sources(lines, s);
     add_messages(lines, s);
@@ -327,8 +349,10 @@ std::string source_labels(std::string_view link, Source source) {
 std::string metrics_text(const Snapshot& s) {
     Metrics metrics;
     metrics.add("router", s.counts, "");
-    for (const auto& endpoint : s.endpoints)
+    for (const auto& endpoint : s.endpoints) {
         metrics.add("endpoint", endpoint.counts, label("endpoint", endpoint.label));
+        metrics.add("gone", endpoint.gone, label("endpoint", endpoint.label));
+    }
     for (const auto& link : s.links) {
         metrics.add("link", link.counts, label("link", link.name));
         for (const auto& source : link.sources)

@@ -90,12 +90,33 @@ def test_ctl_stats_has_sources_messages_and_unknown_targets(net, ctl):
     sut.command(1, VEHICLE, (66, 6))
     stats = lines_of(ctl(sut.router, "stats"))
 
-    assert {line["kind"] for line in stats} == {"router", "endpoint", "link", "source", "message", "unknown_target"}
+    assert {line["kind"] for line in stats} == {"router", "endpoint", "gone", "link", "source", "message", "unknown_target"}
     source = next(s for s in stats if s["kind"] == "source" and s["sys"] == 7)
     assert (source["frames"], source["lost"], source["link"]) == (3, 3, "A")
     message = next(m for m in stats if m["kind"] == "message" and m["name"] == "ATTITUDE")
     assert (message["frames"], message["id"], message["sys"], message["comp"]) == (3, 30, 7, 1)
     assert [(u["sys"], u["comp"], u["frames"]) for u in stats if u["kind"] == "unknown_target"] == [(66, 6, 1)]
+
+
+def test_stats_keep_what_a_link_had_that_is_gone(net):
+    sut = net("clients", 2)
+    for _ in range(5):
+        sut.send(2, attitude(VEHICLE))
+    had = sut.link(2)
+    sut[2].close()
+    sut.router.wait_links(1)
+
+    (gone,) = sut.router.stats("gone")
+    assert gone["frames_in"] == had["frames_in"] >= 5 and gone["frames_out"] == had["frames_out"]
+    assert gone["endpoint"] == had["endpoint"]
+
+
+def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
+    sut = net(("udpout", "udpout", "udpout"), options={2: "tap=true", 3: "private=true"})
+    for end in (2, 3):
+        sut[end].send(attitude((7, end)))
+    sut.router.wait_counter(sut[2], "tap", 1)
+    sut.router.wait_counter(sut[3], "private_link", 1)
 
 
 def test_ctl_add_and_remove_while_it_runs(net, ctl):
@@ -292,7 +313,7 @@ def test_metrics_are_what_prometheus_reads(net, tmp_path):
 
     assert content_type.startswith("text/plain; version=0.0.4")
     expected = {}
-    label_of = {"router": (), "endpoint": ("endpoint",), "link": ("link",), "source": ("link", "sys", "comp"), "recording": ("endpoint",)}
+    label_of = {"router": (), "endpoint": ("endpoint",), "gone": ("endpoint",), "link": ("link",), "source": ("link", "sys", "comp"), "recording": ("endpoint",)}
     for line in sut.router.ask("stats"):
         if line["kind"] not in label_of:
             continue

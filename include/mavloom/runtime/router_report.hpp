@@ -22,7 +22,7 @@ using Later = std::function<Text()>;
 [[nodiscard]] Later<Lines> report_links(Router& router);
 // {"kind":"route",...} for each system and component, and the link that it was heard on.
 [[nodiscard]] Later<Lines> report_routes(Router& router);
-// All there is: one "router" line, then "endpoint", "link", "source", "message", "recording" and "unknown_target" lines.
+// All there is: one "router" line, then "endpoint", "gone", "link", "source", "message", "recording" and "unknown_target" lines.
 [[nodiscard]] Later<Lines> report_stats(Router& router);
 // Prometheus' text exposition format, version 0.0.4.
 [[nodiscard]] Later<std::string> report_metrics(Router& router);
