@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "runtime/links_backoff.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_serial.hpp"
 
 namespace mavloom::runtime::detail {
@@ -32,20 +32,20 @@ public:
           core_(opening.core),
           device_(opening.endpoint.path),
           searching_(opening.endpoint.options.baud == 0),
-          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)) {
+          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();
         core_.add_link(peer_);
     }
     ~Serial() override {
-        core_.loop().cancel_timer(timer_);
         watch_folders(false);
         core_.remove_link(peer_, "closed");
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     [[nodiscard]] SetupResult<void> open();
-    void fail(const SetupError& error);
+    void fail(const SetupError& error) { retry_.fail(error); }
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
@@ -66,10 +66,6 @@ private:
     void tell_settings();
     void count_good_frame();
     void search_on();
-    void again_after(Nanoseconds delay) {
-        core_.loop().cancel_timer(timer_);
-        timer_ = core_.loop().start_timer(core_.now() + delay, *this);
-    }
     void watch_folders(bool on);
 
     Core& core_;
@@ -80,10 +76,9 @@ private:
     SerialPeer peer_;
     net::FolderWatch folders_;  // while there is no port
     net::WatchId folders_watch_;
-    net::TimerId timer_;  // no port: try again; searching: next rate
-    Backoff backoff_;
+    Retry retry_;  // no port: try again; searching: next rate
     MonoTime up_since_{};
-    bool was_up_ = false, told_failure_ = false;
+    bool was_up_ = false;
 };
 
 // The folders are watched first, so that no device slips in between.
@@ -105,15 +100,15 @@ SetupResult<void> Serial::open_as(const std::string& name) {
     if (auto done = peer_.attach(std::move(*port)); !done) return done;
     device_.note_opened(name);
     watch_folders(false);
-    core_.loop().cancel_timer(timer_);
+    retry_.cancel();
     up_since_ = core_.now();
     if (!was_up_ || name != device_.path()) tell_settings();
-    told_failure_ = false;
+    retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (automatic()) {
         searching_ = true;
         good_frames_ = 0;
-        again_after(auto_window);
+        retry_.after(auto_window);
     } else {
         core_.set_up(peer_);
     }
@@ -134,18 +129,11 @@ void Serial::tell_settings() {
         core_.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
 }
 
-void Serial::fail(const SetupError& error) {
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), error.text));
-    }
-    again_after(backoff_.next());
-}
-
 void Serial::on_gone(std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= lasting;
     core_.set_down(peer_, why);
-    if (lasted) backoff_.reset();
-    again_after(backoff_.next());
+    if (lasted) retry_.begin_anew();
+    retry_.later();
     watch_folders(true);
 }
 
@@ -154,7 +142,7 @@ void Serial::count_good_frame() {
     ++good_frames_;
     if (!std::exchange(searching_, false)) return;
     core_.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
-    again_after(auto_confirm);
+    retry_.after(auto_confirm);
     core_.set_up(peer_);
 }
 
@@ -164,7 +152,7 @@ void Serial::search_on() {
     good_frames_ = 0;
     auto_index_ = (auto_index_ + 1) % auto_bauds.size();
     if (peer_.set_baud(baud())) {
-        again_after(auto_window);
+        retry_.after(auto_window);
     } else {
         peer_.close("unplugged");
     }
@@ -172,11 +160,11 @@ void Serial::search_on() {
 
 void Serial::on_io(net::IoEvents) {
     folders_.drain();
-    if (!timer_.valid() || timer_.when - core_.now() > settle) again_after(settle);
+    if (!retry_.within(settle)) retry_.after(settle);
 }
 
-void Serial::on_timer(MonoTime) {
-    timer_ = {};
+void Serial::on_timer(MonoTime now) {
+    retry_.fired(now);
     if (peer_.port()) {
         if (automatic() && good_frames_ < 2) search_on();
     } else if (auto done = open(); !done) {

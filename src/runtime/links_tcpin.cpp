@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_tcp.hpp"
 
 namespace mavloom::runtime::detail {
@@ -41,11 +41,10 @@ private:
 
 class TcpIn final : public OpenEndpoint, public TcpOwner, public net::TimerHandler {
 public:
-    explicit TcpIn(Opening& opening) : OpenEndpoint(opening), core_(opening.core) {}
+    explicit TcpIn(Opening& opening) : OpenEndpoint(opening), core_(opening.core), retry_(opening.core, *this, *this) {}
     ~TcpIn() override {
         core_.loop().cancel_timer(pause_);
         core_.loop().cancel_timer(expiry_);
-        core_.loop().cancel_timer(retry_);
         for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
@@ -76,9 +75,8 @@ private:
     std::vector<std::unique_ptr<Listening>> listeners_;
     std::vector<std::unique_ptr<TcpPeer>> peers_;
     net::TimerId pause_, expiry_;
-    net::TimerId retry_;  // to look the name up again
-    Backoff backoff_;
-    bool told_full_ = false, told_failure_ = false;
+    Retry retry_;  // to look the name up again
+    bool told_full_ = false;
 };
 
 void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
@@ -103,9 +101,7 @@ void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
     auto done = answer ? open(*answer) : tl::unexpected(answer.error());
     if (done) return;
     listeners_.clear();
-    if (!std::exchange(told_failure_, true))
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), done.error().text));
-    retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
+    retry_.fail(done.error());
 }
 
 void TcpIn::accept_from(net::TcpListener& listener) {
@@ -162,10 +158,7 @@ void TcpIn::on_timer(MonoTime now) {
         for (const auto& listening : listeners_) listening->listen(true);
     }
     if (expiry_.valid() && expiry_.when <= now) expire(now);
-    if (retry_.valid() && retry_.when <= now) {
-        retry_ = {};
-        core_.resolve(*this, info.endpoint.address);
-    }
+    if (retry_.fired(now)) core_.resolve(*this, info.endpoint.address);
 }
 
 void TcpIn::expire(MonoTime now) {

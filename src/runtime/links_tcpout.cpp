@@ -2,8 +2,8 @@
 // tcpout: connects, and connects again, for ever; one link whose queue outlives a lost connection as long as its frames are young enough.
 #include <fmt/format.h>
 
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_tcp.hpp"
 
 namespace mavloom::runtime::detail {
@@ -22,13 +22,13 @@ public:
         : OpenEndpoint(opening),
           core_(opening.core),
           local_(local),
-          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)) {
+          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
         peer_.signature = signature.get();
         core_.add_link(peer_);
     }
     ~TcpOut() override {
-        core_.loop().cancel_timer(timer_);
         core_.loop().unwatch(connecting_watch_);
         core_.remove_link(peer_, "closed");
         core_.forget(static_cast<const OpenEndpoint&>(*this));
@@ -53,10 +53,6 @@ private:
     SetupResult<void> connect_to(const net::Address& address);
     SetupResult<void> finish();
     void fail(const SetupError& error);
-    void again_after(Nanoseconds delay) {
-        core_.loop().cancel_timer(timer_);
-        timer_ = core_.loop().start_timer(core_.now() + delay, *this);
-    }
     void on_up_timer(MonoTime now);
 
     Core& core_;
@@ -65,10 +61,9 @@ private:
     std::vector<net::Address> addresses_;  // still to be tried, the next one last
     net::TcpStream connecting_;
     net::WatchId connecting_watch_;
-    net::TimerId timer_;  // connecting: give up; down: try again; up: look whether the far side is idle
-    Backoff backoff_;
+    Retry retry_;  // connecting: give up; down: try again; up: look whether the far side is idle
     MonoTime up_since_{};
-    bool was_up_ = false, told_failure_ = false;
+    bool was_up_ = false;
 };
 
 void TcpOut::on_resolved(net::Resolver::Answer&& answer) {
@@ -88,7 +83,7 @@ SetupResult<void> TcpOut::connect_to(const net::Address& address) {
     if (!watch) return tl::unexpected(std::move(watch).error());
     connecting_ = std::move(*stream);
     connecting_watch_ = *watch;
-    again_after(connect_limit);
+    retry_.after(connect_limit);
     return {};
 }
 
@@ -98,41 +93,38 @@ void TcpOut::on_io(net::IoEvents) {
 
 SetupResult<void> TcpOut::finish() {
     core_.loop().unwatch(connecting_watch_);
-    core_.loop().cancel_timer(timer_);
+    retry_.cancel();
     auto stream = std::move(connecting_);
     if (auto done = stream.finish_connect(); !done) return done;
     if (auto done = peer_.attach(std::move(stream)); !done) return done;
     addresses_.clear();
     up_since_ = core_.now();
-    told_failure_ = false;
+    retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
-    if (const auto idle = info.endpoint.options.idle) again_after(*idle);
+    if (const auto idle = info.endpoint.options.idle) retry_.after(*idle);
     core_.set_up(peer_);
     return {};
 }
 
 // The next address at once, else all again after a pause; a name is looked up anew.
 void TcpOut::fail(const SetupError& error) {
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), error.text));
-    }
+    retry_.tell(error.text, "trying again");
     while (!addresses_.empty()) {
         const net::Address next = addresses_.back();
         addresses_.pop_back();
         if (connect_to(next)) return;
     }
-    again_after(backoff_.next());
+    retry_.later();
 }
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= lasting || peer.last_heard > up_since_;
     core_.set_down(peer, why);
-    if (lasted) backoff_.reset();
-    again_after(backoff_.next());
+    if (lasted) retry_.begin_anew();
+    retry_.later();
 }
 
 void TcpOut::on_timer(MonoTime now) {
-    timer_ = {};
     if (peer_.up) return on_up_timer(now);
     if (connecting_) {
         core_.loop().unwatch(connecting_watch_);
@@ -150,7 +142,7 @@ void TcpOut::on_timer(MonoTime now) {
 void TcpOut::on_up_timer(MonoTime now) {
     const Nanoseconds idle = *info.endpoint.options.idle;
     if (now - peer_.last_heard >= idle) return peer_.close("idle");
-    timer_ = core_.loop().start_timer(peer_.last_heard + idle, *this);
+    retry_.after(peer_.last_heard + idle - now);
 }
 
 SetupResult<void> TcpOut::begin_and_wait() {
@@ -163,7 +155,7 @@ SetupResult<void> TcpOut::begin_and_wait() {
         auto done = connect_to(address);
         if (done && !connecting_.wait_connected(required_limit)) {
             core_.loop().unwatch(connecting_watch_);
-            core_.loop().cancel_timer(timer_);
+            retry_.cancel();
             connecting_ = {};
             done = setup_error(SetupCode::unreachable, fmt::format("{} does not answer", address.text()));
         } else if (done) {

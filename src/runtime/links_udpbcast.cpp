@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "mavloom/net/interfaces.hpp"
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_udp_peers.hpp"
 
 namespace mavloom::runtime::detail {
@@ -20,20 +20,20 @@ public:
           local_(local),
           port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
           everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(), port_, net::Address{}),
-          peers_(opening.core, *this, *this) {
+          peers_(opening.core, *this, *this),
+          retry_(opening.core, *this, *this) {
         everybody_.name = opening.endpoint.label();
         everybody_.signature = signature.get();
         core_.add_link(everybody_);
     }
     ~UdpBroadcast() override {
-        core_.loop().cancel_timer(retry_);
         core_.remove_link(everybody_, "closed");
         port_.forget(everybody_);
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     SetupResult<void> start(const net::Resolver::Answer& answer);
-    void fail(const SetupError& error);
+    void fail(const SetupError& error) { retry_.fail(error); }
 
     std::size_t send(const wire::FrameView& frame) override {
         if (everybody_.up) return core_.send(everybody_, frame) ? 1 : 0;
@@ -58,9 +58,8 @@ private:
     UdpPort port_;
     UdpPeer everybody_;
     UdpPeers peers_;
-    net::TimerId retry_;
-    Backoff backoff_;
-    bool told_failure_ = false, told_unreachable_ = false;
+    Retry retry_;
+    bool told_unreachable_ = false;
 };
 
 SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
@@ -82,15 +81,7 @@ void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
     if (auto done = start(answer); !done) fail(done.error());
 }
 
-void UdpBroadcast::fail(const SetupError& error) {
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), error.text));
-    }
-    retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
-}
-
 void UdpBroadcast::on_timer(MonoTime) {
-    retry_ = {};
     if (const auto numeric = net::Address::parse(info.endpoint.address.host, info.endpoint.address.port)) {
         on_resolved(std::vector<net::Address>{*numeric});
     } else {

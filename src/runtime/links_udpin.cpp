@@ -2,8 +2,8 @@
 // udpin: every peer that sends valid MAVLink is a link of its own.
 #include <fmt/format.h>
 
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_udp_peers.hpp"
 
 namespace mavloom::runtime::detail {
@@ -12,11 +12,12 @@ namespace {
 
 class UdpIn final : public OpenEndpoint, public UdpPeers::Owner, public net::TimerHandler {
 public:
-    explicit UdpIn(Opening& opening) : OpenEndpoint(opening), core_(opening.core), peers_(opening.core, *this, *this) {}
-    ~UdpIn() override {
-        core_.loop().cancel_timer(retry_);
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
-    }
+    explicit UdpIn(Opening& opening)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          peers_(opening.core, *this, *this),
+          retry_(opening.core, *this, *this) {}
+    ~UdpIn() override { core_.forget(static_cast<const OpenEndpoint&>(*this)); }
 
     SetupResult<void> open(const std::vector<net::Address>& addresses);
     std::size_t send(const wire::FrameView& frame) override { return peers_.send(frame); }
@@ -28,18 +29,13 @@ public:
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override { return peers_.of(port, datagram); }
     void on_send_error(net::IoError) override {}
-    void on_timer(MonoTime) override {
-        retry_ = {};
-        core_.resolve(*this, info.endpoint.address);
-    }
+    void on_timer(MonoTime) override { core_.resolve(*this, info.endpoint.address); }
 
 private:
     Core& core_;
     std::vector<std::unique_ptr<UdpPort>> ports_;
     UdpPeers peers_;
-    net::TimerId retry_;  // to look the name up again
-    Backoff backoff_;
-    bool told_failure_ = false;
+    Retry retry_;  // to look the name up again
 };
 
 SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
@@ -68,10 +64,7 @@ void UdpIn::on_resolved(net::Resolver::Answer&& answer) {
     auto done = answer ? open(*answer) : tl::unexpected(answer.error());
     if (done) return;
     ports_.clear();
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), done.error().text));
-    }
-    retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
+    retry_.fail(done.error());
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "mavloom/net/interfaces.hpp"
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_udp_peers.hpp"
 
 namespace mavloom::runtime::detail {
@@ -21,19 +21,19 @@ public:
           idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
           hearing_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
           sending_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(), sending_, group) {
+          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(), sending_, group),
+          retry_(opening.core, *this, *this) {
         group_.name = opening.endpoint.label();
         group_.signature = signature.get();
         core_.add_link(group_);
     }
     ~UdpMulticast() override {
-        core_.loop().cancel_timer(timer_);
         core_.remove_link(group_, "closed");
         sending_.forget(group_);
     }
 
     SetupResult<void> join();
-    void fail(const SetupError& error);
+    void fail(const SetupError& error) { retry_.fail(error); }
 
     std::size_t send(const wire::FrameView& frame) override { return group_.up && core_.send(group_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return group_.queue.bytes(); }
@@ -49,20 +49,14 @@ public:
     void on_timer(MonoTime now) override;
 
 private:
-    void again_after(Nanoseconds delay) {
-        core_.loop().cancel_timer(timer_);
-        timer_ = core_.loop().start_timer(core_.now() + delay, *this);
-    }
-
     Core& core_;
     Nanoseconds idle_;
     net::OwnAddresses own_;
     std::uint16_t own_port_ = 0;
     UdpPort hearing_, sending_;
     UdpPeer group_;
-    net::TimerId timer_;  // to join, or to join again
-    Backoff backoff_;
-    bool told_failure_ = false, failing_ = false;
+    Retry retry_;  // to join, or to join again
+    bool failing_ = false;
 };
 
 SetupResult<void> UdpMulticast::join() {
@@ -85,16 +79,9 @@ SetupResult<void> UdpMulticast::join() {
     info.local_port = group_.address.port();
     info.rcvbuf_bytes = hearing_.socket().receive_buffer_bytes();
     failing_ = false;
-    again_after(idle_);
+    retry_.after(idle_);
     core_.set_up(group_);
     return {};
-}
-
-void UdpMulticast::fail(const SetupError& error) {
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), error.text));
-    }
-    again_after(backoff_.next());
 }
 
 void UdpMulticast::on_send_error(net::IoError error) {
@@ -105,12 +92,11 @@ void UdpMulticast::on_send_error(net::IoError error) {
 
 // A membership ends with its interface, and the route to a group may lead elsewhere by now: neither is told.
 void UdpMulticast::on_timer(MonoTime now) {
-    timer_ = {};
     const bool heard = group_.last_heard != MonoTime{} && now - group_.last_heard < idle_;
     if (heard && !failing_) {
-        backoff_.reset();
-        told_failure_ = false;
-        timer_ = core_.loop().start_timer(group_.last_heard + idle_, *this);
+        retry_.begin_anew();
+        retry_.settle();
+        retry_.after(group_.last_heard + idle_ - now);
     } else if (auto done = join(); !done) {
         fail(done.error());
     }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "runtime/links_backoff.hpp"
 #include "runtime/links_options.hpp"
+#include "runtime/links_retry.hpp"
 #include "runtime/links_udp.hpp"
 
 namespace mavloom::runtime::detail {
@@ -20,9 +20,9 @@ public:
           core_(opening.core),
           local_(local),
           idle_(opening.endpoint.options.idle.value_or(std::chrono::seconds(60))),
-          is_name_(!net::Address::parse(opening.endpoint.address.host, 0)) {}
+          is_name_(!net::Address::parse(opening.endpoint.address.host, 0)),
+          retry_(opening.core, *this, *this) {}
     ~UdpOut() override {
-        core_.loop().cancel_timer(retry_);
         if (peer_) core_.remove_link(*peer_, "closed");
         if (peer_) port_->forget(*peer_);
         core_.forget(static_cast<const OpenEndpoint&>(*this));
@@ -48,7 +48,6 @@ public:
 private:
     SetupResult<void> aim_at(const net::Address& address);
     SetupResult<void> open_port(const net::Address& address);
-    void try_later();
 
     Core& core_;
     std::optional<net::Address> local_;
@@ -58,9 +57,7 @@ private:
     std::size_t current_ = 0;
     std::unique_ptr<UdpPort> port_;
     std::unique_ptr<UdpPeer> peer_;
-    Backoff backoff_;
-    net::TimerId retry_;
-    bool told_failure_ = false;
+    Retry retry_;
 };
 
 SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
@@ -73,7 +70,7 @@ SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
     }
     current_ = 0;
     if (auto done = aim_at(addresses_[0]); !done) return done;
-    if (is_name_ && !retry_.valid()) retry_ = core_.loop().start_timer(core_.now() + idle_, *this);
+    if (is_name_ && !retry_.waits()) retry_.after(idle_);
     return {};
 }
 
@@ -113,47 +110,37 @@ void UdpOut::on_resolved(net::Resolver::Answer&& answer) {
     }
     auto done = start(std::move(answer));
     if (done) return;
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {}; trying again", info.endpoint.label(), done.error().text));
-    }
-    try_later();
-}
-
-void UdpOut::try_later() {
-    core_.loop().cancel_timer(retry_);
-    retry_ = core_.loop().start_timer(core_.now() + backoff_.next(), *this);
+    retry_.fail(done.error());
 }
 
 void UdpOut::on_send_error(net::IoError error) {
     if (!peer_) return;
-    if (!std::exchange(told_failure_, true)) {
-        core_.notice(info.id, fmt::format("{}: {} {}; sending goes on", info.endpoint.label(), peer_->address.text(),
-                                          error == net::IoError::refused ? "refuses (nobody listens there yet)"
-                                                                         : "cannot be reached"));
-    }
-    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Backoff::longest) backoff_.reset();
+    const bool refused = error == net::IoError::refused;
+    if (!retry_.failing())
+        retry_.tell(peer_->address.text() + (refused ? " refuses (nobody listens there yet)" : " cannot be reached"),
+                    "sending goes on");
+    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.begin_anew();
     const bool choice = is_name_ || addresses_.size() > 1;
-    const bool soon = retry_.valid() && retry_.when - core_.now() <= Backoff::longest;
-    if (choice && !soon) try_later();
+    if (choice && !retry_.within(Retry::longest)) retry_.later();
 }
 
 // After a failure the next address, and behind the last one a new look-up; without failure a new look-up when nothing was heard for `idle`.
 void UdpOut::on_timer(MonoTime now) {
-    retry_ = {};
+    retry_.fired(now);
     const bool heard = peer_ && peer_->last_heard != MonoTime{} && now - peer_->last_heard < idle_;
-    if (heard && now - peer_->last_heard < Backoff::first) {
-        told_failure_ = false;
-        backoff_.reset();
-    } else if (told_failure_ && current_ + 1 < addresses_.size()) {
+    if (heard && now - peer_->last_heard < Retry::first) {
+        retry_.settle();
+        retry_.begin_anew();
+    } else if (retry_.failing() && current_ + 1 < addresses_.size()) {
         ++current_;
-        if (auto done = aim_at(addresses_[current_]); !done) try_later();
+        if (auto done = aim_at(addresses_[current_]); !done) retry_.later();
     } else if (is_name_ && !heard) {
         core_.resolve(*this, info.endpoint.address);
-    } else if (told_failure_ && addresses_.size() > 1) {
+    } else if (retry_.failing() && addresses_.size() > 1) {
         current_ = 0;
-        if (auto done = aim_at(addresses_[0]); !done) try_later();
+        if (auto done = aim_at(addresses_[0]); !done) retry_.later();
     }
-    if (is_name_ && !retry_.valid()) retry_ = core_.loop().start_timer(now + idle_, *this);
+    if (is_name_ && !retry_.waits()) retry_.after(idle_);
 }
 
 }  // namespace
