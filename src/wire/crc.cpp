@@ -22,8 +22,12 @@ std::uint16_t update_portable(std::uint16_t crc, const std::uint8_t* p, std::siz
     return crc;
 }
 
-bool check_portable(std::uint16_t expected, const std::uint8_t* p, std::size_t size, std::size_t) noexcept {
-    return update_portable(crc_seed, p, size) == expected;
+bool agrees(std::uint16_t before, std::uint32_t tail) noexcept {
+    return crc_update(before, static_cast<std::uint8_t>(tail)) == tail >> 8;
+}
+
+bool check_portable(std::uint32_t tail, const std::uint8_t* p, std::size_t size, std::size_t) noexcept {
+    return agrees(update_portable(crc_seed, p, size), tail);
 }
 
 #if defined(__x86_64__)
@@ -105,13 +109,13 @@ consteval std::array<std::uint8_t, 2 * group> make_keep() {
 }
 alignas(64) constexpr auto keep = make_keep();
 
-// To the place of a checksum behind n bytes of a zero-filled group: weight[n] = x^(8 * (group - n) - 16), less 1 for the product's own x and 48
-// for the checksum's place in its word. Powers of x have inverses modulo P, which has a constant term.
+// To the place behind n bytes of a zero-filled group: weight[n] = x^(8 * (group - n) - 64), less 1 for the product's own x; a word's lowest byte
+// comes first. Powers of x have inverses modulo P, which has a constant term.
 consteval std::array<std::uint64_t, group + 2> make_weights() {
     std::array<std::uint64_t, group + 2> weights{};
     for (std::size_t n = 0; n <= group; ++n) {
         unsigned power = 0x8000;  // x^0
-        int exponent = 8 * static_cast<int>(group - n) - 16 - 1 - 48;
+        int exponent = 8 * static_cast<int>(group - n) - 64 - 1;
         for (; exponent > 0; --exponent) power = power >> 1 ^ ((power & 1) != 0 ? 0x8408u : 0u);
         for (; exponent < 0; ++exponent) power = (power & 0x8000) != 0 ? (power ^ 0x8408u) << 1 | 1u : power << 1;
         weights[n] = std::uint64_t{power} << 48;
@@ -153,18 +157,18 @@ MAVLOOM_CLMUL inline bool is_multiple_of_p(__m128i value) noexcept {
     return _mm_testz_si128(quotient, x48_to_x63) != 0;
 }
 
-// A message followed by its own checksum leaves no remainder, and zeros behind it change nothing: so all lengths up to a group cost the same,
-// without a branch, and no remainder needs to be worked out.
-MAVLOOM_CLMUL bool check_pclmul(std::uint16_t expected, const std::uint8_t* p, std::size_t size,
+// A message followed by CRC_EXTRA and its own checksum leaves no remainder, and zeros behind it change nothing: so all lengths up to a group
+// cost the same, without a branch, and no remainder needs to be worked out.
+MAVLOOM_CLMUL bool check_pclmul(std::uint32_t tail, const std::uint8_t* p, std::size_t size,
                                 std::size_t readable) noexcept {
-    if (((size + group - 1) & ~(group - 1)) > readable) return update_pclmul(crc_seed, p, size) == expected;
+    if (((size + group - 1) & ~(group - 1)) > readable) return agrees(update_pclmul(crc_seed, p, size), tail);
     Groups sum{_mm_cvtsi32_si128(crc_seed), _mm_setzero_si128(), _mm_setzero_si128(), _mm_setzero_si128()};
     for (; size > group; size -= group, p += group) {
         add(sum, p);
         fold_group(sum);
     }
     add_masked(sum, p, keep.data() + group - size);
-    const __m128i checksum = _mm_clmulepi64_si128(_mm_cvtsi32_si128(expected),
+    const __m128i checksum = _mm_clmulepi64_si128(_mm_cvtsi32_si128(static_cast<int>(tail)),
                                                   _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&weights[size])), 0);
     const __m128i ab = _mm_xor_si128(fold(sum.a, powers(x447_mod_p, x383_mod_p)),
                                      fold(sum.b, powers(x319_mod_p, x255_mod_p)));

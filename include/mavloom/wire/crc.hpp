@@ -40,7 +40,8 @@ inline constexpr auto crc_slices = make_crc_slices();
 struct CrcImplementation {
     std::string_view name;
     std::uint16_t (*update)(std::uint16_t crc, const std::uint8_t* bytes, std::size_t size) noexcept;
-    bool (*check)(std::uint16_t expected, const std::uint8_t* bytes, std::size_t size, std::size_t readable) noexcept;
+    // Whether the bytes, then the lowest of `tail`, have the checksum that the next two of `tail` are.
+    bool (*check)(std::uint32_t tail, const std::uint8_t* bytes, std::size_t size, std::size_t readable) noexcept;
 };
 // The forms that run on this processor, the portable one first: for tests and benchmarks.
 [[nodiscard]] std::span<const CrcImplementation> crc_implementations() noexcept;
@@ -72,7 +73,8 @@ extern const CrcImplementation crc_fastest;
 // `readable` bytes from its begin on, at least covered.size(), may be read.
 [[nodiscard]] inline bool crc_agrees(ByteView covered, std::size_t readable, std::uint8_t crc_extra,
                                      std::uint16_t received) noexcept {
-    return detail::crc_fastest.check(crc_before(received, crc_extra), covered.data(), covered.size(), readable);
+    const std::uint32_t tail = crc_extra | std::uint32_t{received} << 8;
+    return detail::crc_fastest.check(tail, covered.data(), covered.size(), readable);
 }
 
 // The CRC_EXTRA byte that turns the checksum `before` (header and payload) into `received`, or -1 where none of the 256 does: two byte

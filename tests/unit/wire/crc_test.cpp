@@ -47,21 +47,23 @@ TEST(Crc, AllFormsAgreeByteByByteAtEveryLength) {
     }
 }
 
-// Each length with just its own bytes readable, and with a whole group of 64 more; a single wrong bit is never accepted.
+// Each length with just its own bytes readable, and with a whole group of 64 more; a single wrong bit is never accepted, neither in CRC_EXTRA
+// nor in the checksum.
 TEST(Crc, AllFormsCheckWhatTheByteByByteFormComputes) {
     Bytes bytes(400);
     std::uint32_t state = 54321;
     for (auto& b : bytes) b = static_cast<std::uint8_t>((state = state * 1664525 + 1013904223) >> 24);
 
     for (std::size_t size = 1; size <= 300; ++size) {
+        const auto extra = static_cast<std::uint8_t>(size * 37);
         std::uint16_t plain = crc_seed;
         for (const auto b : ByteView{bytes}.first(size)) plain = crc_update(plain, b);
+        const std::uint32_t tail = extra | std::uint32_t{crc_update(plain, extra)} << 8;
         for (const auto& form : crc_implementations()) {
             for (const std::size_t readable : {size, size + 64}) {
-                ASSERT_TRUE(form.check(plain, bytes.data(), size, readable)) << form.name << ' ' << size;
-                for (unsigned bit = 0; bit < 16; ++bit)
-                    ASSERT_FALSE(form.check(static_cast<std::uint16_t>(plain ^ 1u << bit), bytes.data(), size, readable))
-                        << form.name << ' ' << size;
+                ASSERT_TRUE(form.check(tail, bytes.data(), size, readable)) << form.name << ' ' << size;
+                for (unsigned bit = 0; bit < 24; ++bit)
+                    ASSERT_FALSE(form.check(tail ^ 1u << bit, bytes.data(), size, readable)) << form.name << ' ' << size;
             }
         }
     }
