@@ -23,6 +23,7 @@ using test::Terms;
 using Step = std::array<std::uint8_t, 7>;
 
 const Nanoseconds pauses[] = {0s, 1ms, 40ms, 250ms, 900ms, 2s, 3s, 7s, 10s, 31s};
+const Nanoseconds pauses_of_group[] = {1ms, 499ms, 500ms, 1s, 1999ms, 2s, 2999ms, 3s};
 const std::uint8_t systems[] = {1, 1, 2, 255, 0}, components[] = {1, 1, 154, 190};
 
 template <class T, std::size_t n>
@@ -115,6 +116,25 @@ public:
             default: frames_.push_back(frame_of(s)); return pass(link, frames_.back());
         }
     }
+    // Links 1 and 2 are a group, of which 3 sends something through one.
+    void step_of_group(const Step& s) {
+        const std::uint32_t link = 1 + s[1] % 2;
+        switch (s[0] % 5) {
+            case 0: beat(link, s[2] % 8); break;
+            case 1:
+                for (int n = s[2] % 100; n > 0; --n) {
+                    heartbeat(1);
+                    pass(2, frames_.back());
+                }
+                break;
+            case 2: heartbeat(link); break;
+            case 3:
+                if (!frames_.empty()) pass(link, frames_.back());
+                break;
+            default: now_ += pick(pauses_of_group, s[2]);
+        }
+        pass(3, test::make_frame("ATTITUDE", {255, 190}, {{"time_boot_ms", ++beats_}}));
+    }
     void add(const Step& s) {
         if (last_ < still_ + 12) add_link(policy_of(s));
     }
@@ -138,7 +158,11 @@ private:
     }
     // HEARTBEATs that no other link hears.
     void beat(std::uint32_t link, std::uint32_t count) {
-        while (count-- > 0) pass(link, test::make_frame("HEARTBEAT", {1, 1}, {{"custom_mode", ++beats_}}));
+        while (count-- > 0) heartbeat(link);
+    }
+    void heartbeat(std::uint32_t link) {
+        frames_.push_back(test::make_frame("HEARTBEAT", {1, 1}, {{"custom_mode", ++beats_}}));
+        pass(link, frames_.back());
     }
     void pass(std::uint32_t link, const Bytes& bytes) {
         const auto frame = wire::FrameView::unchecked(bytes);
@@ -198,6 +222,15 @@ RC_GTEST_PROP(Engine, DecidesAsTheModelDoesWithPlainLinks, (std::uint8_t bits)) 
     Life sut(options_of(bits));
     for (int i = 0; i < 4; ++i) sut.add({0, 0, 0, 0, 0, 3, 0});
     for (const Step& step : life()) sut.step(step);
+}
+
+RC_GTEST_PROP(Engine, TakesTheBestLinkAsTheModelDoes, ()) {
+    Life sut(options_of(0));
+    for (const Step& policy : {Step{0, 0, 0, 0, 0, 1, 1}, Step{0, 0, 0, 0, 0, 1, 1}, Step{0, 0, 0, 0, 0, 3, 0}})
+        sut.add(policy);
+    for (const Step& step :
+         *rc::gen::container<std::vector<Step>>(60, rc::gen::container<Step>(rc::gen::arbitrary<std::uint8_t>())))
+        sut.step_of_group(step);
 }
 
 RC_GTEST_PROP(Engine, DecidesAsTheModelDoesBeyondSixtyFourLinks, (std::uint8_t bits)) {
