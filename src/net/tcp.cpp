@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/tcp.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "net/socket_options.hpp"
@@ -86,7 +89,18 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     return listener;
 }
 
+// Numbers are given from below, so that the lowest free one tells. Some are kept from clients, for what serves the program's own user: its
+// control socket, recordings, look-ups.
+static bool few_descriptors_left(int any) noexcept {
+    constexpr rlim_t kept = 16;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return false;
+    const Fd lowest(fcntl(any, F_DUPFD_CLOEXEC, 0));
+    return !lowest || static_cast<rlim_t>(lowest.get()) >= limit.rlim_cur - std::min(kept, limit.rlim_cur / 4);
+}
+
 IoResult<TcpStream> TcpListener::accept() noexcept {
+    if (few_descriptors_left(fd_.get())) return tl::unexpected(IoError::no_descriptors);
     Address remote;
     socklen_t length = Address::capacity;
     Fd fd(::accept4(fd_.get(), remote.writable(), &length, SOCK_NONBLOCK | SOCK_CLOEXEC));

@@ -53,7 +53,7 @@ public:
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] const Address& local() const noexcept { return local_; }
-    // would_block when nobody waits; no_descriptors when the process has no more of them (the client then waits on).
+    // would_block when nobody waits; no_descriptors when the process has none or only a few left (the client then waits on).
     [[nodiscard]] IoResult<TcpStream> accept() noexcept;
 
 private:

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/tcp.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace mavloom::net {
 namespace {
@@ -41,6 +44,27 @@ TEST_F(Tcp, ConnectsAndExchanges) {
     EXPECT_EQ(std::string(room.begin(), room.begin() + 11), "hello there");
     EXPECT_EQ(far.read(room).error(), IoError::would_block);
     EXPECT_EQ(near.remote(), listener.local());
+}
+
+// The last descriptors are not given to clients: the client waits, and the program can still open something.
+TEST_F(Tcp, LeavesSomeDescriptorsToTheProgram) {
+    near = std::move(*TcpStream::start_connect(listener.local()));
+    await(listener.fd(), POLLIN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit few{64, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    std::vector<Fd> taken;
+    for (;;) {
+        Fd next(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+        if (!next || next.get() >= 48) break;
+        taken.push_back(std::move(next));
+    }
+    EXPECT_EQ(listener.accept().error(), IoError::no_descriptors);
+    EXPECT_TRUE(Fd(::open("/dev/null", O_RDONLY | O_CLOEXEC)));
+    taken.pop_back();
+    EXPECT_TRUE(listener.accept());
+    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
 }
 
 TEST_F(Tcp, TellsTheEndOfAStream) {
