@@ -10,6 +10,7 @@
 
 #include "mavloom/base/suggest.hpp"
 #include "runtime/config_keys.hpp"
+#include "runtime/config_places.hpp"
 #include "runtime/config_text.hpp"
 #include "runtime/endpoint_parts.hpp"
 
@@ -72,6 +73,7 @@ public:
         if (const auto* endpoints = (*root)["endpoint"].as_array())
             for (const auto& item : *endpoints)
                 if (auto done = read_endpoint(*item.as_table()); !done) return tl::unexpected(std::move(done.error()));
+        if (auto done = check_ports(config_, file_); !done) return tl::unexpected(std::move(done.error()));
         return std::move(config_);
     }
 

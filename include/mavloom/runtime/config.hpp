@@ -89,6 +89,9 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] SetupResult<void> check_message_names(const Config& config, std::string_view file_name,
                                                     const dialect::Dialect& dialect);
 
+// Reads the key files that the endpoints name. An error is `bad_input`, with file and line.
+[[nodiscard]] SetupResult<void> check_key_files(const Config& config, std::string_view file_name);
+
 // Errors are `bad_input` and begin with FILE:LINE: or the variable's name.
 [[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,
                                                const Environment& environment = {});

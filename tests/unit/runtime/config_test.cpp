@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/runtime/config.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
+#include "mavloom/wire/signing.hpp"
 #include "runtime/endpoint_parts.hpp"
 #include "support/temp_dir.hpp"
 
@@ -255,6 +258,50 @@ TEST(Config, MessagesAreLookedUpWithFileAndLine) {
               "r.toml:5: in_block: unknown message 'HEARTBEET', did you mean 'HEARTBEAT'?");
     EXPECT_EQ(check("[[endpoint]]\nurl = \"udpin://0.0.0.0:2\"\nmax_rate = {\"*\" = 5, ATITUDE = 10}\n"),
               "r.toml:3: max_rate: unknown message 'ATITUDE', did you mean 'ATTITUDE'?");
+}
+
+TEST(Config, TwoEndpointsThatBindOnePortAreAnErrorOfTheSecond) {
+    const auto with = [](std::string_view a, std::string_view b) {
+        const auto config = parse_config(
+            fmt::format("[[endpoint]]\nurl = \"{}\"\n[[endpoint]]\nname = \"b\"\nurl = \"{}\"\n", a, b), "r.toml");
+        return config ? std::string("good") : config.error().text;
+    };
+    EXPECT_EQ(with("udpin://0.0.0.0:14550", "udpin://127.0.0.1:14550"),
+              "r.toml:5: 'b' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has already");
+    EXPECT_EQ(with("udpout://127.0.0.1:1?bind=127.0.0.1:5000", "tcpin://127.0.0.1:5000"), "good");
+    for (const auto& [a, b, meet] : {std::tuple{"tcpin://0.0.0.0:5760", "tcpin://[::]:5760", true},
+                                     {"tcpin://0.0.0.0:5760", "tcpin://[::1]:5760", false},
+                                     {"tcpin://127.0.0.1:5760", "tcpin://localhost:5760", true},
+                                     {"tcpin://127.0.0.1:5760", "tcpin://127.0.0.2:5760", false},
+                                     {"tcpin://127.0.0.1:5760", "udpin://127.0.0.1:5760", false},
+                                     {"tcpin://companion:5760", "tcpin://companion:5760", true},
+                                     {"tcpin://companion:5760", "tcpin://ground:5760", false},
+                                     {"tcpin://companion:5760", "tcpin://0.0.0.0:5760", true},
+                                     {"udpin://0.0.0.0:1?iface=eth0", "udpin://0.0.0.0:1?iface=eth1", false},
+                                     {"udpin://0.0.0.0:1?iface=eth0", "udpin://0.0.0.0:1", true},
+                                     {"udpin://0.0.0.0:1", "udpout://127.0.0.1:2?bind=0.0.0.0:1", true},
+                                     {"udpin://0.0.0.0:1", "udpout://127.0.0.1:1", false},
+                                     {"udpmcast://239.255.1.1:1", "udpmcast://239.255.1.1:1?iface=eth0", false},
+                                     {"udpmcast://239.255.1.1:1", "udpin://0.0.0.0:1", true}}) {
+        const auto said = with(a, b);
+        EXPECT_EQ(said != "good", meet) << a << " and " << b << ": " << said;
+    }
+}
+
+TEST(Config, KeyFilesAreReadWithFileAndLine) {
+    const test::TempDir dir;
+    const auto key = dir / "good.key";
+    ASSERT_TRUE(wire::SigningKey::random()->create_file(key));
+    const auto check = [&](std::string_view options) {
+        const auto checked = check_key_files(
+            parsed(fmt::format("[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\n{}\n", options)), "r.toml");
+        return checked ? std::string("good") : checked.error().text;
+    };
+    const auto quoted = [&](std::string_view name) { return fmt::format("\"{}\"", (dir / std::string(name)).string()); };
+
+    EXPECT_EQ(check(fmt::format("sign = {0}\nverify = {0}", quoted("good.key"))), "good");
+    EXPECT_THAT(check(fmt::format("sign = {}\nverify = {}", quoted("good.key"), quoted("none.key"))),
+                testing::AllOf(testing::StartsWith("r.toml:4: verify: "), HasSubstr("none.key")));
 }
 
 TEST(Config, SaysWhyAFileCannotBeRead) {
