@@ -92,6 +92,7 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
         if (auto done = listening->start(); !done) return done;
         listeners_.push_back(std::move(listening));
     }
+    core_.notice(info.id, info.label() + ": listening");
     if (const auto idle = info.endpoint.options.idle) expiry_ = core_.loop().start_timer(core_.now() + *idle, *this);
     return {};
 }
@@ -121,7 +122,7 @@ void TcpIn::admit(net::TcpStream stream) {
     if (peers_.size() >= info.endpoint.options.max_peers) {
         counters.peers_refused.add();
         if (!std::exchange(told_full_, true)) {
-            core_.notice(info.id, fmt::format("{}: {} clients are the most (max_peers=); others are turned away",
+            core_.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
                                               info.endpoint.label(), peers_.size()));
         }
         return;

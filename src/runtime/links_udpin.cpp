@@ -52,10 +52,11 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
         info.rcvbuf_bytes = port->socket().receive_buffer_bytes();
         ports_.push_back(std::move(port));
     }
-    const bool less = info.rcvbuf_bytes < options.receive_buffer_bytes;
-    core_.notice(info.id,
-                 fmt::format("{}: receive buffer {} bytes (asked {}){}", info.endpoint.label(), info.rcvbuf_bytes,
-                             options.receive_buffer_bytes, less ? "; net.core.rmem_max sets the limit" : ""));
+    core_.notice(info.id, fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
+    if (info.rcvbuf_bytes < options.receive_buffer_bytes)
+        core_.notice(info.id, fmt::format("{}: a larger receive buffer loses less when very much comes at once; to "
+                                          "allow it: sysctl net.core.rmem_max={}",
+                                          info.label(), options.receive_buffer_bytes));
     return {};
 }
 

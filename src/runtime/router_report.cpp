@@ -403,14 +403,16 @@ Later<Lines> done() {
 Later<Lines> add(Router& router, const std::string& url) {
     const auto endpoint = parse_router_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
-    const auto added = router.add(*endpoint);
-    return added ? done() : failed(added.error().text);
+    if (const auto added = router.add(*endpoint); !added) return failed(added.error().text);
+    router.tell(LogLevel::info, endpoint->label() + ": added by ctl");
+    return done();
 }
 
 // An endpoint or a recording by its name.
 Later<Lines> remove(Router& router, const std::string& name) {
-    if (router.remove(name)) return done();
-    return failed(fmt::format("there is no endpoint {}; links shows them", name));
+    if (!router.remove(name)) return failed(fmt::format("there is no endpoint {}; links shows them", name));
+    router.tell(LogLevel::info, name + ": removed by ctl");
+    return done();
 }
 
 std::string text_at(const Json& request, const char* key) {

@@ -75,7 +75,7 @@ public:
     // A peer was seen for the first time, connected, went, or was expired.
     virtual void on_link_up(LinkId, EndpointId, std::string_view /*name*/) {}
     virtual void on_link_down(LinkId, EndpointId, std::string_view /*why*/) {}
-    // Something a person should know once (not per packet): "udpin://…: receive buffer 425984 bytes (asked 33554432)".
+    // Something a person should know once (not per packet): "udpin://…: listening (receive buffer 425984 bytes)".
     virtual void on_notice(EndpointId, std::string_view /*text*/) {}
 };
 

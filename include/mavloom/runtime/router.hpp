@@ -50,6 +50,9 @@ public:
     // name that was there before is opened again.
     void become(const std::vector<Endpoint>& endpoints);
 
+    // Says something as the router itself does.
+    void tell(LogLevel level, std::string_view text) const { notice_(level, text); }
+
     void explain(Explainer explainer) { explainer_ = std::move(explainer); }
 
     // One turn of the links; then what was posted, and what is due.
