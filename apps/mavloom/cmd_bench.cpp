@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 #include "mavloom/wire/stream_parser.hpp"
@@ -72,8 +73,9 @@ void print(const Options& options, std::string_view what, double per_s, std::str
             "{{\"bench\":\"{}\",\"per_second\":{:.0f},\"unit\":\"{}\",\"frames\":{},\"bytes\":{},\"turns\":{}}}\n",
             what, per_s, unit, recording.times.size(), recording.frames.size(), options.turns);
     } else {
-        fmt::print("{:<14} {:>14.0f} {}/s   ({} frames, {} bytes, median of {} turns)\n", what, per_s, unit,
-                   recording.times.size(), recording.frames.size(), options.turns);
+        fmt::print("{:<14} {:>14.0f} {}/s   ({}, {}, median of {})\n", what, per_s, unit,
+                   counted(recording.times.size(), "frame"), counted(recording.frames.size(), "byte"),
+                   counted(static_cast<std::uint64_t>(options.turns), "turn"));
     }
 }
 

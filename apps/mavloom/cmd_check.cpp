@@ -29,7 +29,7 @@ std::string_view origin_name(runtime::Origin origin) {
 }
 
 std::string where(const runtime::Setting& setting, std::string_view file) {
-    if (setting.origin == runtime::Origin::file) return fmt::format("{}:{}", file, setting.line);
+    if (setting.origin == runtime::Origin::file) return fmt::format("{}:{}", printable(file), setting.line);
     return setting.origin == runtime::Origin::environment ? setting.variable : "default";
 }
 
@@ -67,6 +67,7 @@ Exit check(const Common& common, const Options& options) {
     if (!config) return fail(Exit::bad_input, config.error().text);
     if (const auto checked = runtime::check_message_names(*config, options.file, *dialect); !checked)
         return fail(checked.error());
+    if (const auto checked = runtime::check_key_files(*config, options.file); !checked) return fail(checked.error());
     for (const auto& note : config->notes) say(common, note);
     Output output;
     if (options.json) print_json(output.buffer(), *config, options.file);
@@ -79,7 +80,7 @@ Exit convert(const Options& options) {
     const auto done = runtime::convert_mavlink_router_file(options.file);
     if (!done) return fail(of_input_file(done.error()));
     for (const auto& note : done->notes)
-        talk(fmt::format("{}:{}: [{}]{}{}: {}\n", options.file, note.line, shown(note.section),
+        tell(fmt::format("{}:{}: [{}]{}{}: {}", options.file, note.line, shown(note.section),
                          note.key.empty() ? "" : " ", shown(note.key), note.text));
     Output output;
     fmt::format_to(fmt::appender(output.buffer()), "{}", done->toml);
@@ -101,7 +102,8 @@ Run declare_check(CLI::App& command, const Common& common) {
         "(MAVLOOM_ROUTER_DEDUP_MS\n"
         "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line. Messages that "
         "filters and rates\n"
-        "name are looked up in the built-in definitions and those of --dialect.\n\n"
+        "name are looked up in the built-in definitions and those of --dialect; key files are read; nothing is "
+        "bound.\n\n"
         "Examples:\n"
         "  mavloom check router.toml\n"
         "  mavloom check --convert main.conf > router.toml");

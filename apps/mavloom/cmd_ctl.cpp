@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "output.hpp"
 
@@ -84,28 +85,30 @@ void print_gone(fmt::appender out, const Json& o) {
     if (!all.empty()) fmt::format_to(out, "links that are gone of {}: {}\n", o.value("endpoint", ""), all);
 }
 void print_link(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "link {}{}\n  in {} frames, {} bytes; out {} frames, {} bytes\n", o.value("link", ""),
-                   o.value("up", false) ? "" : " (down)", o.value("frames_in", 0ull), o.value("bytes_in", 0ull),
-                   o.value("frames_out", 0ull), o.value("bytes_out", 0ull));
+    fmt::format_to(out, "link {}{}\n  in {}, {}; out {}, {}\n", o.value("link", ""),
+                   o.value("up", false) ? "" : " (down)", counted(o.value("frames_in", 0ull), "frame"),
+                   counted(o.value("bytes_in", 0ull), "byte"), counted(o.value("frames_out", 0ull), "frame"),
+                   counted(o.value("bytes_out", 0ull), "byte"));
     const auto rest = nonzero(o, {"frames_in", "bytes_in", "frames_out", "bytes_out", "forwarded"});
     if (!rest.empty()) fmt::format_to(out, "  {}\n", rest);
 }
 void print_source(fmt::appender out, const Json& o) {
     const auto frames = o.value("frames", 0ull), lost = o.value("lost", 0ull);
-    fmt::format_to(out, "source {}/{} on {}: {} frames, {} lost ({:.2f} %)\n", o.value("sys", 0), o.value("comp", 0),
-                   o.value("link", ""), frames, lost,
+    fmt::format_to(out, "source {}/{} on {}: {}, {} lost ({:.2f} %)\n", o.value("sys", 0), o.value("comp", 0),
+                   o.value("link", ""), counted(frames, "frame"), lost,
                    frames + lost == 0 ? 0.0 : 100.0 * static_cast<double>(lost) / static_cast<double>(frames + lost));
 }
 void print_message(fmt::appender out, const Json& o) {
     const auto name = o.at("name").is_null() ? fmt::format("{}", o.value("id", 0)) : o.at("name").get<std::string>();
-    fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} frames {:>9.2f} Hz  {}\n", name, o.value("sys", 0),
-                   o.value("comp", 0), o.value("frames", 0ull), o.value("rate_hz", 0.0), o.value("link", ""));
+    const auto frames = o.value("frames", 0ull);
+    fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} {:<6} {:>9.2f} Hz  {}\n", name, o.value("sys", 0),
+                   o.value("comp", 0), frames, plural(frames, "frame"), o.value("rate_hz", 0.0), o.value("link", ""));
 }
 void print_recording(fmt::appender out, const Json& o) {
     fmt::format_to(out, "recording {}: {}\n", o.value("endpoint", ""), nonzero(o, {}));
 }
 void print_unknown_target(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "not routed: {} frames for {}/{}, which nobody has heard\n", o.value("frames", 0ull),
+    fmt::format_to(out, "not routed: {} for {}/{}, which nobody has heard\n", counted(o.value("frames", 0ull), "frame"),
                    o.value("sys", 0), o.value("comp", 0));
 }
 

@@ -10,7 +10,9 @@
 #include <system_error>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "dialect_print.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 
 namespace mavloom::app {
@@ -118,9 +120,11 @@ Exit run_check(const Options& options) {
             json_quoted(options.file), s.messages, s.fields, s.enums, s.entries, s.added, s.changed);
     } else {
         fmt::format_to(std::back_inserter(out),
-                       "{}: good; {} messages with {} fields, {} enums with {} entries\n"
-                       "Beside the built-in definitions: {} ids are new, {} have another name or wire form\n",
-                       options.file, s.messages, s.fields, s.enums, s.entries, s.added, s.changed);
+                       "{}: good; {} with {}, {} with {}\n"
+                       "Beside the built-in definitions: {} new, {} with another name or wire form\n",
+                       printable(options.file), counted(s.messages, "message"), counted(s.fields, "field"),
+                       counted(s.enums, "enum"), counted(s.entries, "entry", "entries"), counted(s.added, "id"),
+                       s.changed);
     }
     return write_out(out);
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "mavloom/edit/terms.hpp"
 #include "mavloom/message/format.hpp"
 #include "output.hpp"
@@ -91,7 +92,7 @@ private:
         if (!options_.stats) say_losses(common_, receiver_.totals());
         if (const auto unprinted = count_unprinted(); unprinted != 0)
             say(common_,
-                fmt::format("{} messages received but not printed: the output was too slow for the end", unprinted));
+                counted(unprinted, "message") + " received but not printed: the output was too slow for the end");
         if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }

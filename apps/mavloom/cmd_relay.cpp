@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/runtime/sources.hpp"
@@ -82,6 +83,7 @@ private:
         while (mono_now() < begin + longest_drain && sources_.turn(*this, MonoTime{}, 0) != 0) {}
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
+        sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
     }
 
     std::string summary() const {
@@ -107,17 +109,16 @@ private:
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& c = stage_.counters();
-        say(common_, fmt::format("{} frames in, {} decoded and re-encoded, {} passed untouched", c.frames.value(),
-                                 c.reencoded.value(), c.passed_untouched.value()));
-        say_unless_zero(c.rewrapped, "rewrapped: frames without full definition that got a new header and checksum");
-        say_unless_zero(c.filtered, "filtered: frames that --only leaves out");
-        say_unless_zero(c.rate_limited, "rate_limited: frames over --max-rate");
-        say_unless_zero(c.not_v1, "not_v1: frames that MAVLink 1 cannot carry");
-        say_unless_zero(c.not_signed,
-                        "not_signed: MAVLink 1 frames, which cannot carry a signature (--as-v2 makes them MAVLink 2)");
-        say_unless_zero(c.signature_removed,
-                        "signature_removed: changed frames that lost their signature (--sign gives a new one)");
-        say_unless_zero(unheard_answers_, "answers of the far side that no source was there for");
+        say(common_, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched",
+                                 counted(c.frames.value(), "frame"), c.reencoded.value(), c.passed_untouched.value()));
+        say_unless_zero("rewrapped", c.rewrapped, "frame", "without full definition, with a new header and checksum");
+        say_unless_zero("filtered", c.filtered, "frame", "that --only leaves out");
+        say_unless_zero("rate_limited", c.rate_limited, "frame", "over --max-rate");
+        say_unless_zero("not_v1", c.not_v1, "frame", "that MAVLink 1 cannot carry");
+        say_unless_zero("not_signed", c.not_signed, "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
+        say_unless_zero("signature_removed", c.signature_removed, "changed frame",
+                        "now without signature (--sign gives a new one)");
+        say_unless_zero("unheard_answers", unheard_answers_, "answer", "of the far side that no source was there for");
         say_losses(common_, totals_);
         const auto printed = json_ ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
@@ -127,8 +128,9 @@ private:
         return Signals::status(Exit::done);
     }
 
-    void say_unless_zero(const Counter& counter, std::string_view meaning) const {
-        if (counter.value() != 0) say(common_, fmt::format("{} {}", counter.value(), meaning));
+    void say_unless_zero(std::string_view name, const Counter& counter, std::string_view noun,
+                         std::string_view rest) const {
+        if (counter.value() != 0) say(common_, fmt::format("{}: {} {}", name, counted(counter.value(), noun), rest));
     }
 
     const Common& common_;
@@ -206,14 +208,14 @@ Run declare_relay(CLI::App& command, const Common& common) {
     auto* v1 = command.add_flag("--as-v1", options->as_v1,
                                 "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
     command.add_flag("--as-v2", options->as_v2, "send MAVLink 2")->excludes(v1);
-    command
-        .add_option("--sign", options->sign_file,
-                    "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)")
-        ->type_name("FILE")
-        ->excludes(v1);
-    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in signatures")
+    auto* sign = command.add_option("--sign", options->sign_file,
+                                    "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)");
+    sign->type_name("FILE")->excludes(v1);
+    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
         ->capture_default_str()
-        ->type_name("0-255");
+        ->type_name("N")
+        ->check(CLI::Range(0, 255).description(""))
+        ->needs(sign);
     command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
     command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "destinations.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "mavloom/runtime/sources.hpp"
@@ -24,8 +25,7 @@ constexpr auto longest_flush = 5s;  // for the last frames to reach the far side
 struct Options {
     std::string file;
     std::vector<std::string> to;
-    std::string speed = "1";
-    std::string start, duration;
+    std::string speed, start, duration;  // as typed; empty: not given
     Selection selection;
     bool no_wait = false;
     bool json = false;
@@ -67,6 +67,7 @@ private:
     void flush() {
         const auto limit = mono_now() + longest_flush;
         while (sources_.links().pending() && mono_now() < limit) sources_.links().turn(*this, mono_now() + 20ms);
+        sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
     }
 
     void show_progress() {
@@ -78,7 +79,7 @@ private:
         const double part = reader.size() == 0
                                 ? 0
                                 : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
-        talk(fmt::format("\r{:5.1f} %  {} frames sent ", 100 * part, destinations_.sent()));
+        talk(fmt::format("\r{:5.1f} %  {} sent ", 100 * part, counted(destinations_.sent(), "frame")));
     }
 
     std::string summary() const {
@@ -100,8 +101,9 @@ private:
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (counters.damaged_places.value() != 0)
-            say(common_, fmt::format("{}: {} damaged places, {} bytes lost", options_.file,
-                                     counters.damaged_places.value(), counters.lost_bytes.value()));
+            say(common_,
+                fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
+                            counted(counters.lost_bytes.value(), "byte")));
         const auto printed = options_.json ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;
@@ -128,7 +130,7 @@ Exit replay(const Common& common, Options& options) {
     if (!endpoint) return fail(endpoint.error());
     if (endpoint->scheme != runtime::Scheme::tlog)
         return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
-    if (!endpoint->options.speed)
+    if (!options.speed.empty())  // before the URL's
         if (auto set = runtime::set_endpoint_option(*endpoint, "speed", options.speed); !set)
             return fail(std::move(set.error()).within("--speed"));
     Nanoseconds start{}, length{};
@@ -142,6 +144,7 @@ Exit replay(const Common& common, Options& options) {
 
     auto sources = runtime::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
+    if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
@@ -160,7 +163,7 @@ Run declare_replay(CLI::App& command, const Common& common) {
     command.add_option("file", options->file, "the recording")->required()->type_name("FILE.tlog");
     command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
     command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")
-        ->capture_default_str()
+        ->default_str("1")
         ->type_name("N|max");
     command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
         ->type_name("TIME");

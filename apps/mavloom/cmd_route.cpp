@@ -105,6 +105,7 @@ public:
         (void)output_.flush_if_full();
     }
     Output::State flush() { return output_.flush(); }
+    [[nodiscard]] const Output& output() const noexcept { return output_; }
 
 private:
     const dialect::Dialect& dialect_;
@@ -135,12 +136,11 @@ public:
         if (explain) router_.explain([&](const auto&... args) { (*explain)(args...); });
         const auto end = options_.duration.empty() ? MonoTime::max()
                                                    : mono_now() + *runtime::parse_duration(options_.duration);
-        auto state = Output::State::open;
         manager_.ready();
-        while (!Signals::received() && mono_now() < end && state == Output::State::open) {
+        while (!Signals::received() && mono_now() < end) {
             router_.turn(std::min(end, manager_.watchdog_due()));
             manager_.feed(mono_now());
-            if (explain) state = explain->flush();
+            if (explain && explain->flush() != Output::State::open) stop_explaining(explain);
             if (Signals::take_hangup()) {
                 manager_.reloading();
                 reload();
@@ -149,14 +149,25 @@ public:
         }
         manager_.stopping();
         router_.finish(longest_flush);
-        return Signals::status(state == Output::State::failed ? Exit::failed : Exit::done);
+        return Signals::status(explain_failed_ ? Exit::failed : Exit::done);
     }
 
 private:
+    // Nobody who only watches can end the routing.
+    void stop_explaining(std::optional<ExplainPrinter>& explain) {
+        if (explain->output().state() == Output::State::interrupted) return;  // the end was asked for
+        router_.explain({});
+        explain_failed_ = explain->output().state() == Output::State::failed;
+        if (explain_failed_) (void)fail(explain->output().error());
+        say(common_, explain_failed_ ? "--explain ends here; routing goes on"
+                                     : "nobody reads what --explain says any more; it ends, and routing goes on");
+        explain.reset();
+    }
+
     void reload() {
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
         auto config = read_config(options_.config, dialect_);
-        if (!config) return talk(fmt::format("mavloom: {}; nothing was changed\n", config.error().text));
+        if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool same_rules = config->router == plan_.config.router;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
@@ -171,6 +182,7 @@ private:
     runtime::Router& router_;
     Plan plan_;
     runtime::LogLevel& log_level_;  // of what the router tells
+    bool explain_failed_ = false;
     runtime::ServiceManager manager_ = runtime::ServiceManager::from_environment();
 };
 

@@ -42,6 +42,7 @@ struct Command {
     std::string_view name;
     std::string_view description;
     Declare declare;
+    bool uses_dialect = true;  // takes --dialect
 };
 
 Run declare_route(CLI::App&, const Common&);
@@ -63,6 +64,8 @@ Exit fail(Exit status, std::string_view text);
 SetupError of_input_file(SetupError error);
 // Raw text on stderr. A closed or full stderr never ends a command.
 void talk(std::string_view text) noexcept;
+// One line on stderr in which control characters, of names and values from outside, are replaced.
+void tell(std::string_view line);
 void keep_standard_descriptors() noexcept;
 // "mavloom: TEXT" on stderr, unless --quiet.
 void say(const Common& common, std::string_view text);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "counted.hpp"
+
 namespace mavloom::app {
 
 SetupResult<record::RotatingWriter> create_recording(const Common& common, const runtime::Endpoint& endpoint,
@@ -25,10 +27,10 @@ SetupResult<record::RotatingWriter> create_recording(const Common& common, const
 
 void say_recorded(const Common& common, const record::RotatingWriter& file) {
     const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
-    say(common, fmt::format("{}: {} frames, {} bytes written{}", file.path().string(), file.written_records(),
-                            file.written_bytes(), files));
+    say(common, fmt::format("{}: {}, {} written{}", file.path().string(), counted(file.written_records(), "frame"),
+                            counted(file.written_bytes(), "byte"), files));
     if (file.lost_records() != 0)
-        say(common, fmt::format("{}: {} frames not written", file.path().string(), file.lost_records()));
+        say(common, fmt::format("{}: {} not written", file.path().string(), counted(file.lost_records(), "frame")));
 }
 
 Json recorded_json(const record::RotatingWriter& file) {
@@ -42,11 +44,16 @@ Json recorded_json(const record::RotatingWriter& file) {
 SetupResult<Destinations> Destinations::open(const Common& common, const std::vector<std::string>& addresses,
                                              runtime::Links& links) {
     Destinations all(links);
+    std::vector<runtime::Endpoint> endpoints;
     for (const auto& address : addresses) {
-        const auto endpoint = runtime::parse_endpoint(address);
-        if (!endpoint) return tl::unexpected(SetupError(endpoint.error()).within("--to"));
-        if (auto added = all.add(common, *endpoint); !added) return tl::unexpected(std::move(added.error()));
+        auto endpoint = runtime::parse_endpoint(address);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within("--to"));
+        endpoints.push_back(std::move(*endpoint));
     }
+    // Files last: an existing one is not renamed for a command that another address ends.
+    std::ranges::stable_partition(endpoints, [](const auto& e) { return e.scheme != runtime::Scheme::tlog; });
+    for (const auto& endpoint : endpoints)
+        if (auto added = all.add(common, endpoint); !added) return tl::unexpected(std::move(added.error()));
     for (const auto& info : links.endpoints())
         if (all.has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)
             say(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
@@ -124,15 +131,15 @@ Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) cons
         if (link.endpoint == info.id) all.add(*link.counters);
     return {all.frames_out.value(), all.bytes_out.value(),
             all.queue_bytes.value() + all.queue_age.value() + info.counters->gone_queued.value(),
-            all.frames_not_sent.value()};
+            info.counters->send_errors.value()};
 }
 
 bool Destinations::lost_any() const {
     const auto endpoints = links_->endpoints();
     return std::ranges::any_of(endpoints,
                                [&](const auto& info) {
-                                   return has(info.id) &&
-                                          (sums_of(info).dropped != 0 || links_->queued_bytes(info.id) != 0);
+                                   return has(info.id) && (sums_of(info).dropped != 0 || sums_of(info).refused != 0 ||
+                                                           links_->queued_bytes(info.id) != 0);
                                }) ||
            std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
 }
@@ -143,15 +150,18 @@ void Destinations::say_sums(const Common& common) const {
         const auto& info = *std::ranges::find(endpoints, endpoints_[i], &runtime::EndpointInfo::id);
         const auto sums = sums_of(info);
         const auto name = info.label();
-        say(common, fmt::format("{}: {} frames, {} bytes sent", name, sums.frames, sums.bytes));
+        say(common, fmt::format("{}: {}, {} sent", name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
         if (sums.dropped != 0)
-            say(common, fmt::format("{}: {} frames dropped, the far side was too slow or went", name, sums.dropped));
+            say(common,
+                fmt::format("{}: {} dropped, the far side was too slow or went", name, counted(sums.dropped, "frame")));
         if (sums.refused != 0)
-            say(common, fmt::format("{}: {} frames refused, nothing listens there", name, sums.refused));
+            say(common,
+                fmt::format("{}: {} refused, nobody listens there or it cannot be reached; what they held is lost",
+                            name, counted(sums.refused, "datagram")));
         if (nobody_there_[i] != 0)
-            say(common, fmt::format("{}: {} frames not sent, nobody was there", name, nobody_there_[i]));
+            say(common, fmt::format("{}: {} not sent, nobody was there", name, counted(nobody_there_[i], "frame")));
         if (const auto left = links_->queued_bytes(info.id); left != 0)
-            say(common, fmt::format("{}: {} bytes still queued at the end, not sent", name, left));
+            say(common, fmt::format("{}: {} still queued at the end, not sent", name, counted(left, "byte")));
     }
     for (const auto& file : files_) say_recorded(common, file);
 }

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <vector>
 
+#include "counted.hpp"
+
 namespace mavloom::app {
 namespace {
 
@@ -188,8 +190,8 @@ void print_list(fmt::memory_buffer& out, const dialect::Dialect& dialect) {
 }
 
 void print_message(fmt::memory_buffer& out, const Message& message) {
-    add(out, "{} ({}), {}, {} bytes, CRC_EXTRA {}\n", message.name, message.id().value, message.origin,
-        length_text(message), message.wire.crc_extra);
+    add(out, "{} ({}), {}, {} {}, CRC_EXTRA {}\n", message.name, message.id().value, message.origin,
+        length_text(message), plural(message.wire.max_length, "byte"), message.wire.crc_extra);
     add_deprecation(out, message.deprecated);
     const auto type_width = widest(message.fields, type_text);
     const auto name_width = widest(message.fields, [](const auto& f) { return f.name; });
@@ -203,7 +205,7 @@ void print_message(fmt::memory_buffer& out, const Message& message) {
 }
 
 void print_enum(fmt::memory_buffer& out, const Enum& e) {
-    add(out, "{}, {} entries{}\n", e.name, e.entries.size(), e.bitmask ? ", flags" : "");
+    add(out, "{}, {}{}\n", e.name, counted(e.entries.size(), "entry", "entries"), e.bitmask ? ", flags" : "");
     add_deprecation(out, e.deprecated);
     for (const auto& entry : e.entries) add(out, "{:>10}  {}\n", entry.value, entry.name);
 }

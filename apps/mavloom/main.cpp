@@ -7,8 +7,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <optional>
+#include <span>
 
 #include "command.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
 
@@ -22,9 +25,9 @@ constexpr std::array commands{
     Command{"relay", "decode, optionally edit, re-encode and send on", declare_relay},
     Command{"record", "write what arrives to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
-    Command{"ctl", "look at a running router and change its endpoints", declare_ctl},
-    Command{"stat", "the counters of a running router", declare_stat},
-    Command{"key", "make signing keys", declare_key},
+    Command{"ctl", "look at a running router and change its endpoints", declare_ctl, false},
+    Command{"stat", "the counters of a running router", declare_stat, false},
+    Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},
     Command{"check", "validate a configuration file", declare_check},
     Command{"bench", "measure this machine", declare_bench},
@@ -37,9 +40,10 @@ constexpr std::string_view footer =
     "Exit status: 0 done, 1 failed, 2 wrong use, 3 bad input file, 4 loss or mismatch found, 130/143 ended by a "
     "signal.";
 
-void add_common(CLI::App& command, Common& common) {
+void add_common(CLI::App& command, Common& common, bool uses_dialect) {
     command.add_flag("-v,--verbose", common.verbose, "say more on stderr; may be repeated");
     command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
+    if (!uses_dialect) return;
     command
         .add_option("--dialect", common.dialect_files,
                     "message definitions (MAVLink XML) to add to the built-in ones; may be repeated")
@@ -49,7 +53,8 @@ void add_common(CLI::App& command, Common& common) {
 
 // Two lines on stderr: what is wrong and where the help is.
 Exit wrong_use(std::string_view what, std::string_view command) {
-    talk(fmt::format("mavloom: {}\nTry 'mavloom{}{} --help'.\n", what, command.empty() ? "" : " ", command));
+    tell(fmt::format("mavloom: {}", what));
+    tell(fmt::format("Try 'mavloom{}{} --help'.", command.empty() ? "" : " ", command));
     return Exit::wrong_use;
 }
 
@@ -57,6 +62,13 @@ Exit unknown_command(std::string_view typed) {
     std::array<std::string_view, commands.size()> names;
     for (std::size_t i = 0; i < commands.size(); ++i) names[i] = commands[i].name;
     return wrong_use(fmt::format("unknown command '{}'{}", typed, did_you_mean(typed, names)), "");
+}
+
+// An empty value would pass for an option that was not given.
+void refuse_empty_values(CLI::App& command) {
+    for (auto* option : command.get_options([](const CLI::Option* o) { return o->nonpositional(); }))
+        option->check([](const std::string& value) { return value.empty() ? "the value is empty" : ""; });
+    for (auto* sub : command.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*sub);
 }
 
 // CLI11's words, with the nearest spelling for an option or subcommand that does not exist.
@@ -80,6 +92,16 @@ bool is_command(std::string_view word) {
     return false;
 }
 
+// "mavloom --dialect mine.xml listen ...": the first argument where it is an option that a command would take.
+std::optional<std::string> option_before_command(std::span<char*> arguments) {
+    const std::string_view first = arguments.size() > 1 ? arguments[1] : "";
+    if (!first.starts_with('-') || first == "-h" || first == "--help") return std::nullopt;
+    const auto command = std::ranges::find_if(arguments, is_command);
+    if (command == arguments.end()) return std::nullopt;
+    return fmt::format("{} stands before the command; options go behind it: mavloom {} ... {}", in_quotes(first),
+                       *command, shown(first));
+}
+
 Exit run(int argc, char** argv) {
     const std::string_view first = argc > 1 ? argv[1] : "";
     if (first == "--version") {
@@ -87,6 +109,8 @@ Exit run(int argc, char** argv) {
         return Exit::done;
     }
     if (!first.empty() && first[0] != '-' && !is_command(first)) return unknown_command(first);
+    if (const auto misplaced = option_before_command({argv, static_cast<std::size_t>(argc)}))
+        return wrong_use(*misplaced, "");
 
     Common common;
     CLI::App app{"Moves, shows, re-encodes and records MAVLink telemetry.", "mavloom"};
@@ -96,8 +120,9 @@ Exit run(int argc, char** argv) {
     std::vector<std::pair<CLI::App*, Run>> runs;
     for (const auto& command : commands) {
         CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
-        add_common(*sub, common);
+        add_common(*sub, common, command.uses_dialect);
         runs.emplace_back(sub, command.declare(*sub, common));
+        refuse_empty_values(*sub);
     }
     try {
         app.parse(argc, argv);
@@ -122,7 +147,7 @@ Exit fail(const SetupError& error) {
 }
 
 SetupError of_input_file(SetupError error) {
-    if (error.code == SetupCode::not_found || error.code == SetupCode::permission) error.code = SetupCode::bad_input;
+    if (error.code != SetupCode::usage) error.code = SetupCode::bad_input;
     return error;
 }
 
@@ -135,13 +160,15 @@ void talk(std::string_view text) noexcept {
     }
 }
 
+void tell(std::string_view line) { talk(printable(line) + "\n"); }
+
 Exit fail(Exit status, std::string_view text) {
-    talk(fmt::format("mavloom: {}\n", text));
+    tell(fmt::format("mavloom: {}", text));
     return status;
 }
 
 void say(const Common& common, std::string_view text) {
-    if (!common.quiet) talk(fmt::format("mavloom: {}\n", text));
+    if (!common.quiet) tell(fmt::format("mavloom: {}", text));
 }
 
 // A program that was started with one of them closed would give its number to the first socket it opens.

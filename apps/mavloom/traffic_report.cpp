@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+#include "counted.hpp"
+
 namespace mavloom::app {
 
 namespace {
@@ -27,31 +29,33 @@ std::string message_name(const dialect::Dialect& dialect, MessageId id) {
 }
 
 struct Named {
-    std::string_view name, meaning;
+    std::string_view name, noun, rest;
     std::uint64_t value;
+
+    // "crc_error: 2 frames with a bad checksum"
+    [[nodiscard]] std::string text() const { return fmt::format("{}: {} {}", name, counted(value, noun), rest); }
 };
 
 // Every counter that is not a good frame handed on, with the words for it.
 auto losses_of(const runtime::Totals& t) {
     return std::array{
-        Named{"kernel_drop", "datagrams dropped by the kernel: the receive buffer was full", t.kernel_drop},
-        Named{"buffer_full", "frames not handed on: the output was slower than --buffer allows", t.buffer_full},
-        Named{"crc_error", "frames with a bad checksum", t.crc_error},
-        Named{"junk_bytes", "bytes that belong to no intact frame", t.junk_bytes},
-        Named{"damaged_places", "damaged places in recordings", t.damaged_places},
-        Named{"unknown_flags", "frames with an unknown incompatibility flag", t.unknown_flags},
-        Named{"bad_signature", "frames without a good signature", t.bad_signature},
-        Named{"wrong_peer", "datagrams from another address than the one called", t.wrong_peer},
-        Named{"stray_bytes", "bytes of strangers that hold no frame", t.stray_bytes},
-        Named{"peers_refused", "peers beyond max_peers", t.peers_refused},
+        Named{"kernel_drop", "datagram", "dropped by the kernel: the receive buffer was full", t.kernel_drop},
+        Named{"buffer_full", "frame", "not handed on: the output was slower than --buffer allows", t.buffer_full},
+        Named{"crc_error", "frame", "with a bad checksum", t.crc_error},
+        Named{"junk_bytes", "byte", "outside every intact frame", t.junk_bytes},
+        Named{"damaged_places", "damaged place", "in recordings", t.damaged_places},
+        Named{"unknown_flags", "frame", "with an unknown incompatibility flag", t.unknown_flags},
+        Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
+        Named{"wrong_peer", "datagram", "from another address than the one called", t.wrong_peer},
+        Named{"stray_bytes", "byte", "of strangers, outside every frame", t.stray_bytes},
+        Named{"peers_refused", "peer", "beyond max_peers", t.peers_refused},
     };
 }
 
 void append_source(std::string& out, const runtime::SourceLoss& loss, std::string_view link) {
-    fmt::format_to(std::back_inserter(out),
-                   "\n{} {}/{}: {} frames, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n", link,
-                   loss.source.system.value, loss.source.component.value, loss.received, loss.lost, loss_percent(loss),
-                   loss.late, loss.duplicate, loss.resync);
+    fmt::format_to(std::back_inserter(out), "\n{} {}/{}: {}, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n",
+                   link, loss.source.system.value, loss.source.component.value, counted(loss.received, "frame"),
+                   loss.lost, loss_percent(loss), loss.late, loss.duplicate, loss.resync);
     fmt::format_to(std::back_inserter(out), "  {:<38} {:>9} {:>9} {:>10} {:>10} {:>10} {:>11}\n", "message", "count",
                    "Hz", "gap min ms", "mean ms", "max ms", "bytes");
 }
@@ -97,11 +101,13 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
         for (const auto& row : rows_of(loss, rows, from)) append_row(out, row, message_name(dialect, row.id));
     }
     if (traffic.unlisted() != 0)
-        fmt::format_to(std::back_inserter(out), "\n{} frames of further sources are not listed\n", traffic.unlisted());
+        fmt::format_to(std::back_inserter(out), "\n{} of further sources not listed\n",
+                       counted(traffic.unlisted(), "frame"));
     const auto& totals = receiver.totals();
-    fmt::format_to(std::back_inserter(out), "\ntotal heard: {} frames, {} bytes\n", totals.frames, totals.bytes);
-    for (const auto& [name, meaning, value] : losses_of(totals))
-        if (value != 0) fmt::format_to(std::back_inserter(out), "  {}: {} {}\n", name, value, meaning);
+    fmt::format_to(std::back_inserter(out), "\ntotal heard: {}, {}\n", counted(totals.frames, "frame"),
+                   counted(totals.bytes, "byte"));
+    for (const auto& loss : losses_of(totals))
+        if (loss.value != 0) fmt::format_to(std::back_inserter(out), "  {}\n", loss.text());
     return out;
 }
 
@@ -132,7 +138,7 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
 
 Json losses_json(const runtime::Totals& totals) {
     Json sums;
-    for (const auto& [name, meaning, value] : losses_of(totals)) sums[std::string(name)] = value;
+    for (const auto& loss : losses_of(totals)) sums[std::string(loss.name)] = loss.value;
     return sums;
 }
 
@@ -141,8 +147,8 @@ std::string stats_line(Json stats) {
 }
 
 void say_losses(const Common& common, const runtime::Totals& totals) {
-    for (const auto& [name, meaning, value] : losses_of(totals))
-        if (value != 0) say(common, fmt::format("{}: {} {}", name, value, meaning));
+    for (const auto& loss : losses_of(totals))
+        if (loss.value != 0) say(common, loss.text());
 }
 
 }  // namespace mavloom::app

@@ -3,11 +3,22 @@
 
 namespace mavloom {
 
+std::string printable(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+        const bool is_c1 = byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0;
+        const bool is_control = is_c1 || byte(i) < 0x20 || byte(i) == 0x7F;
+        result += is_control ? '?' : text[i];
+        if (is_c1) ++i;
+    }
+    return result;
+}
+
 std::string shown(std::string_view text) {
     constexpr std::size_t longest = 120;
-    std::string result(text.substr(0, longest));
-    for (char& c : result)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    std::string result = printable(text.substr(0, longest));
     if (text.size() > longest) result += "...";
     return result;
 }

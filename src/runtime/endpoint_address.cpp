@@ -207,7 +207,7 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
 }
 
 SetupResult<void> check_path(Scheme scheme, std::string_view path) {
-    if (path.find('\0') != std::string_view::npos) return usage("a zero byte has no place in a path");
+    if (printable(path) != path) return usage("a control character has no place in a path");
     if (scheme == Scheme::shm) {
         if (is_ring_name(path)) return {};
         return usage(

@@ -36,8 +36,7 @@ SetupResult<void> set_filter(EndpointOptions& options, std::string_view text) {
 
 template <std::string EndpointOptions::*member>
 SetupResult<void> set_text(EndpointOptions& options, std::string_view text) {
-    const bool control = std::any_of(text.begin(), text.end(),
-                                     [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    const bool control = printable(text) != text;
     if (text.empty() || control || text.size() > 4096) return usage("empty, too long or with control characters");
     options.*member = std::string(text);
     return {};

@@ -2,6 +2,7 @@
 #include "mavloom/runtime/sources.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "mavloom/record/tlog_index.hpp"
 
@@ -30,10 +31,34 @@ SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path
     return index->seek(reader, index->earliest().value_or(WallTime{}) + skip);
 }
 
+SetupError no_record(const std::string& name) {
+    return {SetupCode::bad_input, 0, name + " holds no record: is it a .tlog?"};
+}
+
+// A pipe is left alone: what was read of it would be gone.
+bool may_be_read_twice(const std::string& path) {
+    std::error_code unknown;
+    const auto type = std::filesystem::status(path, unknown).type();
+    return type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
+}
+
 }  // namespace
 
-SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
+SetupResult<void> Sources::check(const Endpoint& endpoint) const {
     if (auto checked = check_source_options(endpoint); !checked) return checked;
+    if (endpoint.scheme != Scheme::tlog || !may_be_read_twice(endpoint.path)) return {};
+    auto reader = record::TlogReader::open(endpoint.path, *table_);
+    if (!reader) {
+        reader.error().code = SetupCode::bad_input;
+        return tl::unexpected(std::move(reader.error()));
+    }
+    if (!reader->next() && reader->counters().lost_bytes.value() != 0)
+        return tl::unexpected(no_record(endpoint.label()));
+    return {};
+}
+
+SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
+    if (auto checked = check(endpoint); !checked) return checked;
     if (endpoint.scheme != Scheme::tlog) {
         return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
@@ -53,7 +78,7 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
     return {};
 }
 
-void Sources::advance(Recording& recording) {
+void Sources::advance(Recording& recording, LinkHandler& handler) {
     const auto record = recording.reader.next();
     if (!record && record.error() == record::TlogReader::Stop::nothing_yet) {
         recording.next.reset();
@@ -62,11 +87,13 @@ void Sources::advance(Recording& recording) {
     }
     if (!record) {
         recording.ended = true;
+        const auto& counters = recording.reader.counters();
         if (record.error() == record::TlogReader::Stop::failed) {
             recording.error = recording.reader.error();
-        } else if (recording.reader.counters().records.value() == 0 &&
-                   recording.reader.counters().lost_bytes.value() != 0) {
-            recording.error = SetupError{SetupCode::bad_input, 0, recording.name + " holds no record: is it a .tlog?"};
+        } else if (counters.records.value() == 0 && counters.lost_bytes.value() != 0) {
+            recording.error = no_record(recording.name);
+        } else if (counters.records.value() == 0) {
+            handler.on_notice(recording.endpoint, recording.name + " holds no frames");
         }
         return;
     }
@@ -82,13 +109,13 @@ std::size_t Sources::play(LinkHandler& handler, std::size_t most_frames) {
         Recording* const first = earliest();
         if (first == nullptr || first->due > now) break;
         if (!first->next) {  // at the very beginning: reading is left to the loop
-            advance(*first);
+            advance(*first, handler);
             continue;
         }
         const auto& record = *first->next;
         const auto update = first->sequence.update(record.frame);
         handler.on_frame({record.frame, record.info, first->link, first->endpoint, record.time, update});
-        advance(*first);
+        advance(*first, handler);
     }
     return played;
 }

@@ -75,6 +75,28 @@ def test_misspelt_messages_are_status_3(run, tmp_path):
     assert f"{path}:3: in_allow: unknown message 'ATITUDE', did you mean 'ATTITUDE'?" in done.stderr
 
 
+def test_key_files_that_cannot_be_read_are_status_3(run, tmp_path):
+    path, key = tmp_path / "bad.toml", tmp_path / "link.key"
+    path.write_text(f'[[endpoint]]\nurl = "udpin://0.0.0.0:14550"\nverify = "{key}"\n')
+    missing = run("check", path)
+    assert missing.status == 3 and missing.stdout == ""
+    assert f"{path}:3: verify: " in missing.stderr and "link.key" in missing.stderr
+    key.write_text("no key\n")
+    key.chmod(0o600)
+    assert run("check", path).status == 3
+    key.write_text("07" * 32)
+    assert run("check", path).status == 0
+
+
+@pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]])
+def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
+    path = tmp_path / "bad.toml"
+    path.write_text('[[endpoint]]\nurl = "udpin://0.0.0.0:14550"\n[[endpoint]]\nscheme = "udpin"\nhost = "127.0.0.1"\nport = 14550\n')
+    done = run(*command, path)
+    assert done.status == 3 and done.stdout == ""
+    assert f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has already" in done.stderr
+
+
 def test_messages_of_a_dialect_file_are_known(run, tmp_path):
     (tmp_path / "mine.xml").write_text('<mavlink><messages><message id="54321" name="MY_OWN">'
                                        '<field type="uint8_t" name="a">a</field></message></messages></mavlink>')

@@ -242,6 +242,27 @@ def test_replay_speed(spawn, tmp_path, speed, shortest):
     assert process.wait().status == 0
 
 
+@pytest.mark.parametrize("file, speed, slow", [("{log}?speed=max", "1", True), ("{log}?speed=1", "max", False), ("{log}?speed=max", None, False),
+                                               ("{log}", None, True)])
+def test_the_speed_on_the_command_line_is_the_one(run, tmp_path, file, speed, slow):
+    step_us = 20_000 if slow else 50_000_000  # an hour at the recorded pace would show on any machine
+    log = frames.write_tlog(tmp_path / "x.tlog", [(step_us * i, frame) for i, frame in enumerate(frames.heartbeats(72))])
+    begin = time.monotonic()
+    done = run("replay", file.format(log=log), "--to", f"tlog://{tmp_path}/out.tlog", *(["--speed", speed] if speed else []))
+    assert done.status == 0 and (not slow or time.monotonic() - begin >= 1.42)
+
+
+@pytest.mark.parametrize("command", ["replay", "relay"])
+def test_that_nobody_listened_is_told(run, tmp_path, udp_port, command):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(3))))
+    address = f"udpout://127.0.0.1:{udp_port()}?mtu=0"
+    done = run(command, log, "--to", address, "--json")
+
+    sent = sums(done)["destinations"][0]
+    assert done.status == 4 and sent["refused"] == 3, done
+    assert "3 datagrams refused, nobody listens there" in done.stderr
+
+
 def test_replay_starts_later(spawn, tmp_path):
     log = frames.write_tlog(tmp_path / "x.tlog", [(10_000_000 * (i + 1), frame) for i, frame in enumerate(frames.heartbeats(5))])
     station = harness.udp_socket()

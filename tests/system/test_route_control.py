@@ -133,6 +133,7 @@ def test_ctl_add_and_remove_while_it_runs(net, ctl):
     sut[2].count(2)
     before = sut.link(2)
     assert lines_of(ctl(sut.router, "remove", "tablet")) == []
+    sut.router.process.wait_output("^mavloom: tablet: added by ctl\n(.*\n)*mavloom: tablet: removed by ctl$", stream="err")
     assert sut.send(1, attitude()) == [2]
 
     assert port.now() == []
@@ -281,8 +282,8 @@ def test_stat_as_text_and_as_json(net, ctl):
 
     assert text.status == 0
     for pattern in (r"^up \d+ s; ", r"^link A$", r"^link B#127.0.0.1:\d+$", r"^  in 6 frames, \d+ bytes; out 3 frames, \d+ bytes$", r"unknown_target 1",
-                    r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$", r"^message HEARTBEAT +1/1 +1 frames +0\.00 Hz  A$", r"^message 70371 ",
-                    r"^not routed: 1 frames for 66/6, which nobody has heard$"):
+                    r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$", r"^message HEARTBEAT +1/1 +1 frame +0\.00 Hz  A$", r"^message 70371 ",
+                    r"^not routed: 1 frame for 66/6, which nobody has heard$"):
         assert re.search(pattern, text.stdout, re.MULTILINE), f"{pattern}\n{text.stdout}"
 
     def steady(all_lines):
@@ -600,6 +601,28 @@ def test_explain_of_one_message(net, named):
     explained(sut, r"^COMMAND_LONG 1/1 .*\n(  .*\n){2}")
 
     assert len(re.findall("^[A-Z]", sut.router.process.stdout, re.MULTILINE)) == 1
+
+
+def test_routing_outlives_who_reads_the_explanations(spawn):
+    port, station = routers.udp_port(), harness.udp_socket()
+    reading, writing = os.pipe()
+    process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
+                    env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, stdout=writing)
+    os.close(writing)
+    vehicle = harness.udp_socket()
+
+    def passes():
+        vehicle.sendto(attitude(VEHICLE), ("127.0.0.1", port))
+        return station.recv(2048)
+    process.wait_output("listening", stream="err")
+    assert passes() and os.read(reading, 100).startswith(b"ATTITUDE 1/1")
+    os.close(reading)
+    assert passes()
+    process.wait_output("nobody reads what --explain says any more; it ends, and routing goes on", stream="err")
+    for _ in range(10):
+        assert passes()
+    assert process.stderr.count("--explain") == 1
+    assert process.stop().status == 130
 
 
 # ---- keys and signatures ---------------------------------------------------------------------------------------------

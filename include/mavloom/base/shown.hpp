@@ -7,7 +7,9 @@
 
 namespace mavloom {
 
-// Control characters replaced, cut when long.
+// Control characters replaced: C0, DEL, and C1 as UTF-8 writes them.
+[[nodiscard]] std::string printable(std::string_view text);
+// The same, cut when long.
 [[nodiscard]] std::string shown(std::string_view text);
 // 'text', shown.
 [[nodiscard]] std::string in_quotes(std::string_view text);

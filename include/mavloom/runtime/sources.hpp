@@ -22,6 +22,9 @@ public:
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect);
 
+    // What `add` would find wrong with it before anything is opened or waited for: options, and a file that is missing or no recording.
+    [[nodiscard]] SetupResult<void> check(const Endpoint& endpoint) const;
+
     // Opens the endpoint; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now,
                                         double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
@@ -67,7 +70,7 @@ private:
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
     explicit Sources(std::unique_ptr<Links> links) noexcept : links_(std::move(links)) {}
-    void advance(Recording& recording);
+    void advance(Recording& recording, LinkHandler& handler);
     std::size_t play(LinkHandler& handler, std::size_t most_frames);
     [[nodiscard]] Recording* earliest() noexcept;
 

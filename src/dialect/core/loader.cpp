@@ -66,7 +66,8 @@ private:
     static SetupResult<void> unreadable(const Step& step, SetupError error) {
         if (step.from.file.empty() || error.code == SetupCode::bad_input) return tl::unexpected(std::move(error));
         return setup_error(SetupCode::bad_input,
-                           fmt::format("{}: cannot include {}; expected a file beside the including one",
+                           fmt::format("{}: cannot include {}; expected a file beside the including one (the public "
+                                       "definitions lie in share/mavloom/dialects, to be copied)",
                                        step.from.text(), error.text));
     }
 

@@ -14,6 +14,13 @@ TEST(Shown, ReplacesControlCharacters) {
               "?'");
 }
 
+// U+009B begins a terminal's commands as ESC [ does; U+00E9 does not.
+TEST(Shown, ReplacesControlCharactersBeyondAscii) {
+    EXPECT_EQ(printable("a\xC2\x9B"
+                        "b \xC3\xA9\xC2"),
+              "a?b \xC3\xA9\xC2");
+}
+
 TEST(Shown, CutsWhatIsLong) { EXPECT_EQ(shown(std::string(121, 'x')), std::string(120, 'x') + "..."); }
 
 }  // namespace

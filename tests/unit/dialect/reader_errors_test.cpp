@@ -41,8 +41,10 @@ TEST(ReaderErrors, MissingIncludeNamesTheIncludingLine) {
     const XmlFolder folder;
     folder.write("a.xml", "<mavlink>\n\n  <include>sub/none.xml</include>\n</mavlink>");
     EXPECT_EQ(folder.load().error().code, SetupCode::bad_input);
-    EXPECT_EQ(folder.error(),
-              "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one");
+    EXPECT_EQ(
+        folder.error(),
+        "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one (the public "
+        "definitions lie in share/mavloom/dialects, to be copied)");
 }
 
 TEST(ReaderErrors, MalformedXmlNamesTheLine) {

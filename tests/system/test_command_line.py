@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""What every command does with a line that is not right, and the words it uses: nothing is passed over in silence, nothing raw reaches the terminal."""
+import re
+
+import pytest
+
+import frames
+import harness
+
+pytestmark = pytest.mark.short
+
+IN = "udpin://127.0.0.1:0"
+OUT = "udpout://127.0.0.1:9"
+ESCAPE = "a\x1b[31m\x7f\u009b"
+
+
+@pytest.mark.parametrize("arguments", [
+    [f"z{ESCAPE}"], ["listen", f"--z{ESCAPE}"], ["listen", f"{ESCAPE}.tlog"], ["listen", IN, "--only", ESCAPE], ["listen", IN, "--from", ESCAPE],
+    ["listen", IN, "--csv", ESCAPE], ["listen", IN, "--count", ESCAPE], ["listen", IN, "--dialect", ESCAPE], ["replay", ESCAPE, "--to", OUT],
+    ["record", IN, "-o", f"/nowhere/{ESCAPE}"], ["relay", IN, "--to", OUT, "--set", f"{ESCAPE}.x=1"], ["relay", IN, "--to", OUT, "--sign", ESCAPE],
+    ["relay", IN, "--to", OUT, "--remap-system", ESCAPE], ["route", OUT, "--explain", ESCAPE], ["route", "--config", ESCAPE],
+    ["route", OUT, "--name", ESCAPE], ["route", OUT, "--metrics", ESCAPE], ["check", ESCAPE], ["check", "--convert", ESCAPE], ["dialect", "check", ESCAPE],
+    ["dialect", "show", ESCAPE], ["bench", "parse", ESCAPE], ["ctl", ESCAPE, "links"], ["stat", ESCAPE], ["key", "new", f"/nowhere/{ESCAPE}"],
+    [f"--{ESCAPE}", "listen"],
+])
+def test_control_characters_do_not_reach_the_terminal(run, arguments):
+    done = run(*arguments, timeout=10)
+    assert done.status in (1, 2, 3) and "a?[31m" in done.stderr, done
+    assert re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", done.stderr + done.stdout) is None, done
+
+
+def test_control_characters_of_a_converted_file_do_not_reach_the_terminal(run, tmp_path):
+    path = tmp_path / ESCAPE
+    path.write_text(f"[General]\nLog = {ESCAPE}\n[Uart{ESCAPE}]\nDevice = {ESCAPE}\n")
+    done = run("check", "--convert", path)
+    assert "a?[31m" in done.stderr and re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", done.stderr + done.stdout) is None, done
+
+
+@pytest.mark.parametrize("arguments, option", [
+    (["listen", IN, "--for", ""], "--for"), (["listen", IN, "--count", ""], "--count"), (["listen", IN, "--csv", ""], "--csv"),
+    (["listen", IN, "--only", ""], "--only"), (["listen", IN, "--from", ""], "--from"), (["record", IN, "-o", ""], "--output"),
+    (["route", IN, "--for", ""], "--for"), (["route", IN, "--name", ""], "--name"), (["route", IN, "--metrics", ""], "--metrics"),
+    (["route", IN, "--config", ""], "--config"), (["relay", IN, "--to", OUT, "--for", ""], "--for"), (["relay", IN, "--to", ""], "--to"),
+    (["replay", "x.tlog", "--to", OUT, "--start", ""], "--start"), (["replay", "x.tlog", "--to", OUT, "--speed", ""], "--speed"),
+])
+def test_an_empty_value_is_wrong_use(run, arguments, option):
+    done = run(*arguments, timeout=10)
+    assert done.status == 2 and f"{option}: the value is empty" in done.stderr, done
+
+
+@pytest.mark.parametrize("arguments", [["--dialect", "x.xml", "listen", IN], ["--json", "listen", IN], ["-q", "route", IN]])
+def test_an_option_before_the_command_is_told_its_place(run, arguments):
+    done = run(*arguments)
+    command = next(word for word in arguments if word in ("listen", "route"))
+    assert done.status == 2
+    assert f"'{arguments[0]}' stands before the command; options go behind it: mavloom {command} ... {arguments[0]}" in done.stderr
+
+
+def test_options_of_the_program_itself(run):
+    assert run("--help", "listen").status == 0
+    assert run("--version").status == 0
+    assert run("--hepl").status == 2
+
+
+def test_sign_link_id_says_what_it_needs_and_its_range(run):
+    alone = run("relay", IN, "--to", OUT, "--sign-link-id", "3", timeout=10)
+    assert alone.status == 2 and "--sign-link-id requires --sign" in alone.stderr
+    far = run("relay", IN, "--to", OUT, "--sign", "x", "--sign-link-id", "300", timeout=10)
+    assert far.status == 2 and re.search(r"--sign-link-id: .*300.*0.*255", far.stderr), far
+    assert "0 to 255" in run("relay", "--help").stdout
+
+
+@pytest.mark.parametrize("command, takes", [("ctl", False), ("stat", False), ("key", False), ("listen", True), ("check", True), ("dialect", True)])
+def test_only_commands_that_read_messages_take_a_dialect(run, command, takes):
+    assert ("--dialect" in run(command, "--help").stdout) == takes
+
+
+@pytest.mark.parametrize("arguments", [["route", "--config", "/tmp"], ["check", "/tmp"], ["check", "--convert", "/tmp"], ["listen", IN, "--dialect", "/tmp"],
+                                       ["replay", "/tmp", "--to", OUT], ["bench", "parse", "/tmp"]])
+def test_a_folder_is_no_input_file(run, arguments):
+    done = run(*arguments, timeout=10)
+    assert done.status == 3, done
+
+
+def test_an_include_that_is_missing_says_where_it_is_looked_for(run, tmp_path):
+    path = tmp_path / "mine.xml"
+    path.write_text("<mavlink>\n<include>common.xml</include>\n</mavlink>")
+    done = run("dialect", "check", path)
+    assert done.status == 3
+    assert f"{path}:2: cannot include {tmp_path}/common.xml: no such file; expected a file beside the including one" in done.stderr
+    assert "share/mavloom/dialects" in done.stderr
+
+
+def test_one_is_singular(run, tmp_path):
+    log = frames.write_tlog(tmp_path / "in.tlog", [(0, next(frames.heartbeats(1)))])
+    with open(log, "ab") as damaged:
+        damaged.write(b"x")
+    replayed = run("replay", log, "--to", f"tlog://{tmp_path}/out.tlog")
+    assert "out.tlog: 1 frame, 29 bytes written" in replayed.stderr
+    assert "in.tlog: 1 damaged place, 1 byte lost" in replayed.stderr
+    listened = run("listen", log, "--stats")
+    assert ": 1 frame, 0 lost" in listened.stdout and "total heard: 1 frame, 21 bytes" in listened.stdout
+    assert "junk_bytes: 1 byte outside" in listened.stdout and "damaged_places: 1 damaged place in" in listened.stdout
+    relayed = run("relay", log, "--to", f"tlog://{tmp_path}/out.tlog", "--only", "ATTITUDE")
+    assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only leaves out" in relayed.stderr
+    assert re.search(r"\(1 frame, 21 bytes, median of 1 turn\)", run("bench", "parse", log, "--turns", "1").stdout)
+    for text in (replayed.stderr, listened.stdout, relayed.stderr):
+        assert re.search(r"\b1 (frame|byte|place|message|datagram)s\b", text) is None, text
+
+
+@pytest.mark.parametrize("command", [["listen", "{log}"], ["replay", "{log}", "--to", "tlog://{tmp}/out.tlog"], ["record", "{log}", "-o", "{tmp}/out.tlog"],
+                                     ["relay", "{log}", "--to", "tlog://{tmp}/out.tlog"]])
+def test_an_empty_recording_is_told(run, tmp_path, command):
+    log = tmp_path / "empty.tlog"
+    log.touch()
+    done = run(*[word.format(log=log, tmp=tmp_path) for word in command])
+    assert done.status == 0 and f"{log} holds no frames" in done.stderr, done
+    quiet = run(*[word.format(log=log, tmp=tmp_path) for word in command], "-q")
+    assert (quiet.status, quiet.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("command", [["replay", "{log}", "--to", "tlog://{out}"], ["record", "{log}", "-o", "{out}"], ["relay", "{log}", "--to", "tlog://{out}"],
+                                     ["replay", "{good}", "--to", "tlog://{out}", "--to", "udpin://192.0.2.1:9"],
+                                     ["relay", "{good}", "--to", "tlog://{out}", "--to", "udp://nowhere"]])
+@pytest.mark.parametrize("content", [None, b"no recording at all, but text" * 50])
+def test_a_destination_is_left_alone_when_the_input_is_wrong(run, tmp_path, command, content):
+    log, out = tmp_path / "in.tlog", tmp_path / "out.tlog"
+    good = frames.write_tlog(tmp_path / "good.tlog", list(enumerate(frames.heartbeats(3))))
+    if content is not None:
+        log.write_bytes(content)
+    out.write_text("mine")
+    done = run(*[word.format(log=log, out=out, good=good) for word in command], timeout=20)
+
+    assert done.status in (1, 2, 3), done
+    assert out.read_text() == "mine" and not (tmp_path / "out.tlog.1").exists()
+
+
+@pytest.mark.parametrize("arguments", [["listen", IN], ["record", IN, "-o", "/dev/null"], ["relay", IN, "--to", OUT], ["relay", "tcpin://127.0.0.1:0", "--to", OUT]])
+def test_listening_is_told(spawn, arguments):
+    process = spawn(*arguments)
+    scheme = arguments[1].split(":")[0]
+    process.wait_output(rf"^mavloom: {scheme}://127\.0\.0\.1:[1-9]\d*: listening\b(?! on)", stream="err")
+
+
+def test_a_smaller_receive_buffer_gets_a_hint(spawn):
+    allowed = int(open("/proc/sys/net/core/rmem_max").read())
+    process = spawn("listen", "udpin://127.0.0.1:0?rcvbuf=1G")
+    granted = int(process.wait_output(r"listening \(receive buffer (\d+) bytes\)", stream="err")[1])
+    done = process.stop()
+    assert ("sysctl net.core.rmem_max=1073741824" in done.stderr) == (granted < 1 << 30), (allowed, done)
+    enough = spawn("listen", "udpin://127.0.0.1:0?rcvbuf=64k")
+    enough.wait_output("listening on", stream="err")
+    assert "rmem_max" not in enough.stop().stderr
