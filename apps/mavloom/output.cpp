@@ -2,6 +2,8 @@
 #include "output.hpp"
 
 #include <poll.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,7 +23,6 @@ constexpr int look_for_signals_ms = 100;
 
 }  // namespace
 
-// A pipe that polls writable takes PIPE_BUF bytes without blocking, so that a signal is never missed in a write that does not return.
 bool Output::wait_for_room() {
     for (;;) {
         pollfd out{STDOUT_FILENO, POLLOUT, 0};
@@ -32,15 +33,36 @@ bool Output::wait_for_room() {
     }
 }
 
+// A file has no reader to wait for.
+Output::Way Output::way_to_standard_output() noexcept {
+    struct stat status {};
+    return ::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode) ? Way::whole : Way::not_blocking;
+}
+
+// Never blocks on a reader that stalls, so that no signal is missed in a call that does not return. Where the kernel cannot promise that (pipes
+// before Linux 6.4, terminals) a pipe that polls writable takes PIPE_BUF bytes.
+ssize_t Output::write_some(const char* bytes, std::size_t size) noexcept {
+    if (way_ == Way::whole) return ::write(STDOUT_FILENO, bytes, size);
+    if (way_ == Way::after_poll) return ::write(STDOUT_FILENO, bytes, std::min<std::size_t>(size, PIPE_BUF));
+    const iovec all{const_cast<char*>(bytes), size};  // NOLINT(cppcoreguidelines-pro-type-const-cast): only read
+    const auto written = ::pwritev2(STDOUT_FILENO, &all, 1, -1, RWF_NOWAIT);
+    if (written < 0 && errno != EAGAIN && errno != EPIPE) {
+        way_ = Way::after_poll;  // finds the error again, if it is one
+        errno = EAGAIN;
+    }
+    return written;
+}
+
 Output::State Output::flush() {
     const char* p = buffer_.data();
     std::size_t left = buffer_.size();
-    while (left != 0 && state_ == State::open) {
-        if (!wait_for_room()) {
+    for (bool full = false; left != 0 && state_ == State::open;) {
+        if ((full || way_ == Way::after_poll) && !wait_for_room()) {
             state_ = State::interrupted;
             break;
         }
-        const auto written = ::write(STDOUT_FILENO, p, std::min<std::size_t>(left, PIPE_BUF));
+        const auto written = write_some(p, left);
+        full = written < 0;
         if (written >= 0) {
             p += written;
             left -= static_cast<std::size_t>(written);

@@ -3,6 +3,8 @@
 // signal asks for the end: from then on it has a second to take the rest. Single owner.
 #pragma once
 
+#include <sys/types.h>
+
 #include <optional>
 
 #include "command.hpp"
@@ -33,10 +35,14 @@ public:
 
 private:
     static constexpr std::size_t flush_bytes = 64 * 1024;
+    enum class Way : std::uint8_t { whole, not_blocking, after_poll };
+
+    [[nodiscard]] static Way way_to_standard_output() noexcept;
+    [[nodiscard]] bool wait_for_room();
+    [[nodiscard]] ssize_t write_some(const char* bytes, std::size_t size) noexcept;
 
     message::TextBuffer buffer_;
-    [[nodiscard]] bool wait_for_room();
-
+    Way way_ = way_to_standard_output();
     State state_ = State::open;
     std::optional<SetupError> error_;
     MonoTime end_ = MonoTime::max();

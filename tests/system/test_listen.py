@@ -3,11 +3,13 @@
 import csv
 import json
 import os
+import pty
 import resource
 import select
 import signal
 import socket
 import time
+import tty
 
 import pytest
 
@@ -240,6 +242,25 @@ def test_full_disk_is_an_error(program):
     assert "standard output" in done.stderr and "No space left" in done.stderr
 
 
+def test_a_file_and_a_terminal_get_what_a_pipe_gets(run, spawn, program, tmp_path):
+    """Each is written to in its own way: whole, as much as fits, and page by page."""
+    piped = run("listen", frames.FLIGHT, "--json", text=False).stdout
+    with open(tmp_path / "out.json", "wb") as file:
+        harness.subprocess.run([program, "listen", frames.FLIGHT, "--json"], stdout=file, timeout=harness.DEFAULT_TIMEOUT_S, check=True)
+    ours, terminal = pty.openpty()
+    tty.setraw(terminal)
+    process = spawn("listen", frames.FLIGHT, "--json", stdout=terminal)
+    os.close(terminal)
+    shown = bytearray()
+    while len(shown) < len(piped):
+        shown += os.read(ours, 1 << 16)
+    process.wait()
+    os.close(ours)
+
+    assert (tmp_path / "out.json").read_bytes() == piped
+    assert shown == piped
+
+
 def test_a_stalled_pipe_loses_nothing_below_the_buffer_bound(spawn):
     read_end, write_end = os.pipe()
     process = spawn("listen", "udpin://127.0.0.1:0", "--json", "--buffer", "8M", stdout=write_end)
@@ -253,7 +274,7 @@ def test_a_stalled_pipe_loses_nothing_below_the_buffer_bound(spawn):
             time.sleep(0.005)  # a pace that the kernel's buffer takes, not a verdict
     sender.sendto(frames.attitude(sequence=count % 256), address)
     text = b""
-    while b"ATTITUDE" not in text[-1000:]:
+    while b"ATTITUDE" not in text[-1000:] or not text.endswith(b"\n"):
         text += os.read(read_end, 1 << 16)
     process.send(signal.SIGINT)
     os.close(read_end)
