@@ -159,10 +159,8 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     const int fd = socket.fd();
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, options.v6_only ? 1 : 0);
     set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);
-    if (options.report_refused) {
-        set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR,
-                   1);
-    }
+    // Without it the kernel hides closed ports (ICMP), and says that it sent what a full device queue dropped.
+    set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
     if (options.broadcast) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1);
     if (options.group) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);

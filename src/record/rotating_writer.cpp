@@ -73,43 +73,43 @@ fs::path RotatingWriter::free_name(WallTime time) const {
     return name;
 }
 
-// The new one is open before the old one is closed: where it cannot be opened, nothing has changed.
-SetupResult<void> RotatingWriter::begin_segment(WallTime time) {
-    auto next = TlogWriter::create(free_name(time));
-    if (!next) return tl::unexpected(std::move(next.error()));
-    auto closed = close_segment();
+SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
+    SetupResult<void> closed;
     if (writer_) {
+        closed = writer_->close();
         before_.taken += writer_->records();
         before_.written += writer_->written_records();
         before_.bytes += writer_->written_bytes();
     }
-    writer_.emplace(std::move(*next));
-    begin_ = time;
+    writer_.emplace(std::move(next));
     ++segments_;
     return closed;
 }
 
-SetupResult<void> RotatingWriter::close_segment() {
-    if (!writer_) return {};
-    auto closed = writer_->close();
-    lost_ += writer_->records() - writer_->written_records();
-    return closed;
-}
-
+// The new segment is open before the old one is closed: where it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
-    auto taken = take(time, frame);
-    if (!taken) ++lost_;
+    SetupResult<void> closed;
+    if (is_due(time, time_length + frame.size())) {
+        auto next = TlogWriter::create(free_name(time));
+        if (!next) {
+            ++refused_;
+            return tl::unexpected(std::move(next.error()));
+        }
+        closed = go_on_in(std::move(*next));
+        begin_ = time;
+    }
+    auto taken = writer_->write(time, frame);
+    if (taken) return closed;
+    ++refused_;
     return taken;
 }
 
-SetupResult<void> RotatingWriter::take(WallTime time, const wire::FrameView& frame) {
-    if (is_due(time, time_length + frame.size()))
-        if (auto begun = begin_segment(time); !begun) return begun;
-    return writer_->write(time, frame);
-}
-
 SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }
-SetupResult<void> RotatingWriter::close() { return close_segment(); }
+
+SetupResult<void> RotatingWriter::close() {
+    closed_ = true;
+    return writer_ ? writer_->close() : SetupResult<void>{};
+}
 
 fs::path RotatingWriter::segment_path() const { return writer_ ? writer_->path() : fs::path{}; }
 fs::path RotatingWriter::renamed_to() const { return writer_ ? writer_->renamed_to() : fs::path{}; }
@@ -120,6 +120,11 @@ std::uint64_t RotatingWriter::taken_records() const noexcept {
 
 std::uint64_t RotatingWriter::written_records() const noexcept {
     return before_.written + (writer_ ? writer_->written_records() : 0);
+}
+
+std::uint64_t RotatingWriter::lost_records() const noexcept {
+    const std::uint64_t buffered = closed_ || !writer_ ? 0 : writer_->records() - writer_->written_records();
+    return refused_ + taken_records() - written_records() - buffered;
 }
 
 std::uint64_t RotatingWriter::written_bytes() const noexcept {

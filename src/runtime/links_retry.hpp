@@ -48,7 +48,7 @@ public:
     [[nodiscard]] bool within(Nanoseconds delay) const noexcept {
         return timer_.valid() && timer_.when - core_.now() <= delay;
     }
-    // To be called by the handler; false when it was another timer that fired.
+    // For a handler that has other timers too, or asks `waits` or `within`, to call first; false when it was another timer that fired.
     bool fired(MonoTime now) noexcept {
         if (!timer_.valid() || timer_.when > now) return false;
         timer_ = {};

@@ -68,7 +68,6 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     if (to == answer->end()) return setup_error(SetupCode::usage, "IPv6 has no broadcast; udpmcast:// has groups");
     net::UdpOptions options = udp_options(info.endpoint.options);
     options.broadcast = true;
-    options.report_refused = true;  // which also has a full device queue reported
     if (auto done = port_.open(local_.value_or(*net::Address::parse("0.0.0.0", 0)), options); !done) return done;
     info.local_port = port_.socket().local().port();
     info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();

@@ -40,7 +40,6 @@ private:
 
 SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     net::UdpOptions options = udp_options(info.endpoint.options);
-    options.report_refused = true;  // which also has a full device queue reported
     // One socket on :: serves both families; where each family has a socket of its own they must not meet.
     options.v6_only = addresses.size() > 1;
     for (const net::Address& address : addresses) {

@@ -61,7 +61,6 @@ private:
 
 SetupResult<void> UdpMulticast::join() {
     net::UdpOptions options = udp_options(info.endpoint.options);
-    options.report_refused = true;  // which also has a full device queue reported
     options.device.clear();
     options.group_interface = group_.address.scope();
     if (const auto& name = info.endpoint.options.iface; !name.empty()) {

@@ -76,8 +76,7 @@ SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
 
 SetupResult<void> UdpOut::open_port(const net::Address& address) {
     if (port_ && port_->socket().local().family() == address.family()) return {};
-    net::UdpOptions options = udp_options(info.endpoint.options);
-    options.report_refused = true;
+    const net::UdpOptions options = udp_options(info.endpoint.options);
     const auto any = net::Address::parse(address.is_v4() ? "0.0.0.0" : "::", 0);
     if (!port_) port_ = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);
     if (auto done = port_->open(local_.value_or(*any), options); !done) return done;

@@ -48,6 +48,8 @@ void Recorder::run() {
     const auto closed = writer_.close();
     count();
     tell(closed);
+    if (const auto lost = writer_.lost_records(); lost != 0)
+        notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
     finished_.store(true, std::memory_order_release);
 }
 

@@ -382,8 +382,9 @@ def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_
     recorded = frames.read_tlog(path)
 
     assert (end["frames"], end["bytes"]) == (len(recorded), sum(len(frame) for _, frame in recorded))
-    assert net.process.stop().status == 130
-    assert len(frames.read_tlog(path)) == len(recorded)
+    done = net.process.stop()
+    assert done.status == 130 and len(frames.read_tlog(path)) == len(recorded)
+    assert f"tape: {len(tape.sent) - len(recorded)} frames not written" in done.stderr
 
 
 def faketime_library():

@@ -80,8 +80,7 @@ private:
 
 struct UdpOptions {
     std::uint64_t receive_buffer_bytes = 32u << 20;
-    bool v6_only = false;         // else a socket on :: also hears IPv4
-    bool report_refused = false;  // learn of closed ports (ICMP) also without connecting: sends then fail once with `refused`
+    bool v6_only = false;             // else a socket on :: also hears IPv4
     bool broadcast = false;           // may send to broadcast addresses
     std::string device;               // sends and hears by this interface only (SO_BINDTODEVICE); empty: by all
     std::optional<std::uint8_t> ttl;  // hops; 0 only for groups: this machine
@@ -104,10 +103,11 @@ public:
 
     // Reads what is there, up to a batch. would_block when there is nothing.
     [[nodiscard]] IoResult<std::size_t> receive(ReceiveBatch& batch) noexcept;
-    // Sends batch[first...]; returns how many went. An error is about batch[first], and nothing went.
+    // Sends batch[first...]; returns how many went. An error is about batch[first], and nothing went; but `refused` may be about any earlier
+    // datagram, whose port was closed (ICMP), and is told once.
     [[nodiscard]] IoResult<std::size_t> send(SendBatch& batch, std::size_t first) noexcept;
 
-    // Empties the queue of ICMP errors (report_refused); returns how many there were.
+    // Empties the queue of ICMP errors; returns how many there were.
     [[nodiscard]] std::size_t drain_errors() noexcept;
     // Datagrams that the kernel dropped on this socket for lack of room, ever (SO_MEMINFO; wraps at 2^32).
     [[nodiscard]] std::uint32_t kernel_drops() const noexcept;

@@ -26,7 +26,8 @@ public:
     // written, and rotation of a device or FIFO, are errors here.
     [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
 
-    // An error means that this record was not taken: see TlogWriter::write. A new segment may fail to open, and the one behind us to close.
+    // An error means that records are lost, as `lost_records` counts them: this one (TlogWriter::write; a new segment that cannot be opened), or
+    // the last of the segment behind us, which could not be closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
     [[nodiscard]] SetupResult<void> flush();
     [[nodiscard]] SetupResult<void> close();
@@ -43,15 +44,13 @@ public:
     [[nodiscard]] std::uint64_t written_records() const noexcept;
     [[nodiscard]] std::uint64_t written_bytes() const noexcept;
     // Records that are in no file: refused by `write`, or still buffered when their segment was closed.
-    [[nodiscard]] std::uint64_t lost_records() const noexcept { return lost_; }
+    [[nodiscard]] std::uint64_t lost_records() const noexcept;
 
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
-    [[nodiscard]] SetupResult<void> begin_segment(WallTime time);
-    [[nodiscard]] SetupResult<void> close_segment();
-    [[nodiscard]] SetupResult<void> take(WallTime time, const wire::FrameView& frame);
+    [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
 
     std::filesystem::path path_;
@@ -62,7 +61,8 @@ private:
     struct Sums {
         std::uint64_t taken = 0, written = 0, bytes = 0;
     } before_;  // of the segments before
-    std::uint64_t lost_ = 0;
+    std::uint64_t refused_ = 0;
+    bool closed_ = false;  // what the last segment still buffers is lost
 };
 
 }  // namespace mavloom::record

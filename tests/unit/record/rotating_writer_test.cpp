@@ -8,6 +8,7 @@
 
 #include "mavloom/record/tlog_reader.hpp"
 #include "support/bytes.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/golden_frames.hpp"
 #include "support/golden_table.hpp"
 #include "support/temp_dir.hpp"
@@ -175,10 +176,27 @@ TEST(RotatingWriter, AFolderThatGoesAwayIsAnErrorAndKeepsTheOpenSegment) {
     EXPECT_EQ(content_of(dir / "other/x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
 }
 
+TEST(RotatingWriter, ASegmentThatCannotBeClosedCostsTheNextOneNothing) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 1s});
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    const test::FileSizeLimit limit(100);  // three records
+
+    EXPECT_FALSE(writer.write(begin + 2s, heartbeat()).has_value());
+    EXPECT_TRUE(writer.close().has_value());
+
+    EXPECT_EQ(content_of(dir / "x-20231114T221320.000Z.tlog").size(), 3 * heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / "x-20231114T221322.000Z.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(writer.taken_records(), 5u);
+    EXPECT_EQ(writer.written_records(), 4u);
+    EXPECT_EQ(writer.lost_records(), 1u);
+}
+
 TEST(RotatingWriter, CountsWhatADiskThatStaysFullNeverTook) {
     auto writer = created("/dev/full", {});
     ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
 
+    EXPECT_FALSE(writer.close().has_value());
     EXPECT_FALSE(writer.close().has_value());
 
     EXPECT_EQ(writer.taken_records(), 1u);

@@ -2,14 +2,13 @@
 #include "mavloom/record/tlog_writer.hpp"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <thread>
 
 #include "mavloom/record/tlog_reader.hpp"
 #include "support/bytes.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/golden_frames.hpp"
 #include "support/golden_table.hpp"
 #include "support/temp_dir.hpp"
@@ -118,32 +117,12 @@ TEST(TlogWriter, AFullDiskIsAnErrorAtTheLatestAtClose) {
     EXPECT_EQ(writer.buffered_bytes(), 29u);
 }
 
-// A limit on the size of files gives short writes and then an error, as a full disk does.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes) {
-        ::getrlimit(RLIMIT_FSIZE, &old_);
-        old_handler_ = std::signal(SIGXFSZ, SIG_IGN);
-        rlimit limit = old_;
-        limit.rlim_cur = bytes;
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &old_);
-        std::signal(SIGXFSZ, old_handler_);
-    }
-
-private:
-    rlimit old_{};
-    void (*old_handler_)(int) = nullptr;
-};
-
 TEST(TlogWriter, AShortWriteIsCutBackToTheLastWholeRecordAndCanBeTriedAgain) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog");
     for (int i = 0; i < 10; ++i) ASSERT_TRUE(writer.write(heartbeat_time, view(test::heartbeat_v2)).has_value());
     {
-        const FileSizeLimit limit(100);  // three records of 29 bytes, and a piece of the fourth
+        const test::FileSizeLimit limit(100);  // three records of 29 bytes, and a piece of the fourth
 
         const auto flushed = writer.flush();
 
@@ -169,7 +148,7 @@ TEST(TlogWriter, AShortWriteIsCutBackToTheLastWholeRecordAndCanBeTriedAgain) {
 TEST(TlogWriter, RefusesRecordsWhileItsBufferCannotBeWritten) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog", 300);
-    const FileSizeLimit limit(100);
+    const test::FileSizeLimit limit(100);
     int taken = 0;
     while (writer.write(heartbeat_time, view(test::heartbeat_v2))) ++taken;
 
