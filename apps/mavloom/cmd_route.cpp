@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "command.hpp"
+#include "counted.hpp"
 #include "mavloom/runtime/config.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "mavloom/runtime/router.hpp"
@@ -21,6 +22,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto longest_flush = 2s;  // for what is queued to leave
+constexpr auto look_for_room = 100ms;
 
 struct Options {
     std::vector<std::string> endpoints;
@@ -82,15 +84,19 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     return plan;
 }
 
-// "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded", then a line for each link.
+// "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded", then a line for each link. No frame waits for who reads them: what a reader
+// that stalls has no room for is left out.
 class ExplainPrinter {
 public:
-    ExplainPrinter(const dialect::Dialect& dialect, runtime::Links& links, std::optional<MessageId> only)
-        : dialect_(dialect), links_(links), only_(only) {}
+    ExplainPrinter(const Common& common, const dialect::Dialect& dialect, runtime::Links& links,
+                   std::optional<MessageId> only)
+        : common_(common), dialect_(dialect), links_(links), only_(only) {}
 
     void operator()(const runtime::RxFrame& rx, const route::Decision& decision,
                     std::span<const route::Explanation> why) {
         if (only_ && rx.frame.id() != *only_) return;
+        if (output_.full()) (void)output_.flush_what_fits();
+        if (output_.full()) return leave_out(1 + why.size());
         auto out = fmt::appender(output_.buffer());
         const auto* message = dialect_.find(rx.frame.id());
         const auto source = rx.frame.source();
@@ -102,16 +108,35 @@ public:
             fmt::format_to(out, "  {} {}: {}\n",
                            reason == route::Reason::sent || reason == route::Reason::tap ? "->" : " x",
                            links_.link_name(link), route::reason_text(reason));
-        (void)output_.flush_if_full();
     }
-    Output::State flush() { return output_.flush(); }
+    Output::State flush() { return output_.flush_what_fits(); }
+    // When to `flush` next although no frame comes.
+    [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + look_for_room; }
+    // The reader has a second to take the rest.
+    void finish() {
+        output_.end_at(mono_now());
+        while (flush() == Output::State::open && output_.buffer().size() != 0 && output_.wait_for_room()) {}
+        left_out_ += static_cast<std::uint64_t>(std::ranges::count(output_.buffer(), '\n'));
+        tell_left_out();
+    }
+    void tell_left_out() const {
+        if (left_out_ != 0) say(common_, fmt::format("--explain left out {}", counted(left_out_, "line")));
+    }
     [[nodiscard]] const Output& output() const noexcept { return output_; }
 
 private:
+    void leave_out(std::size_t lines) {
+        if (left_out_ == 0 && output_.state() == Output::State::open)
+            say(common_, "what --explain says is not read fast enough; explanations are left out, and routing goes on");
+        left_out_ += lines;
+    }
+
+    const Common& common_;
     const dialect::Dialect& dialect_;
     runtime::Links& links_;
     std::optional<MessageId> only_;
     Output output_;
+    std::uint64_t left_out_ = 0;  // lines
 };
 
 SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& dialect, const std::string& text) {
@@ -138,7 +163,7 @@ public:
                                                    : mono_now() + *runtime::parse_duration(options_.duration);
         manager_.ready();
         while (!Signals::received() && mono_now() < end) {
-            router_.turn(std::min(end, manager_.watchdog_due()));
+            router_.turn(std::min({end, manager_.watchdog_due(), explain ? explain->due() : MonoTime::max()}));
             manager_.feed(mono_now());
             if (explain && explain->flush() != Output::State::open) stop_explaining(explain);
             if (Signals::take_hangup()) {
@@ -149,18 +174,19 @@ public:
         }
         manager_.stopping();
         router_.finish(longest_flush);
+        if (explain) explain->finish();
         return Signals::status(explain_failed_ ? Exit::failed : Exit::done);
     }
 
 private:
     // Nobody who only watches can end the routing.
     void stop_explaining(std::optional<ExplainPrinter>& explain) {
-        if (explain->output().state() == Output::State::interrupted) return;  // the end was asked for
         router_.explain({});
         explain_failed_ = explain->output().state() == Output::State::failed;
         if (explain_failed_) (void)fail(explain->output().error());
         say(common_, explain_failed_ ? "--explain ends here; routing goes on"
                                      : "nobody reads what --explain says any more; it ends, and routing goes on");
+        explain->tell_left_out();
         explain.reset();
     }
 
@@ -237,7 +263,7 @@ Exit route(const Common& common, const Options& options) {
     if (!options.explain.empty()) {
         const auto id = explained_id(*dialect, options.explain);
         if (!id) return fail(id.error());
-        explain.emplace(*dialect, (*router)->links(), *id);
+        explain.emplace(common, *dialect, (*router)->links(), *id);
     }
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }

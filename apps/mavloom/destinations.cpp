@@ -131,7 +131,7 @@ Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) cons
         if (link.endpoint == info.id) all.add(*link.counters);
     return {all.frames_out.value(), all.bytes_out.value(),
             all.queue_bytes.value() + all.queue_age.value() + info.counters->gone_queued.value(),
-            info.counters->send_errors.value()};
+            info.counters->send_errors.value(), all.frames_not_sent.value()};
 }
 
 bool Destinations::lost_any() const {
@@ -158,6 +158,8 @@ void Destinations::say_sums(const Common& common) const {
             say(common,
                 fmt::format("{}: {} refused, nobody listens there or it cannot be reached; what they held is lost",
                             name, counted(sums.refused, "datagram")));
+        if (sums.not_sent != 0)
+            say(common, fmt::format("{}: {} not sent, the system refused them", name, counted(sums.not_sent, "frame")));
         if (nobody_there_[i] != 0)
             say(common, fmt::format("{}: {} not sent, nobody was there", name, counted(nobody_there_[i], "frame")));
         if (const auto left = links_->queued_bytes(info.id); left != 0)
@@ -177,6 +179,7 @@ Json Destinations::sums_json() const {
                        {"bytes", sums.bytes},
                        {"dropped", sums.dropped},
                        {"refused", sums.refused},
+                       {"not_sent", sums.not_sent},
                        {"nobody_there", nobody_there_[i]},
                        {"queued_bytes", links_->queued_bytes(info.id)}});
     }

@@ -53,6 +53,16 @@ ssize_t Output::write_some(const char* bytes, std::size_t size) noexcept {
     return written;
 }
 
+// From errno: the reader is gone, the write failed, or there is only no room.
+void Output::take_error(int error) {
+    if (error == EPIPE) {
+        state_ = State::closed_by_reader;
+    } else if (error != EINTR && error != EAGAIN) {
+        error_ = system_error("cannot write to standard output", error).value();
+        state_ = State::failed;
+    }
+}
+
 Output::State Output::flush() {
     const char* p = buffer_.data();
     std::size_t left = buffer_.size();
@@ -66,15 +76,38 @@ Output::State Output::flush() {
         if (written >= 0) {
             p += written;
             left -= static_cast<std::size_t>(written);
-        } else if (errno == EPIPE) {
-            state_ = State::closed_by_reader;
-        } else if (errno != EINTR && errno != EAGAIN) {
-            error_ = system_error("cannot write to standard output", errno).value();
-            state_ = State::failed;
+        } else {
+            take_error(errno);
         }
     }
     lost_lines_ += static_cast<std::uint64_t>(std::count(p, p + left, '\n'));
     buffer_.clear();
+    return state_;
+}
+
+// A pipe takes up to PIPE_BUF bytes whole or not at all, so that no line is cut in it.
+static std::size_t whole_lines(std::string_view text) noexcept {
+    const auto last = text.substr(0, PIPE_BUF).rfind('\n');
+    return last == std::string_view::npos ? text.size() : last + 1;
+}
+
+Output::State Output::flush_what_fits() {
+    std::size_t done = 0;
+    while (done != buffer_.size() && state_ == State::open) {
+        const Way way = way_;
+        pollfd out{STDOUT_FILENO, POLLOUT, 0};
+        if (way == Way::after_poll && ::poll(&out, 1, 0) != 1) break;
+        const std::string_view left(buffer_.data() + done, buffer_.size() - done);
+        const auto written = write_some(left.data(), way == Way::whole ? left.size() : whole_lines(left));
+        if (written >= 0) {
+            done += static_cast<std::size_t>(written);
+            continue;
+        }
+        take_error(errno);
+        if (way == way_) break;
+    }
+    std::copy(buffer_.data() + done, buffer_.data() + buffer_.size(), buffer_.data());
+    buffer_.resize(buffer_.size() - done);
     return state_;
 }
 

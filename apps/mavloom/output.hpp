@@ -20,9 +20,14 @@ public:
 
     // Where lines are appended; hand over with `flush_if_full` after each and `flush` when idle.
     [[nodiscard]] message::TextBuffer& buffer() noexcept { return buffer_; }
-    State flush_if_full() { return buffer_.size() >= flush_bytes ? flush() : state_; }
+    State flush_if_full() { return full() ? flush() : state_; }
     // Writes all, however long the reader takes; after a signal for at most a second in all, then `interrupted`.
     State flush();
+    // Never waits: writes the lines that fit, and leaves the others in the buffer. Who appends looks whether it is `full`.
+    State flush_what_fits();
+    [[nodiscard]] bool full() const noexcept { return buffer_.size() >= flush_bytes; }
+    // False when a reader that stalls has had its second after a signal or the end.
+    [[nodiscard]] bool wait_for_room();
 
     // From then on it is as after a signal (`--for`).
     void end_at(MonoTime end) noexcept { end_ = end; }
@@ -38,8 +43,8 @@ private:
     enum class Way : std::uint8_t { whole, not_blocking, after_poll };
 
     [[nodiscard]] static Way way_to_standard_output() noexcept;
-    [[nodiscard]] bool wait_for_room();
     [[nodiscard]] ssize_t write_some(const char* bytes, std::size_t size) noexcept;
+    void take_error(int error);
 
     message::TextBuffer buffer_;
     Way way_ = way_to_standard_output();

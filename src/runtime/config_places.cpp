@@ -30,7 +30,7 @@ std::uint32_t line_of(const Section& section, std::span<const std::string_view> 
 struct Bound {
     bool tcp, shared;  // shared: with others that share it too
     HostPort address;
-    std::string_view iface, label;
+    std::string_view iface, label;  // iface: empty where the port is taken on all of them
     std::uint32_t line;
 };
 
@@ -39,9 +39,10 @@ std::optional<Bound> bound_by(const Endpoint& endpoint, const Section& section) 
     static constexpr std::array<std::string_view, 1> bind{"bind"};
     const Scheme scheme = endpoint.scheme;
     const auto& o = endpoint.options;
-    if (scheme == Scheme::udpin || scheme == Scheme::tcpin || scheme == Scheme::udpmcast)
-        return Bound{scheme == Scheme::tcpin, scheme == Scheme::udpmcast, endpoint.address, o.iface,
-                     section.label,           line_of(section, own)};
+    if (scheme == Scheme::udpmcast)  // joins its group on iface, and binds to none
+        return Bound{false, true, endpoint.address, {}, section.label, line_of(section, own)};
+    if (scheme == Scheme::udpin || scheme == Scheme::tcpin)
+        return Bound{scheme == Scheme::tcpin, false, endpoint.address, o.iface, section.label, line_of(section, own)};
     if ((scheme == Scheme::udpout || scheme == Scheme::udpbcast) && o.bind && o.bind->port != 0)
         return Bound{false, false, *o.bind, o.iface, section.label, line_of(section, bind)};
     return std::nullopt;

@@ -140,7 +140,7 @@ void TcpIn::pause() {
     for (const auto& listening : listeners_) listening->listen(false);
     if (!pause_.valid()) pause_ = core_.loop().start_timer(core_.now() + accept_pause, *this);
     if (!std::exchange(told_full_, true)) {
-        core_.notice(info.id, fmt::format("{}: no more file descriptors; new clients wait", info.endpoint.label()));
+        core_.notice(info.id, fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
     }
 }
 

@@ -93,7 +93,7 @@ def test_the_sums_of_replay_as_json(run, tmp_path):
     stats = sums(done)
     assert done.status == 0 and "5 frames" in done.stderr
     assert stats["destinations"] == [
-        {"endpoint": address, "frames": 5, "bytes": 5 * 21, "dropped": 0, "refused": 0, "nobody_there": 0, "queued_bytes": 0},
+        {"endpoint": address, "frames": 5, "bytes": 5 * 21, "dropped": 0, "refused": 0, "not_sent": 0, "nobody_there": 0, "queued_bytes": 0},
         {"endpoint": f"tlog://{tmp_path}/copy.tlog".removeprefix("tlog://"), "frames": 5, "bytes": 5 * 29, "not_written": 0, "files": 1}]
     assert list(stats["totals"]) == ["frames", "bytes", *LOSSES]
     assert (stats["totals"]["frames"], stats["totals"]["junk_bytes"], stats["totals"]["damaged_places"]) == (5, 6, 1)

@@ -181,8 +181,17 @@ def test_the_sums_of_a_link_as_json(run, udp_socket):
     done = run("relay", f"tlog://{frames.FLIGHT}?speed=max", "--to", address, "--only", "GPS_RAW_INT", "--json")
 
     sums = json.loads(done.stdout)["stats"]["destinations"][0]
-    assert list(sums) == ["endpoint", "frames", "bytes", "dropped", "refused", "nobody_there", "queued_bytes"]
+    assert list(sums) == ["endpoint", "frames", "bytes", "dropped", "refused", "not_sent", "nobody_there", "queued_bytes"]
     assert (sums["endpoint"], sums["frames"], sums["dropped"], sums["queued_bytes"]) == (address, 531, 0, 0)
+
+
+def test_frames_that_cannot_leave_are_counted(run, tmp_path):
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
+    done = run("relay", log, "--to", "udpout://192.0.2.1:9?bind=127.0.0.1:0", "--json")  # from the loopback address nothing goes to another host
+
+    sums = json.loads(done.stdout)["stats"]["destinations"][0]
+    assert (sums["frames"], sums["not_sent"]) == (0, 5) and 1 <= sums["refused"] <= 5, done
+    assert "5 frames not sent, the system refused them" in done.stderr
 
 
 def test_the_guide_names_every_key_of_the_sums(run, tmp_path, udp_socket):

@@ -625,6 +625,36 @@ def test_routing_outlives_who_reads_the_explanations(spawn):
     assert process.stop().status == 130
 
 
+@pytest.mark.parametrize("resumes", [False, True], ids=["for ever", "for a while"])
+def test_routing_does_not_wait_for_who_reads_the_explanations(spawn, resumes):
+    port, station = routers.udp_port(), harness.udp_socket()
+    reading, writing = os.pipe()
+    process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
+                    env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, stdout=writing)
+    os.close(writing)
+    vehicle = harness.udp_socket()
+    process.wait_output("listening", stream="err")
+    frames = 3000
+    for _ in range(frames):
+        vehicle.sendto(attitude(VEHICLE), ("127.0.0.1", port))
+        assert station.recv(2048)
+    process.wait_output("explanations are left out, and routing goes on", stream="err")
+
+    with open(reading, "rb") as pipe:
+        if resumes:
+            process.send(signal.SIGINT)
+            said = pipe.read()
+            done = process.wait()
+        else:
+            done = process.stop()
+            said = pipe.read()
+    assert done.status == 130 and done.stderr.count("are left out") == 1
+    left_out = int(re.search(r"--explain left out (\d+) lines", done.stderr)[1])
+    lines = said.decode().splitlines(keepends=True)
+    assert len(lines) + left_out == 3 * frames
+    assert all(re.fullmatch(r"(ATTITUDE 1/1 seq \d+ from |  -> |   x )udp.*\n", line) for line in lines)
+
+
 # ---- keys and signatures ---------------------------------------------------------------------------------------------
 
 def test_key_new_writes_a_key_that_nobody_else_reads(run, tmp_path):

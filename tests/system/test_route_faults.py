@@ -273,7 +273,7 @@ def test_without_file_descriptors_it_lives_on_and_recovers(pair, run):
     with contextlib.ExitStack() as clients:
         for _ in range(100):
             clients.enter_context(socket.create_connection((LOCALHOST, port)))
-        net.process.wait_output("no more file descriptors", stream="err")
+        net.process.wait_output("few file descriptors left", stream="err")
         for _ in range(10):
             net.passes(*(routers.attitude() for _ in range(20)))
             net.answers()

@@ -46,25 +46,35 @@ TEST_F(Tcp, ConnectsAndExchanges) {
     EXPECT_EQ(near.remote(), listener.local());
 }
 
+// The process may open only `most` descriptors while this lives.
+struct FewDescriptors {
+    explicit FewDescriptors(rlim_t most) {
+        EXPECT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+        const rlimit few{most, before.rlim_max};
+        EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    }
+    ~FewDescriptors() { EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0); }
+    FewDescriptors(const FewDescriptors&) = delete;
+    FewDescriptors& operator=(const FewDescriptors&) = delete;
+    rlimit before{};
+};
+
 // The last descriptors are not given to clients: the client waits, and the program can still open something.
 TEST_F(Tcp, LeavesSomeDescriptorsToTheProgram) {
     near = std::move(*TcpStream::start_connect(listener.local()));
     await(listener.fd(), POLLIN);
-    rlimit before{};
-    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
-    const rlimit few{64, before.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+    const FewDescriptors few(64);
     std::vector<Fd> taken;
-    for (;;) {
-        Fd next(::open("/dev/null", O_RDONLY | O_CLOEXEC));
-        if (!next || next.get() >= 48) break;
-        taken.push_back(std::move(next));
-    }
+    const auto take = [] { return Fd(::open("/dev/null", O_RDONLY | O_CLOEXEC)); };
+    Fd next = take();
+    for (; next && next.get() < 48; next = take()) taken.push_back(std::move(next));
+    if (taken.empty() || !next) GTEST_SKIP() << "whoever started the test left too many descriptors open";
+    next.reset();
     EXPECT_EQ(listener.accept().error(), IoError::no_descriptors);
-    EXPECT_TRUE(Fd(::open("/dev/null", O_RDONLY | O_CLOEXEC)));
+    EXPECT_TRUE(take());
     taken.pop_back();
-    EXPECT_TRUE(listener.accept());
-    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    far = std::move(*listener.accept());
+    EXPECT_EQ(listener.accept().error(), IoError::would_block);
 }
 
 TEST_F(Tcp, TellsTheEndOfAStream) {

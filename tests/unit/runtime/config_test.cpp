@@ -282,7 +282,8 @@ TEST(Config, TwoEndpointsThatBindOnePortAreAnErrorOfTheSecond) {
                                      {"udpin://0.0.0.0:1", "udpout://127.0.0.1:2?bind=0.0.0.0:1", true},
                                      {"udpin://0.0.0.0:1", "udpout://127.0.0.1:1", false},
                                      {"udpmcast://239.255.1.1:1", "udpmcast://239.255.1.1:1?iface=eth0", false},
-                                     {"udpmcast://239.255.1.1:1", "udpin://0.0.0.0:1", true}}) {
+                                     {"udpmcast://239.255.1.1:1", "udpin://0.0.0.0:1", true},
+                                     {"udpmcast://239.255.1.1:1?iface=eth0", "udpin://0.0.0.0:1?iface=eth1", true}}) {
         const auto said = with(a, b);
         EXPECT_EQ(said != "good", meet) << a << " and " << b << ": " << said;
     }
