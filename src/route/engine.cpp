@@ -155,15 +155,22 @@ static std::uint32_t boot_ms_of(ByteView payload) noexcept {
     return value;
 }
 
+bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
+    const ConstWords where = routes_.links_of(p.source), members = groups_[p.link.group].members.data();
+    int count = 0;
+    each_word(words_, [&](std::size_t w) { count += std::popcount(where[w] & members[w]); });
+    return count > 1;
+}
+
 // HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
-// of the rest. A link that is heard for the first time, or again, is compared from there on.
+// of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, is compared from there on.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
     const std::vector<Slot>& members = groups_[p.link.group].order;
     if (!is_alive(p.link, p.now)) {
         for (const Slot slot : members) links[slot]->beats = 0;
         return;
     }
-    if (p.id != heartbeat_id || p.is_doubled || ++p.link.beats < most_beats) return;
+    if (p.id != heartbeat_id || p.is_doubled || !is_on_two_members(p) || ++p.link.beats < most_beats) return;
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
 }
 

@@ -98,6 +98,8 @@ private:
     void remember(Passage& p, std::uint64_t hash, bool found) noexcept;
     void learn(Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
+    // Its source was heard on two links of the group or more.
+    [[nodiscard]] bool is_on_two_members(const Passage& p) const noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;

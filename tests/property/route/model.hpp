@@ -188,19 +188,24 @@ private:
     }
 
     // A link that was silent begins even with the others of its group; who has heard 256 HEARTBEATs halves what all have heard.
-    void count_heartbeat(Link& link, bool is_heartbeat) {
+    // HEARTBEATs of a source that was heard on one link of the group only do not count.
+    void count_heartbeat(Link& link, const wire::FrameView& frame, bool doubled) {
         const auto each_of_group = [&](auto change) {
             for (auto& [id, other] : links_)
                 if (other.policy.group == link.policy.group) change(other.heartbeats);
         };
         if (is_silent(link)) return each_of_group([](std::uint32_t& n) { n = 0; });
-        if (!is_heartbeat) return;
+        const auto brought = std::ranges::count_if(links_, [&](const auto& l) {
+            return l.second.policy.group == link.policy.group &&
+                   is_fresh(l.first, frame.system().value, frame.component().value);
+        });
+        if (frame.id().value != 0 || doubled || brought < 2) return;
         ++link.heartbeats;
         if (link.heartbeats == 256) each_of_group([](std::uint32_t& n) { n = (n + 1) / 2; });
     }
 
     void learn(std::uint32_t ingress, const wire::FrameView& frame, bool doubled = false) {
-        if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame.id().value == 0 && !doubled);
+        if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, doubled);
         links_[ingress].last_heard = now_;
         const auto system = frame.system().value, component = frame.component().value;
         if (system == 0 || info(frame) == nullptr) return;

@@ -493,6 +493,17 @@ TEST(Engine, BestTakesADoubledHeartbeatOnce) {
     EXPECT_THAT(sut.where(), ElementsAre(1));
 }
 
+// A bridge to the vehicle beats by itself, on its own link.
+TEST(Engine, BestCountsNoHeartbeatsThatOneLinkAloneBrings) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 20; ++i) {
+        sut.both_hear();
+        sut.hears(2, {51, 68});
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(1));
+}
+
 TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
     Network sut;
     sut.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}}),
