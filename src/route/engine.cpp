@@ -163,11 +163,13 @@ bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
 }
 
 // HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
-// of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, is compared from there on.
+// of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, begins even with the best.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
     const std::vector<Slot>& members = groups_[p.link.group].order;
     if (!is_alive(p.link, p.now)) {
-        for (const Slot slot : members) links[slot]->beats = 0;
+        p.link.beats = 0;
+        for (const Slot slot : members)
+            if (is_alive(*links[slot], p.now)) p.link.beats = std::max(p.link.beats, links[slot]->beats);
         return;
     }
     if (p.id != heartbeat_id || p.is_doubled || !is_on_two_members(p) || ++p.link.beats < most_beats) return;

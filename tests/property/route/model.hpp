@@ -187,14 +187,20 @@ private:
         return !link.last_heard || now_ - *link.last_heard >= std::chrono::seconds{3};
     }
 
-    // A link that was silent begins even with the others of its group; who has heard 256 HEARTBEATs halves what all have heard.
+    // A link that was silent begins even with the best of its group; who has heard 256 HEARTBEATs halves what all have heard.
     // HEARTBEATs of a source that was heard on one link of the group only do not count.
     void count_heartbeat(Link& link, const wire::FrameView& frame, bool doubled) {
         const auto each_of_group = [&](auto change) {
             for (auto& [id, other] : links_)
                 if (other.policy.group == link.policy.group) change(other.heartbeats);
         };
-        if (is_silent(link)) return each_of_group([](std::uint32_t& n) { n = 0; });
+        if (is_silent(link)) {
+            link.heartbeats = 0;
+            for (const auto& [id, other] : links_)
+                if (other.policy.group == link.policy.group && !is_silent(other))
+                    link.heartbeats = std::max(link.heartbeats, other.heartbeats);
+            return;
+        }
         const auto brought = std::ranges::count_if(links_, [&](const auto& l) {
             return l.second.policy.group == link.policy.group &&
                    is_fresh(l.first, frame.system().value, frame.component().value);

@@ -504,6 +504,20 @@ TEST(Engine, BestCountsNoHeartbeatsThatOneLinkAloneBrings) {
     EXPECT_THAT(sut.where(), ElementsAre(1));
 }
 
+TEST(Engine, BestComparesTheOthersWhileOneComesAndGoes) {
+    BestNetwork sut;
+    sut.link({.group = GroupId{1}, .group_mode = GroupMode::best});
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 2; ++i) {
+        sut.heard_on({1, 2, 4});
+        for (int n = 0; n < 3; ++n) {
+            sut.heard_on({2});
+            sut.telemetry(1);
+        }
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(2));
+}
+
 TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
     Network sut;
     sut.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}}),
