@@ -115,7 +115,7 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
 // is a copy, which goes only where the frame has not been yet: else two routers that reach each other twice would pass it round for ever.
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
-    const std::uint64_t hash = hash_of(p.frame.bytes(), options.seed);
+    const std::uint64_t hash = p.hash = hash_of(p.frame.bytes(), options.seed);
     const bool found = recent_.find(hash, p.recent);
     if (found) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
@@ -136,7 +136,6 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         // The link is not noted as one where it was heard: a copy of the copy must not pass for a repetition.
         p.is_copy = age < echo_window && !again_here;
         if (p.is_copy) return false;
-        p.is_doubled = again_here && age < doubled_within;
     }
     remember(p, hash, found);
     return false;
@@ -162,17 +161,30 @@ bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
     return count > 1;
 }
 
+// Kept apart from the frame itself, which begins anew where a link repeats it: under another hash, in another bucket.
+bool Engine::Impl::is_doubled(const Passage& p) noexcept {
+    if (!recent_.active()) return false;
+    std::size_t at = 0;
+    const bool found = recent_.find(~p.hash, at);
+    const bool is_new = !found || p.now - recent_.time(at) >= doubled_within;
+    if (!is_new && has(recent_.heard(at), p.slot)) return true;
+    if (is_new && recent_.put(~p.hash, p.now, window_, found, at)) counters.recent_evicted.add();
+    insert(recent_.heard(at), p.slot);
+    return false;
+}
+
 // HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
 // of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, begins even with the best.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
     const std::vector<Slot>& members = groups_[p.link.group].order;
+    const bool is_beat = p.id == heartbeat_id && !is_doubled(p);
     if (!is_alive(p.link, p.now)) {
         p.link.beats = 0;
         for (const Slot slot : members)
             if (is_alive(*links[slot], p.now)) p.link.beats = std::max(p.link.beats, links[slot]->beats);
         return;
     }
-    if (p.id != heartbeat_id || p.is_doubled || !is_on_two_members(p) || ++p.link.beats < most_beats) return;
+    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < most_beats) return;
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
 }
 

@@ -143,7 +143,7 @@ public:
     // at one time on links of unequal delay.
     static constexpr std::uint32_t better_by_beats = 5;
     static constexpr std::uint32_t most_beats = 256;  // then all links of the group go on with half of theirs
-    // The same HEARTBEAT once more on its link within this time is a datagram that was doubled, and counts once.
+    // A HEARTBEAT that its link brings twice within this time of its first copy is a datagram that was doubled, and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
     // SYSTEM_TIME.time_boot_ms that falls by more is a reboot; by less, two frames that overtook each other.
     static constexpr std::uint32_t reboot_tolerance_ms = 1000;

@@ -518,6 +518,14 @@ TEST(Engine, BestComparesTheOthersWhileOneComesAndGoes) {
     EXPECT_THAT(sut.where(), ElementsAre(2));
 }
 
+TEST(Engine, BestTakesAHeartbeatOnceThatBothLinksDouble) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 10; ++i) sut.heard_on({2, 1, 1, 2});
+
+    EXPECT_THAT(sut.where(), ElementsAre(1));
+}
+
 TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
     Network sut;
     sut.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}}),
