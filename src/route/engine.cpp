@@ -20,7 +20,7 @@ Engine::~Engine() = default;
 
 bool Engine::add_link(LinkId link, const LinkPolicy& policy) { return impl_->add_link(link, policy); }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
-void Engine::set_group_order(LinkId link, std::uint32_t order) { impl_->set_group_order(link, order); }
+void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
 Decision Engine::route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                        MonoTime now) noexcept {

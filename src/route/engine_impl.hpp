@@ -21,7 +21,7 @@ public:
 
     bool add_link(LinkId id, const LinkPolicy& policy);
     void remove_link(LinkId id);
-    void set_group_order(LinkId id, std::uint32_t order);
+    void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                                  MonoTime now) noexcept;
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,

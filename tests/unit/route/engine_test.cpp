@@ -399,7 +399,8 @@ TEST(Engine, PrimaryTakesAnotherOrderLater) {
     sut.hears(1, vehicle);
     sut.hears(2, vehicle);
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(1));
-    sut.engine.set_group_order(LinkId{1}, 1);
+    const GroupOrder other[] = {{LinkId{1}, 1}, {LinkId{2}, 0}, {LinkId{9}, 0}};
+    sut.engine.set_group_orders(other);
 
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2));
 }
