@@ -20,7 +20,7 @@ Engine::~Engine() = default;
 
 bool Engine::add_link(LinkId link, const LinkPolicy& policy) { return impl_->add_link(link, policy); }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
-void Engine::set_group_order(LinkId link, std::uint32_t order) { impl_->set_group_order(link, order); }
+void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
 Decision Engine::route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                        MonoTime now) noexcept {
@@ -115,7 +115,7 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
 // is a copy, which goes only where the frame has not been yet: else two routers that reach each other twice would pass it round for ever.
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
-    const std::uint64_t hash = hash_of(p.frame.bytes(), options.seed);
+    const std::uint64_t hash = p.hash = hash_of(p.frame.bytes(), options.seed);
     const bool found = recent_.find(hash, p.recent);
     if (found) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
@@ -136,7 +136,6 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         // The link is not noted as one where it was heard: a copy of the copy must not pass for a repetition.
         p.is_copy = age < echo_window && !again_here;
         if (p.is_copy) return false;
-        p.is_doubled = again_here && age < doubled_within;
     }
     remember(p, hash, found);
     return false;
@@ -155,15 +154,37 @@ static std::uint32_t boot_ms_of(ByteView payload) noexcept {
     return value;
 }
 
+bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
+    const ConstWords where = routes_.links_of(p.source), members = groups_[p.link.group].members.data();
+    int count = 0;
+    each_word(words_, [&](std::size_t w) { count += std::popcount(where[w] & members[w]); });
+    return count > 1;
+}
+
+// Kept apart from the frame itself, which begins anew where a link repeats it: under another hash, in another bucket.
+bool Engine::Impl::is_doubled(const Passage& p) noexcept {
+    if (!recent_.active()) return false;
+    std::size_t at = 0;
+    const bool found = recent_.find(~p.hash, at);
+    const bool is_new = !found || p.now - recent_.time(at) >= doubled_within;
+    if (!is_new && has(recent_.heard(at), p.slot)) return true;
+    if (is_new && recent_.put(~p.hash, p.now, window_, found, at)) counters.recent_evicted.add();
+    insert(recent_.heard(at), p.slot);
+    return false;
+}
+
 // HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
-// of the rest. A link that is heard for the first time, or again, is compared from there on.
+// of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, begins even with the best.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
     const std::vector<Slot>& members = groups_[p.link.group].order;
+    const bool is_beat = p.id == heartbeat_id && !is_doubled(p);
     if (!is_alive(p.link, p.now)) {
-        for (const Slot slot : members) links[slot]->beats = 0;
+        p.link.beats = 0;
+        for (const Slot slot : members)
+            if (is_alive(*links[slot], p.now)) p.link.beats = std::max(p.link.beats, links[slot]->beats);
         return;
     }
-    if (p.id != heartbeat_id || p.is_doubled || ++p.link.beats < most_beats) return;
+    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < most_beats) return;
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
 }
 

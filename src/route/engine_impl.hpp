@@ -21,7 +21,7 @@ public:
 
     bool add_link(LinkId id, const LinkPolicy& policy);
     void remove_link(LinkId id);
-    void set_group_order(LinkId id, std::uint32_t order);
+    void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                                  MonoTime now) noexcept;
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
@@ -87,9 +87,9 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
-        bool is_copy = false;     // of a frame that another link brought
-        bool is_doubled = false;  // the link brought it a moment ago
-        std::size_t recent = 0;   // its place among the recent frames
+        bool is_copy = false;  // of a frame that another link brought
+        std::uint64_t hash = 0;
+        std::size_t recent = 0;  // its place among the recent frames
     };
 
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
@@ -98,6 +98,10 @@ private:
     void remember(Passage& p, std::uint64_t hash, bool found) noexcept;
     void learn(Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
+    // The link brought this HEARTBEAT a moment ago.
+    [[nodiscard]] bool is_doubled(const Passage& p) noexcept;
+    // Its source was heard on two links of the group or more.
+    [[nodiscard]] bool is_on_two_members(const Passage& p) const noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;

@@ -78,10 +78,14 @@ void Engine::Impl::remove_link(LinkId id) {
     rebuild();
 }
 
-void Engine::Impl::set_group_order(LinkId id, std::uint32_t order) {
-    const Slot slot = slot_of(id);
-    if (slot == no_slot || std::exchange(links[slot]->policy.group_order, order) == order) return;
-    if (links[slot]->policy.group.value != 0) rebuild();
+void Engine::Impl::set_group_orders(std::span<const GroupOrder> orders) {
+    bool changes = false;
+    for (const auto& [id, order] : orders) {
+        const Slot slot = slot_of(id);
+        if (slot == no_slot || std::exchange(links[slot]->policy.group_order, order) == order) continue;
+        changes = changes || links[slot]->policy.group.value != 0;
+    }
+    if (changes) rebuild();
 }
 
 void Engine::Impl::index_links() {

@@ -201,8 +201,10 @@ void Router::order_as(const std::vector<Endpoint>& endpoints) {
         return std::ranges::find(endpoints, e->endpoint.label(), &Endpoint::label) - endpoints.begin();
     });
     for (std::uint32_t order = 0; const auto& e : endpoints_) e->policy.group_order = order++;
+    std::vector<route::GroupOrder> orders;
     for (const auto& link : links_->links())
-        engine_.set_group_order(link.id, by_id_[link.endpoint.value]->policy.group_order);
+        orders.push_back({link.id, by_id_[link.endpoint.value]->policy.group_order});
+    engine_.set_group_orders(orders);
 }
 
 // What was to be changed and cannot be goes on as it was.

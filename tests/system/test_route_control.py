@@ -537,13 +537,14 @@ def test_reload_keeps_a_groups_order_of_the_file(spawn, tmp_path):
     router.wait_links(3)
 
     def both_hear_and_carries():
-        """Which of the two gets a command."""
+        """Which of the two gets a command, sent before a heartbeat that both get."""
         for end in (first, second):
             end.send(heartbeat(VEHICLE))
         station.count(2)
-        sent = command(GCS, VEHICLE)
+        sent, last = command(GCS, VEHICLE), heartbeat(GCS)
         station.send(sent)
-        return harness.wait_for(lambda: [end.label for end in (first, second) if sent in end.now()], what="the command")
+        station.send(last)
+        return [end.label for end in (first, second) if sent in end.until(last)]
     assert both_hear_and_carries() == ["first"]
     write("&queue_age=1")
     router.process.send(signal.SIGHUP)

@@ -168,12 +168,12 @@ class Flow:
         def stepped():
             self.step()
             return condition()
-        harness.wait_for(stepped, what=what)
+        return harness.wait_for(stepped, what=what)
 
-    def carries(self, number, count=40):
-        """Goes on until link `number` alone has carried so much."""
-        self.until(lambda marks=[len(link.forth.delivered) for link in self.sky.links]:
-                   not self.moved(marks, 1 - number) and self.moved(marks, number) >= count, f"link {number} to carry")
+    def carries(self, *numbers, count=40):
+        """Goes on until one link of `numbers` alone has carried so much: which."""
+        marks = [len(link.forth.delivered) for link in self.sky.links]
+        return self.until(lambda: [n for n in numbers if not self.moved(marks, 1 - n) and self.moved(marks, n) >= count], f"link {numbers} to carry")[0]
 
     def moved(self, marks, number):
         moved = len(self.sky.carried(number, marks[number]))
@@ -201,7 +201,7 @@ def test_primary_falls_over_and_comes_back(spawn, rng):
     with Sky(spawn, rng, "primary", [LATE, LATE]) as sky:
         sky.join()
         flow = Flow(sky)
-        flow.carries(0, 100)
+        flow.carries(0, count=100)
         sky.links[0].kill()
         flow.carries(1)
         sky.links[0].revive()
@@ -233,7 +233,7 @@ def test_best_takes_the_link_that_loses_less(spawn, rng, bad):
     with Sky(spawn, rng, "best", profiles) as sky:
         sky.join()
         flow = Flow(sky)
-        flow.carries(1 - bad, 100)
+        flow.carries(1 - bad, count=100)
         flow.finish()
 
 
@@ -243,9 +243,9 @@ def test_best_leaves_a_link_that_turns_bad_while_traffic_goes_both_ways(spawn, r
         sky.join()
         flow = BothWays(sky)
         flow.until(lambda: len(flow.got) >= 300, "the first frames")
-        chosen = 0 if sky.carried(0) else 1
+        chosen = flow.carries(0, 1)
         sky.links[chosen].become(dataclasses.replace(LATE, loss=0.5))
-        flow.carries(1 - chosen, 300)
+        flow.carries(1 - chosen, count=300)
         flow.finish()
 
 

@@ -49,6 +49,11 @@ struct LinkPolicy {
     std::optional<Nanoseconds> route_timeout{};  // instead of the router's: for links of high latency
 };
 
+struct GroupOrder {
+    LinkId link;
+    std::uint32_t order = 0;  // as LinkPolicy::group_order
+};
+
 enum class Verdict : std::uint8_t {
     forwarded,
     nowhere,         // there is no other link for it: alone, or its target is where it came from
@@ -143,7 +148,7 @@ public:
     // at one time on links of unequal delay.
     static constexpr std::uint32_t better_by_beats = 5;
     static constexpr std::uint32_t most_beats = 256;  // then all links of the group go on with half of theirs
-    // The same HEARTBEAT once more on its link within this time is a datagram that was doubled, and counts once.
+    // A HEARTBEAT that its link brings twice within this time of its first copy is a datagram that was doubled, and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
     // SYSTEM_TIME.time_boot_ms that falls by more is a reboot; by less, two frames that overtook each other.
     static constexpr std::uint32_t reboot_tolerance_ms = 1000;
@@ -159,8 +164,8 @@ public:
     // Forgets the link and its routes. Nothing happens for an id that is not there.
     void remove_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
-    // Instead of the group_order that its policy gave.
-    void set_group_order(LinkId link, std::uint32_t order);
+    // Instead of the group_order that their policies gave. Nothing happens for an id that is not there.
+    void set_group_orders(std::span<const GroupOrder> orders);
 
     // Where the frame goes. `info` is null for an id without definition. `now` never goes back. At most a few tens of nanoseconds.
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,

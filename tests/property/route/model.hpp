@@ -61,6 +61,7 @@ public:
             r.heard.erase(id);
             r.sent.erase(id);
         }
+        for (Recent& r : beats_) r.heard.erase(id);
         for (auto& [group, current] : current_)
             if (current == id) current = 0;
         const auto is_empty = [&](const auto& of_group) {
@@ -150,7 +151,6 @@ private:
         Link& link = links_[ingress];
         if (link.policy.tap) return Verdict::tap;
         if (!admits(link.policy.in_allow, link.policy.in_block, frame)) return Verdict::filtered;
-        bool doubled = false;
         const auto same = [&](const Recent& r) { return r.bytes == bytes; };
         if (const auto r = std::find_if(recent_.begin(), recent_.end(), same); r != recent_.end()) {
             const auto age = now_ - r->time;
@@ -168,17 +168,16 @@ private:
                 remembered = &*r;
                 return decide_unless_private(ingress, frame, why, r->sent);
             }
-            doubled = again && age < std::chrono::milliseconds{500};
             recent_.erase(r);
         }
         recent_.push_back({bytes, now_, {ingress}, {}});
         remembered = &recent_.back();
-        return decide_unless_private(ingress, frame, why, {}, doubled);
+        return decide_unless_private(ingress, frame, why, {});
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
-                                  const std::set<std::uint32_t>& have_it, bool doubled = false) {
-        learn(ingress, frame, doubled);
+                                  const std::set<std::uint32_t>& have_it) {
+        learn(ingress, frame);
         if (links_[ingress].policy.is_private) return Verdict::private_link;
         return decide(ingress, frame, why, have_it);
     }
@@ -187,20 +186,42 @@ private:
         return !link.last_heard || now_ - *link.last_heard >= std::chrono::seconds{3};
     }
 
-    // A link that was silent begins even with the others of its group; who has heard 256 HEARTBEATs halves what all have heard.
-    void count_heartbeat(Link& link, bool is_heartbeat) {
+    // A link that was silent begins even with the best of its group; who has heard 256 HEARTBEATs halves what all have heard.
+    // HEARTBEATs of a source that was heard on one link of the group only do not count.
+    void count_heartbeat(Link& link, const wire::FrameView& frame, bool doubled) {
         const auto each_of_group = [&](auto change) {
             for (auto& [id, other] : links_)
                 if (other.policy.group == link.policy.group) change(other.heartbeats);
         };
-        if (is_silent(link)) return each_of_group([](std::uint32_t& n) { n = 0; });
-        if (!is_heartbeat) return;
+        if (is_silent(link)) {
+            link.heartbeats = 0;
+            for (const auto& [id, other] : links_)
+                if (other.policy.group == link.policy.group && !is_silent(other))
+                    link.heartbeats = std::max(link.heartbeats, other.heartbeats);
+            return;
+        }
+        const auto brought = std::ranges::count_if(links_, [&](const auto& l) {
+            return l.second.policy.group == link.policy.group &&
+                   is_fresh(l.first, frame.system().value, frame.component().value);
+        });
+        if (frame.id().value != 0 || doubled || brought < 2) return;
         ++link.heartbeats;
         if (link.heartbeats == 256) each_of_group([](std::uint32_t& n) { n = (n + 1) / 2; });
     }
 
-    void learn(std::uint32_t ingress, const wire::FrameView& frame, bool doubled = false) {
-        if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame.id().value == 0 && !doubled);
+    // The link brought this HEARTBEAT within half a second of when it came first.
+    bool is_doubled(std::uint32_t ingress, const wire::FrameView& frame) {
+        if (frame.id().value != 0) return false;
+        std::erase_if(beats_, [&](const Recent& r) { return now_ - r.time >= std::chrono::milliseconds{500}; });
+        const Bytes bytes = mavloom::test::copy(frame.bytes());
+        const auto same = std::ranges::find(beats_, bytes, &Recent::bytes);
+        if (same != beats_.end()) return !same->heard.insert(ingress).second;
+        beats_.push_back({bytes, now_, {ingress}, {}});
+        return false;
+    }
+
+    void learn(std::uint32_t ingress, const wire::FrameView& frame) {
+        if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
         const auto system = frame.system().value, component = frame.component().value;
         if (system == 0 || info(frame) == nullptr) return;
@@ -354,6 +375,7 @@ private:
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
     std::vector<Heard> heard_;
     std::vector<Recent> recent_;
+    std::vector<Recent> beats_;  // HEARTBEATs of groups
 };
 
 }  // namespace mavloom::route::test

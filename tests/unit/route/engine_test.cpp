@@ -399,7 +399,8 @@ TEST(Engine, PrimaryTakesAnotherOrderLater) {
     sut.hears(1, vehicle);
     sut.hears(2, vehicle);
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(1));
-    sut.engine.set_group_order(LinkId{1}, 1);
+    const GroupOrder other[] = {{LinkId{1}, 1}, {LinkId{2}, 0}, {LinkId{9}, 0}};
+    sut.engine.set_group_orders(other);
 
     EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2));
 }
@@ -489,6 +490,39 @@ TEST(Engine, BestTakesADoubledHeartbeatOnce) {
     BestNetwork sut;
     ASSERT_THAT(sut.where(), ElementsAre(1));
     for (int i = 0; i < 10; ++i) sut.heard_on({1, 2, 2});
+
+    EXPECT_THAT(sut.where(), ElementsAre(1));
+}
+
+// A bridge to the vehicle beats by itself, on its own link.
+TEST(Engine, BestCountsNoHeartbeatsThatOneLinkAloneBrings) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 20; ++i) {
+        sut.both_hear();
+        sut.hears(2, {51, 68});
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(1));
+}
+
+TEST(Engine, BestComparesTheOthersWhileOneComesAndGoes) {
+    BestNetwork sut;
+    sut.link({.group = GroupId{1}, .group_mode = GroupMode::best});
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 2; ++i) {
+        sut.heard_on({1, 2, 4});
+        for (int n = 0; n < 3; ++n) {
+            sut.heard_on({2});
+            sut.telemetry(1);
+        }
+    }
+    EXPECT_THAT(sut.where(), ElementsAre(2));
+}
+
+TEST(Engine, BestTakesAHeartbeatOnceThatBothLinksDouble) {
+    BestNetwork sut;
+    ASSERT_THAT(sut.where(), ElementsAre(1));
+    for (int i = 0; i < 10; ++i) sut.heard_on({2, 1, 1, 2});
 
     EXPECT_THAT(sut.where(), ElementsAre(1));
 }
