@@ -25,8 +25,9 @@ public:
         const auto asked = std::ranges::find_if(asked_,
                                                 [&](const Asked& a) { return a.link == link && a.source == source; });
         if (asked == asked_.end()) {
-            if (asked_.size() == most_sources) asked_.erase(std::ranges::min_element(asked_, {}, &Asked::heard));
-            asked_.push_back({link, source, now, now});
+            if (asked_.size() == most_sources)
+                *std::ranges::min_element(asked_, {}, &Asked::heard) = {link, source, now, now};
+            else asked_.push_back({link, source, now, now});
             return true;
         }
         asked->heard = now;

@@ -604,7 +604,8 @@ def test_explain_of_one_message(net, named):
     assert len(re.findall("^[A-Z]", sut.router.process.stdout, re.MULTILINE)) == 1
 
 
-def test_routing_outlives_who_reads_the_explanations(spawn):
+def explaining_to_a_pipe(spawn):
+    """A router between two sockets: its process, the end of the pipe that it explains to, and what sends a frame through it and returns what came."""
     port, station = routers.udp_port(), harness.udp_socket()
     reading, writing = os.pipe()
     process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
@@ -616,6 +617,11 @@ def test_routing_outlives_who_reads_the_explanations(spawn):
         vehicle.sendto(attitude(VEHICLE), ("127.0.0.1", port))
         return station.recv(2048)
     process.wait_output("listening", stream="err")
+    return process, reading, passes
+
+
+def test_routing_outlives_who_reads_the_explanations(spawn):
+    process, reading, passes = explaining_to_a_pipe(spawn)
     assert passes() and os.read(reading, 100).startswith(b"ATTITUDE 1/1")
     os.close(reading)
     assert passes()
@@ -628,17 +634,10 @@ def test_routing_outlives_who_reads_the_explanations(spawn):
 
 @pytest.mark.parametrize("resumes", [False, True], ids=["for ever", "for a while"])
 def test_routing_does_not_wait_for_who_reads_the_explanations(spawn, resumes):
-    port, station = routers.udp_port(), harness.udp_socket()
-    reading, writing = os.pipe()
-    process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
-                    env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, stdout=writing)
-    os.close(writing)
-    vehicle = harness.udp_socket()
-    process.wait_output("listening", stream="err")
+    process, reading, passes = explaining_to_a_pipe(spawn)
     frames = 3000
     for _ in range(frames):
-        vehicle.sendto(attitude(VEHICLE), ("127.0.0.1", port))
-        assert station.recv(2048)
+        assert passes()
     process.wait_output("explanations are left out, and routing goes on", stream="err")
 
     with open(reading, "rb") as pipe:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the frames of a byte stream (TCP, serial) that arrives in chunks of any size; how it is chunked does not change what is found. Short
-// chunks are copied behind what is kept; of long ones only a frame that spans two, the others are reported in place. One owner thread; allocates nothing after
-// construction.
+// chunks are copied behind what is kept; of long ones only a frame that spans two, the others are reported in place. One owner thread;
+// allocates nothing after construction.
 //
 // A false start (a start byte in noise) may claim up to 280 bytes and so hold back real frames behind it at the end of a stream that fell
 // silent. After `hold` of silence `tick` gives such a start up, but only if an intact frame lies behind it: a true frame whose sender merely
