@@ -263,11 +263,12 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
     return whole;
 }
 
-// The head may be dropped again, and `oldest` had passed it by.
-void BlockQueue::rewind() noexcept {
+// The head may be dropped again, and `oldest` and `drop_superseded` had passed it by.
+void BlockQueue::rewind() {
     if (begun_ == 0) return;
     begun_ = 0;
     oldest_[entries_[head_].block_class] = head_;
+    if (jammed_) index_keys();
 }
 
 }  // namespace mavloom::net

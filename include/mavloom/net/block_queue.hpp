@@ -67,7 +67,7 @@ public:
     // whole block.
     [[nodiscard]] std::size_t pieces(std::span<iovec> room, std::size_t max_bytes = SIZE_MAX) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
-    void rewind() noexcept;
+    void rewind();
 
 private:
     struct Entry {

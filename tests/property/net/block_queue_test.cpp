@@ -26,7 +26,8 @@ struct Model {
     std::size_t max_bytes;
     std::deque<Block> blocks;
     std::size_t begun = 0;
-    // Numbers of blocks that a newer one superseded, in that order, since the first jam of what is queued.
+    // Numbers of blocks that a newer one superseded, in that order, since the first jam of what is queued or the
+    // last rewind.
     std::vector<std::size_t> superseded;
     bool jammed = false;
 
@@ -44,7 +45,11 @@ struct Model {
         }
     }
     void jam() {
-        if (std::exchange(jammed, true)) return;
+        if (!std::exchange(jammed, true)) find_superseded();
+    }
+    // Those of which a newer one is queued, in the order in which the newer ones came.
+    void find_superseded() {
+        superseded.clear();
         std::vector<Block> earlier;
         for (const Block& b : blocks) {
             if (b.key != 0) {
@@ -56,6 +61,10 @@ struct Model {
             }
             earlier.push_back(b);
         }
+    }
+    // What was pinned may go again.
+    void rewind() {
+        if (std::exchange(begun, 0) != 0 && jammed) find_superseded();
     }
     bool drop_one(std::uint8_t arriving) {
         while (!superseded.empty()) {
@@ -164,7 +173,7 @@ RC_GTEST_PROP(BlockQueue, DoesWhatASimpleListDoes, ()) {
             RC_ASSERT(queue.expire(now) == model.expire(now, limits));
         } else if (action == 8) {
             queue.rewind();
-            model.begun = 0;
+            model.rewind();
         } else if (!queue.empty()) {
             const std::size_t count = *rc::gen::inRange<std::size_t>(0, content(queue).size() + 1);
             (void)queue.consume(count);

@@ -230,5 +230,19 @@ TEST(BlockQueue, ARewoundBlockMakesRoom) {
     EXPECT_EQ(content(queue), "eeeeeeee");
 }
 
+TEST(BlockQueue, ARewoundBlockThatHasANewerOneGoesFirst) {
+    BlockQueue queue = queue_of(10);
+    push(queue, "aaa", 2, 1);
+    push(queue, "bbb", 2, 2);
+    push(queue, "A", 2, 1);
+    push(queue, "BB", 2, 2);
+    EXPECT_EQ(queue.consume(1), 0u);
+    EXPECT_EQ(push(queue, "cccc").dropped, 1u) << "bbb; aaa is begun";
+    EXPECT_EQ(content(queue), "aaABBcccc");
+    queue.rewind();
+    EXPECT_EQ(push(queue, "AAA", 2, 1).dropped, 1u) << "aaa, before the A that this one supersedes";
+    EXPECT_EQ(content(queue), "ABBccccAAA");
+}
+
 }  // namespace
 }  // namespace mavloom::net
