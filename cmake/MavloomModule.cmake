@@ -1,13 +1,27 @@
+# What nearly every file includes, compiled once (a third of a build's time). Only headers from outside, and every file still includes what it uses:
+# the preset `tidy` compiles without.
+set(mavloom_precompiled <algorithm> <array> <charconv> <chrono> <fmt/format.h> <functional> <memory> <optional> <span> <string> <string_view>
+    <tl/expected.hpp> <utility> <vector>)
+
+# mavloom_precompile(<target> <owner>): `owner` makes the headers, targets compiled with the same options share them.
+function(mavloom_precompile target owner)
+  if(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE ${mavloom_precompiled} ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
 # mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
 # A module without sources is an interface library.
 
-# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329).
+# -Wno-...: GCC 12 is wrong about std::string and std::vector (GCC bugs 105329, 105651).
 add_library(mavloom_warnings INTERFACE)
 target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-align
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
-                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
 function(mavloom_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
@@ -21,6 +35,7 @@ function(mavloom_module name)
     add_library(${target} ${sources})
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
+    mavloom_precompile(${target} mavloom_base)
   endif()
   add_library(mavloom::${name} ALIAS ${target})
   set_property(GLOBAL APPEND PROPERTY MAVLOOM_MODULES ${name})

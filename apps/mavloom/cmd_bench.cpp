@@ -127,31 +127,33 @@ Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
     return bench(options, *dialect, *recording);
 }
 
-CLI::App* declare_one(CLI::App& command, Options& options, const char* name, const char* description) {
-    auto* sub = command.add_subcommand(name, description);
-    sub->add_option("file", options.file, "a recording")->required()->type_name("FILE.tlog");
-    sub->add_option("--turns", options.turns, "how often to measure; the median counts")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 10'000));
-    sub->add_option("--chunk", options.chunk, "bytes handed to the parser at once")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 30));
-    sub->add_flag("--json", options.json, "one JSON object a line");
-    sub->footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));
+Arguments declare_one(Arguments command, Options& options, const char* name, const char* description) {
+    auto sub = command.add_subcommand(name, description);
+    sub.add_option("file", options.file, "a recording").required().type_name("FILE.tlog");
+    sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
+        .capture_default_str()
+        .type_name("N")
+        .range(1, 10'000);
+    sub.add_option("--chunk", options.chunk, "bytes handed to the parser at once")
+        .capture_default_str()
+        .type_name("BYTES")
+        .range(1, 1 << 30);
+    sub.add_flag("--json", options.json, "one JSON object a line");
+    sub.footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));
     return sub;
 }
 
 }  // namespace
 
-Run declare_bench(CLI::App& command, const Common& common) {
+Run declare_bench(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    auto* parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
+    auto parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
-    command.require_subcommand(1);
+    command.require_subcommand();
     command.footer(
         "Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
     return [options, parse, &common] {
-        return parse->parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
+        return parse.parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
     };
 }
 

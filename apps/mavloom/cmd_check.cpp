@@ -89,14 +89,14 @@ Exit convert(const Options& options) {
 
 }  // namespace
 
-Run declare_check(CLI::App& command, const Common& common) {
+Run declare_check(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    command.add_option("file", options->file, "a router's configuration (TOML)")->required()->type_name("FILE");
-    auto* json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
+    command.add_option("file", options->file, "a router's configuration (TOML)").required().type_name("FILE");
+    auto json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
     command
         .add_flag("--convert", options->convert,
                   "FILE is a configuration of mavlink-router: print ours, and name what it cannot carry over")
-        ->excludes(json);
+        .excludes(json);
     command.footer(
         "Prints every effective value and where it came from: default, FILE:LINE, or a variable of the environment "
         "(MAVLOOM_ROUTER_DEDUP_MS\n"

@@ -139,16 +139,16 @@ Exit stat(const StatOptions& options) {
 
 }  // namespace
 
-Run declare_ctl(CLI::App& command, const Common&) {
+Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();
     command.add_option("name", options->name, "the router's --name (router unless it was given one)")
-        ->required()
-        ->type_name("NAME");
+        .required()
+        .type_name("NAME");
     command.add_option("action", options->action, "links, routes, stats, add URL or remove NAME")
-        ->required()
-        ->check(CLI::IsMember({"links", "routes", "stats", "add", "remove"}))
-        ->type_name("ACTION");
-    command.add_option("argument", options->argument, "what to add or remove")->type_name("ARGUMENT");
+        .required()
+        .members({"links", "routes", "stats", "add", "remove"})
+        .type_name("ACTION");
+    command.add_option("argument", options->argument, "what to add or remove").type_name("ARGUMENT");
     command.footer(
         "Answers are JSON, one object a line (docs/guide/route.md).\n\nExamples:\n"
         "  mavloom ctl router links\n"
@@ -157,9 +157,9 @@ Run declare_ctl(CLI::App& command, const Common&) {
     return [options] { return ctl(*options); };
 }
 
-Run declare_stat(CLI::App& command, const Common&) {
+Run declare_stat(Arguments command, const Common&) {
     auto options = std::make_shared<StatOptions>();
-    command.add_option("name", options->name, "the router's --name")->capture_default_str()->type_name("NAME");
+    command.add_option("name", options->name, "the router's --name").capture_default_str().type_name("NAME");
     command.add_flag("--json", options->json, "one JSON object a line, as `ctl NAME stats`");
     command.footer("Example: mavloom stat router");
     return [options] { return stat(*options); };

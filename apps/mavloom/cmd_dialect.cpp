@@ -131,34 +131,34 @@ Exit run_check(const Options& options) {
 
 }  // namespace
 
-Run declare_dialect(CLI::App& command, const Common& common) {
+Run declare_dialect(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    command.require_subcommand(1);
+    command.require_subcommand();
     command.footer(
         "Examples: mavloom dialect show ATTITUDE\n"
         "          mavloom dialect show MAV_CMD_NAV_WAYPOINT\n"
         "          mavloom dialect check mine.xml");
     const auto part = [&](const char* name, const char* description, const char* examples) {
-        auto* added = command.add_subcommand(name, description);
-        added->fallthrough();
-        added->footer(examples);
-        added->add_flag("--json", options->json, "one JSON object a line");
+        auto added = command.add_subcommand(name, description);
+        added.fallthrough();
+        added.footer(examples);
+        added.add_flag("--json", options->json, "one JSON object a line");
         return added;
     };
-    auto* list = part("list", "all messages: id, name, payload bytes (without..with extensions), file",
-                      "Examples: mavloom dialect list\n"
-                      "          mavloom dialect list --dialect mine.xml --json");
-    auto* show = part("show", "a message by name or id, an enum, or an entry of an enum, commands with their parameters",
-                      "Examples: mavloom dialect show ATTITUDE\n"
-                      "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
-    show->add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT")->required();
-    auto* check = part("check", "read an XML file and what it includes; status 3 when there is a fault",
-                       "Example: mavloom dialect check mine.xml");
-    check->add_option("FILE", options->file, "message definitions in MAVLink's XML")->required();
+    auto list = part("list", "all messages: id, name, payload bytes (without..with extensions), file",
+                     "Examples: mavloom dialect list\n"
+                     "          mavloom dialect list --dialect mine.xml --json");
+    auto show = part("show", "a message by name or id, an enum, or an entry of an enum, commands with their parameters",
+                     "Examples: mavloom dialect show ATTITUDE\n"
+                     "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
+    show.add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT").required();
+    auto check = part("check", "read an XML file and what it includes; status 3 when there is a fault",
+                      "Example: mavloom dialect check mine.xml");
+    check.add_option("FILE", options->file, "message definitions in MAVLink's XML").required();
     return [&common, options, list, show, check] {
-        if (list->parsed()) return run_list(common, *options);
-        if (show->parsed()) return run_show(common, *options);
-        return check->parsed() ? run_check(*options) : Exit::wrong_use;
+        if (list.parsed()) return run_list(common, *options);
+        if (show.parsed()) return run_show(common, *options);
+        return check.parsed() ? run_check(*options) : Exit::wrong_use;
     };
 }
 

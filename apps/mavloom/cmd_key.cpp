@@ -14,12 +14,12 @@ static Exit create_key(const Common& common, const std::string& file) {
     return Exit::done;
 }
 
-Run declare_key(CLI::App& command, const Common& common) {
+Run declare_key(Arguments command, const Common& common) {
     auto file = std::make_shared<std::string>();
-    auto* create = command.add_subcommand("new", "write a new random signing key to a file of mode 0600");
-    create->add_option("file", *file, "the file to make")->required()->type_name("FILE");
-    create->footer("Example: mavloom key new link.key");
-    command.require_subcommand(1);
+    auto create = command.add_subcommand("new", "write a new random signing key to a file of mode 0600");
+    create.add_option("file", *file, "the file to make").required().type_name("FILE");
+    create.footer("Example: mavloom key new link.key");
+    command.require_subcommand();
     command.footer(
         "Keys sign and verify MAVLink 2: sign=FILE and verify=FILE of an endpoint, relay --sign FILE.\n\n"
         "Example: mavloom key new link.key");

@@ -147,14 +147,14 @@ Exit listen(const Common& common, Options& options) {
 
 }  // namespace
 
-Run declare_listen(CLI::App& command, const Common& common) {
+Run declare_listen(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
     options->receive.declare(command);
     options->selection.declare(command);
-    auto* json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
+    auto json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
     command.add_option("--csv", options->csv, "one message, by name or id, as CSV: a header, then a row each")
-        ->type_name("MESSAGE")
-        ->excludes(json);
+        .type_name("MESSAGE")
+        .excludes(json);
     command.add_flag("--stats", options->stats, "end with a table: rates, gaps, bytes and loss by source and message");
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "

@@ -82,7 +82,7 @@ Exit record(const Common& common, Options& options) {
 
 }  // namespace
 
-Run declare_record(CLI::App& command, const Common& common) {
+Run declare_record(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
     options->receive.declare(command);
     options->selection.declare(command);
@@ -91,8 +91,8 @@ Run declare_record(CLI::App& command, const Common& common) {
                     "the file to write; an existing one is first renamed FILE.1. FILE.tlog?rotate_bytes=100M or "
                     "?rotate_every=1h goes "
                     "on in new files")
-        ->required()
-        ->type_name("FILE");
+        .required()
+        .type_name("FILE");
     command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.footer(
         "Records every good frame with the kernel's receive time, in the tlog format (docs/formats/tlog.md).\n\n"

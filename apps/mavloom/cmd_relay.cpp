@@ -188,37 +188,37 @@ Exit relay(const Common& common, Options& options) {
 
 }  // namespace
 
-Run declare_relay(CLI::App& command, const Common& common) {
+Run declare_relay(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
     auto& edit = options->edit;
-    command.add_option("source", options->sources, "where to receive")->required()->type_name("SOURCE");
-    command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
+    command.add_option("source", options->sources, "where to receive").required().type_name("SOURCE");
+    command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
     command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")
-        ->type_name("MESSAGE.FIELD=VALUE");
+        .type_name("MESSAGE.FIELD=VALUE");
     command
         .add_option("--remap-system", edit.remap_system,
                     "change system id A to B, and back in what the far side answers")
-        ->type_name("A=B");
+        .type_name("A=B");
     command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")
-        ->delimiter(',')
-        ->type_name("NAMES");
+        .delimiter(',')
+        .type_name("NAMES");
     command.add_option("--max-rate", edit.max_rate, "at most this many a second of each source: ATTITUDE:10,*:50")
-        ->delimiter(',')
-        ->type_name("MESSAGE:HZ");
-    auto* v1 = command.add_flag("--as-v1", options->as_v1,
-                                "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
-    command.add_flag("--as-v2", options->as_v2, "send MAVLink 2")->excludes(v1);
-    auto* sign = command.add_option("--sign", options->sign_file,
-                                    "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)");
-    sign->type_name("FILE")->excludes(v1);
+        .delimiter(',')
+        .type_name("MESSAGE:HZ");
+    auto v1 = command.add_flag("--as-v1", options->as_v1,
+                               "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
+    command.add_flag("--as-v2", options->as_v2, "send MAVLink 2").excludes(v1);
+    auto sign = command.add_option("--sign", options->sign_file,
+                                   "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)");
+    sign.type_name("FILE").excludes(v1);
     command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
-        ->capture_default_str()
-        ->type_name("N")
-        ->check(CLI::Range(0, 255).description(""))
-        ->needs(sign);
+        .default_str("0")
+        .type_name("N")
+        .range(0, 255)
+        .needs(sign);
     command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
     command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
-    command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
+    command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Without options what comes out is byte for byte what went in. What the far side answers goes "
         "back.\n\nExamples:\n"

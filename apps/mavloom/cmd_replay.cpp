@@ -158,16 +158,16 @@ Exit replay(const Common& common, Options& options) {
 
 }  // namespace
 
-Run declare_replay(CLI::App& command, const Common& common) {
+Run declare_replay(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    command.add_option("file", options->file, "the recording")->required()->type_name("FILE.tlog");
-    command.add_option("--to", options->to, "where to send; may be repeated")->required()->type_name("ENDPOINT");
+    command.add_option("file", options->file, "the recording").required().type_name("FILE.tlog");
+    command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
     command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")
-        ->default_str("1")
-        ->type_name("N|max");
+        .default_str("1")
+        .type_name("N|max");
     command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
-        ->type_name("TIME");
-    command.add_option("--for", options->duration, "end after this time")->type_name("TIME");
+        .type_name("TIME");
+    command.add_option("--for", options->duration, "end after this time").type_name("TIME");
     command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
     options->selection.declare(command);
     command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");

@@ -270,24 +270,24 @@ Exit route(const Common& common, const Options& options) {
 
 }  // namespace
 
-Run declare_route(CLI::App& command, const Common& common) {
+Run declare_route(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    command.add_option("endpoint", options->endpoints, "what to route between; any number")->type_name("ENDPOINT");
+    command.add_option("endpoint", options->endpoints, "what to route between; any number").type_name("ENDPOINT");
     command
         .add_option("--config", options->config,
                     "a configuration file (docs/guide/configuration.md); SIGHUP reads it again")
-        ->type_name("FILE");
+        .type_name("FILE");
     command
         .add_option("--explain", options->explain,
                     "say on stdout for every frame, or for those of one message, where it went and why")
-        ->expected(0, 1)
-        ->default_str("*")
-        ->type_name("[MESSAGE]");
+        .expected(0, 1)
+        .default_str("*")
+        .type_name("[MESSAGE]");
     command.add_option("--name", options->name, "what `mavloom ctl` and `stat` call it by: A-Z a-z 0-9 _ - (router)")
-        ->type_name("NAME");
+        .type_name("NAME");
     command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
-        ->type_name("HOST:PORT");
-    command.add_option("--for", options->duration, "end after this time: 10s, 2m")->type_name("TIME");
+        .type_name("HOST:PORT");
+    command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Every frame goes on as it came, byte for byte: broadcasts to all other links, targeted ones to where their "
         "target was heard.\nEach peer of udpin:// and client of tcpin:// is a link of its own. tlog://PATH records all "

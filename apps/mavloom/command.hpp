@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// One subcommand a file: each gives a function that declares its options on a CLI11 subcommand and returns what to run once they are parsed.
+// One subcommand a file: each gives a function that declares its options and returns what to run once they are parsed.
 // The table in main.cpp is the list of commands, and help comes from it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "arguments.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
 
@@ -36,7 +36,7 @@ struct Common {
 
 using Run = std::function<Exit()>;
 // Declares options and returns the function to run. `common` lives as long as the program.
-using Declare = Run (*)(CLI::App& command, const Common& common);
+using Declare = Run (*)(Arguments command, const Common& common);
 
 struct Command {
     std::string_view name;
@@ -45,17 +45,17 @@ struct Command {
     bool uses_dialect = true;  // takes --dialect
 };
 
-Run declare_route(CLI::App&, const Common&);
-Run declare_ctl(CLI::App&, const Common&);
-Run declare_stat(CLI::App&, const Common&);
-Run declare_key(CLI::App&, const Common&);
-Run declare_listen(CLI::App&, const Common&);
-Run declare_relay(CLI::App&, const Common&);
-Run declare_record(CLI::App&, const Common&);
-Run declare_replay(CLI::App&, const Common&);
-Run declare_dialect(CLI::App&, const Common&);
-Run declare_check(CLI::App&, const Common&);
-Run declare_bench(CLI::App&, const Common&);
+Run declare_route(Arguments, const Common&);
+Run declare_ctl(Arguments, const Common&);
+Run declare_stat(Arguments, const Common&);
+Run declare_key(Arguments, const Common&);
+Run declare_listen(Arguments, const Common&);
+Run declare_relay(Arguments, const Common&);
+Run declare_record(Arguments, const Common&);
+Run declare_replay(Arguments, const Common&);
+Run declare_dialect(Arguments, const Common&);
+Run declare_check(Arguments, const Common&);
+Run declare_bench(Arguments, const Common&);
 
 // Prints "mavloom: TEXT" to stderr and gives the status that belongs to the kind of error.
 Exit fail(const SetupError& error);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -121,7 +122,7 @@ Exit run(int argc, char** argv) {
     for (const auto& command : commands) {
         CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.description));
         add_common(*sub, common, command.uses_dialect);
-        runs.emplace_back(sub, command.declare(*sub, common));
+        runs.emplace_back(sub, command.declare(Arguments(sub), common));
         refuse_empty_values(*sub);
     }
     try {

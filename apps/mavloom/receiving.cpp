@@ -24,11 +24,11 @@ std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
 
 }  // namespace
 
-void Selection::declare(CLI::App& command) {
+void Selection::declare(Arguments command) {
     command.add_option("--only", only, "these messages only: names or ids, separated by commas")
-        ->delimiter(',')
-        ->type_name("NAMES");
-    command.add_option("--from", from, "from this system, or this component of it, only")->type_name("SYS[/COMP]");
+        .delimiter(',')
+        .type_name("NAMES");
+    command.add_option("--from", from, "from this system, or this component of it, only").type_name("SYS[/COMP]");
 }
 
 SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
@@ -56,20 +56,20 @@ bool Selection::takes(const wire::FrameView& frame) const noexcept {
     return ids_.empty() || std::ranges::binary_search(ids_, frame.id());
 }
 
-void ReceiveOptions::declare(CLI::App& command) {
+void ReceiveOptions::declare(Arguments command) {
     command
         .add_option(
             "source", sources,
             "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, flight.tlog, ... (docs/guide/endpoints.md)")
-        ->required()
-        ->type_name("SOURCE");
-    command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms")->type_name("TIME");
-    command.add_option("--count", count_text, "end after this many messages")->type_name("N");
+        .required()
+        .type_name("SOURCE");
+    command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms").type_name("TIME");
+    command.add_option("--count", count_text, "end after this many messages").type_name("N");
     command
         .add_option("--buffer", buffer,
                     "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
-        ->capture_default_str()
-        ->type_name("BYTES");
+        .capture_default_str()
+        .type_name("BYTES");
 }
 
 SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common,

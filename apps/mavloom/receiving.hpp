@@ -18,7 +18,7 @@ public:
     std::vector<std::string> only;  // message names or ids, separated by commas
     std::string from;               // SYS or SYS/COMP
 
-    void declare(CLI::App& command);
+    void declare(Arguments command);
     // Resolves the words; an unknown name is an error with the nearest one.
     [[nodiscard]] SetupResult<void> resolve(const dialect::Dialect& dialect);
     [[nodiscard]] bool takes(const wire::FrameView& frame) const noexcept;
@@ -36,7 +36,7 @@ struct ReceiveOptions {
     std::string count_text;
     std::uint64_t count = 0;  // 0: no bound; set by `open`
 
-    void declare(CLI::App& command);
+    void declare(Arguments command);
     [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common,
                                                                        const dialect::Dialect& dialect);
     // When --for ends; the end of time without it. Call after `open`, which has checked the words.

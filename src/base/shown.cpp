@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/base/shown.hpp"
 
+#include <fmt/format.h>
+
 namespace mavloom {
 
 std::string printable(std::string_view text) {
@@ -23,6 +25,6 @@ std::string shown(std::string_view text) {
     return result;
 }
 
-std::string in_quotes(std::string_view text) { return "'" + shown(text) + "'"; }
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", shown(text)); }
 
 }  // namespace mavloom

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What a command declares, in CLI11's words. CLI11 itself is seen by arguments.cpp and main.cpp only: its headers add six seconds to the compilation of
+// every file that includes them. Both classes are handles, copied freely; what they stand for lives as long as the program.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 calls it so
+class App;
+class Option;
+}  // namespace CLI
+
+namespace mavloom::app {
+
+class Option {
+public:
+    explicit Option(CLI::Option* option) : option_(option) {}
+
+    Option required();
+    Option type_name(const std::string& name);
+    Option capture_default_str();
+    Option default_str(const std::string& text);
+    Option expected(int fewest, int most);
+    Option delimiter(char separator);
+    Option range(int lowest, int highest);
+    Option members(const std::vector<std::string>& words);
+    Option excludes(Option other);
+    Option needs(Option other);
+
+private:
+    CLI::Option* option_;
+};
+
+class Arguments {
+public:
+    explicit Arguments(CLI::App* command) : command_(command) {}
+
+    // A name without dashes is positional. The variable must live until the command has run.
+    Option add_option(const std::string& name, std::string& value, const std::string& description);
+    Option add_option(const std::string& name, std::vector<std::string>& values, const std::string& description);
+    Option add_option(const std::string& name, int& value, const std::string& description);
+    Option add_option(const std::string& name, std::size_t& value, const std::string& description);
+    Option add_option(const std::string& name, std::uint8_t& value, const std::string& description);
+    Option add_flag(const std::string& name, bool& value, const std::string& description);
+
+    Arguments add_subcommand(const std::string& name, const std::string& description);
+    void require_subcommand();
+    void fallthrough();
+    [[nodiscard]] bool parsed() const;
+
+    void footer(const std::string& text);
+
+private:
+    CLI::App* command_;
+};
+
+}  // namespace mavloom::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/control_sessions.hpp"
+
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+#include <istream>
+
+namespace mavloom::runtime {
+
+void ControlSession::read() {
+    asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->ask();
+    });
+}
+
+void ControlSession::ask() {
+    std::string line;
+    std::istream stream(&input_);
+    std::getline(stream, line);
+    on_router(
+        router_, socket_.get_executor(), [line](Router& r) { return answer_request(r, line); },
+        [self = shared_from_this()](const Later<Lines>& answer) { self->write(answer()); });
+}
+
+void ControlSession::write(const Lines& lines) {
+    output_.clear();
+    for (const auto& line : lines) output_.append(line).push_back('\n');
+    asio::async_write(socket_, asio::buffer(output_), [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->read();
+    });
+}
+
+}  // namespace mavloom::runtime

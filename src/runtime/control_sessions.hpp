@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// The two kinds of client that control.cpp accepts. Each keeps itself alive until its client has gone.
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/streambuf.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "mavloom/runtime/router.hpp"
+#include "mavloom/runtime/router_report.hpp"
+
+namespace mavloom::runtime {
+
+namespace asio = boost::asio;
+using Local = asio::local::stream_protocol;
+using Tcp = asio::ip::tcp;
+using boost::system::error_code;
+
+// Work for the router's thread whose result comes back to this one. A session that ended meanwhile is kept by its own pointer.
+template <class Ask, class Then>
+void on_router(Router& router, const asio::any_io_executor& back, Ask ask, Then then) {
+    router.post([ask = std::move(ask), then = std::move(then), back](Router& r) mutable {
+        asio::post(back, [result = ask(r), then = std::move(then)]() mutable { then(std::move(result)); });
+    });
+}
+
+constexpr std::size_t longest_request = 64 * 1024, longest_http_header = 8 * 1024;
+
+// One client of the socket: a request, its answer, the next request.
+class ControlSession : public std::enable_shared_from_this<ControlSession> {
+public:
+    ControlSession(Local::socket socket, Router& router, std::shared_ptr<void> place)
+        : socket_(std::move(socket)), router_(router), place_(std::move(place)) {}
+
+    void read();
+
+private:
+    void ask();
+    void write(const Lines& lines);
+
+    Local::socket socket_;
+    Router& router_;
+    std::shared_ptr<void> place_;  // one of most_sessions
+    asio::streambuf input_{longest_request};
+    std::string output_;
+};
+
+// One client over HTTP: the same, and it has to say something within http_patience.
+class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
+public:
+    MetricsSession(Tcp::socket socket, Router& router, std::shared_ptr<void> place)
+        : socket_(std::move(socket)), deadline_(socket_.get_executor()), router_(router), place_(std::move(place)) {}
+
+    void read();
+
+private:
+    struct Request;
+
+    void hang_up_later();
+    void handle();
+    void answer(const Request& request);
+    void write(const Request& request, std::string_view status, std::string_view body);
+
+    Tcp::socket socket_;
+    asio::steady_timer deadline_;
+    Router& router_;
+    std::shared_ptr<void> place_;
+    asio::streambuf input_{longest_http_header};
+    std::string output_;
+};
+
+}  // namespace mavloom::runtime

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <chrono>
+
+#include "runtime/control_sessions.hpp"
+
+namespace mavloom::runtime {
+
+namespace http = boost::beast::http;
+
+constexpr auto http_patience = std::chrono::seconds(10);
+
+struct MetricsSession::Request {
+    http::verb method;
+    std::string target;
+    unsigned version;  // 10 or 11
+    bool keep_alive;
+};
+
+void MetricsSession::read() {
+    hang_up_later();
+    asio::async_read_until(socket_, input_, "\r\n\r\n", [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->handle();
+    });
+}
+
+// What waits on the socket then fails, and the last to hold the session lets it go.
+void MetricsSession::hang_up_later() {
+    deadline_.expires_after(http_patience);
+    deadline_.async_wait([weak = weak_from_this()](error_code error) {
+        const auto self = weak.lock();
+        if (!error && self) self->socket_.close(error);
+    });
+}
+
+void MetricsSession::handle() {
+    http::request_parser<http::empty_body> parser;
+    error_code error;
+    input_.consume(parser.put(input_.data(), error));
+    if (error || !parser.is_done()) return;
+    const auto& head = parser.get();
+    answer({head.method(), std::string(head.target()), head.version(), parser.keep_alive()});
+}
+
+void MetricsSession::answer(const Request& request) {
+    if (request.method != http::verb::get) return write(request, "405 Method Not Allowed", "GET only\n");
+    if (request.target != "/metrics") return write(request, "404 Not Found", "metrics are at /metrics\n");
+    on_router(
+        router_, socket_.get_executor(), [](Router& r) { return report_metrics(r); },
+        [self = shared_from_this(), request](const Later<std::string>& text) { self->write(request, "200 OK", text()); });
+}
+
+void MetricsSession::write(const Request& request, std::string_view status, std::string_view body) {
+    output_ = fmt::format(
+        "HTTP/{}.{} {}\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nContent-Length: {}\r\n"
+        "Connection: {}\r\n\r\n{}",
+        request.version / 10, request.version % 10, status, body.size(), request.keep_alive ? "keep-alive" : "close",
+        body);
+    hang_up_later();
+    const auto then = [self = shared_from_this(), goes_on = request.keep_alive](error_code error, std::size_t) {
+        if (!error && goes_on) self->read();
+    };
+    asio::async_write(socket_, asio::buffer(output_), then);
+}
+
+}  // namespace mavloom::runtime
