@@ -1,9 +1,10 @@
-# What nearly every file includes, compiled once (a third of a build's time). Only headers from outside, and every file still includes what it uses:
-# the preset `tidy` compiles without.
+# What nearly every file includes, compiled once (a third of a build's time). Only headers from outside, and files still include what they use: the
+# preset `tidy` compiles the library and the program without.
 set(mavloom_precompiled <algorithm> <array> <charconv> <chrono> <fmt/format.h> <functional> <memory> <optional> <span> <string> <string_view>
     <tl/expected.hpp> <utility> <vector>)
 
-# mavloom_precompile(<target> <owner>): `owner` makes the headers, targets compiled with the same options share them.
+# mavloom_precompile(<target> <owner> [<header>...]): `owner` makes the headers, others share them. All must be optimised alike: GCC 12 takes the level
+# from what was precompiled, or crashes.
 function(mavloom_precompile target owner)
   if(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE ${mavloom_precompiled} ${ARGN})
@@ -12,19 +13,20 @@ function(mavloom_precompile target owner)
   endif()
 endfunction()
 
-# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...])
+# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
-# A module without sources is an interface library.
+# A module without sources is an interface library. OCCASIONAL sources, names without .cpp, run once or beside the work: optimised further than -O1 they
+# would compile half as long again and speed up nothing that counts.
 
-# -Wno-...: GCC 12 is wrong about std::string and std::vector (GCC bugs 105329, 105651).
+# -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329).
 add_library(mavloom_warnings INTERFACE)
 target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-align
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
-                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
 function(mavloom_module name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;OCCASIONAL" ${ARGN})
   set(target mavloom_${name})
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
   set(scope PUBLIC)
@@ -32,6 +34,8 @@ function(mavloom_module name)
     set(scope INTERFACE)
     add_library(${target} INTERFACE)
   else()
+    list(TRANSFORM arg_OCCASIONAL REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/${name}/\\1.cpp")
+    list(REMOVE_ITEM sources ${arg_OCCASIONAL} "")
     add_library(${target} ${sources})
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
@@ -39,12 +43,22 @@ function(mavloom_module name)
   endif()
   add_library(mavloom::${name} ALIAS ${target})
   set_property(GLOBAL APPEND PROPERTY MAVLOOM_MODULES ${name})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL "")
   target_compile_features(${target} ${scope} cxx_std_20)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/mavloom/${name}/*.hpp")
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})
   list(TRANSFORM arg_DEPENDS PREPEND mavloom::)
   target_link_libraries(${target} ${scope} ${arg_DEPENDS} ${arg_LINK})
+  if(arg_OCCASIONAL)
+    add_library(${target}_occasional OBJECT ${arg_OCCASIONAL})
+    set_target_properties(${target}_occasional PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_features(${target}_occasional PRIVATE cxx_std_20)
+    target_compile_options(${target}_occasional PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
+    target_include_directories(${target}_occasional PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(${target}_occasional PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
+    mavloom_precompile(${target}_occasional ${target}_occasional)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_occasional>)
+  endif()
   if(MAVLOOM_INSTALL)
     install(TARGETS ${target} EXPORT mavloomTargets COMPONENT mavloom_development FILE_SET HEADERS COMPONENT mavloom_development)
   endif()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a command declares, in CLI11's words. CLI11 itself is seen by arguments.cpp and main.cpp only: its headers add six seconds to the compilation of
-// every file that includes them. Both classes are handles, copied freely; what they stand for lives as long as the program.
+// every file that includes them. Both classes are handles, copied freely; what they stand for lives until the command has run.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
 
 #include "command.hpp"
 #include "counted.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -212,7 +213,7 @@ Run declare_relay(Arguments command, const Common& common) {
                                    "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)");
     sign.type_name("FILE").excludes(v1);
     command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
-        .default_str("0")
+        .default_str(std::to_string(edit.sign_link_id))
         .type_name("N")
         .range(0, 255)
         .needs(sign);

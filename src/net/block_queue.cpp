@@ -106,7 +106,7 @@ void BlockQueue::reset() noexcept {
     head_ = tail_ = begun_ = bytes_ = blocks_ = 0;
     class_bytes_.fill(0);
     oldest_.fill(0);
-    if (!jammed_) return;
+    if (newest_.empty()) return;
     jammed_ = false;
     newest_ = {};
     superseded_ = {};
@@ -263,12 +263,12 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
     return whole;
 }
 
-// The head may be dropped again, and `oldest` and `drop_superseded` had passed it by.
-void BlockQueue::rewind() {
+// The head may be dropped again, and `oldest` and `drop_superseded` had passed it by: the next jam looks at all of them anew.
+void BlockQueue::rewind() noexcept {
     if (begun_ == 0) return;
     begun_ = 0;
     oldest_[entries_[head_].block_class] = head_;
-    if (jammed_) index_keys();
+    jammed_ = false;
 }
 
 }  // namespace mavloom::net

@@ -9,6 +9,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "runtime/control_sessions.hpp"

@@ -2,13 +2,16 @@
 // The two kinds of client that control.cpp accepts. Each keeps itself alive until its client has gone.
 #pragma once
 
+#include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/streambuf.hpp>
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "mavloom/runtime/router.hpp"
@@ -50,7 +53,7 @@ private:
     std::string output_;
 };
 
-// One client over HTTP: the same, and it has to say something within http_patience.
+// One client over HTTP: the same, and it has to send its request, and to take the answer, within ten seconds.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
     MetricsSession(Tcp::socket socket, Router& router, std::shared_ptr<void> place)

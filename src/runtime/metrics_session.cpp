@@ -6,6 +6,8 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <chrono>
+#include <string>
+#include <string_view>
 
 #include "runtime/control_sessions.hpp"
 
@@ -29,16 +31,19 @@ void MetricsSession::read() {
     });
 }
 
-// What waits on the socket then fails, and the last to hold the session lets it go.
+// What waits on the socket then fails, and the last to hold the session lets it go. A wait that has ended but not been told yet is not cancelled by a
+// new one: it looks at the time.
 void MetricsSession::hang_up_later() {
     deadline_.expires_after(http_patience);
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
         const auto self = weak.lock();
-        if (!error && self) self->socket_.close(error);
+        const bool is_over = !error && self && self->deadline_.expiry() <= std::chrono::steady_clock::now();
+        if (is_over) self->socket_.close(error);
     });
 }
 
 void MetricsSession::handle() {
+    deadline_.expires_at(asio::steady_timer::time_point::max());  // the router's time is not the client's
     http::request_parser<http::empty_body> parser;
     error_code error;
     input_.consume(parser.put(input_.data(), error));
@@ -48,7 +53,7 @@ void MetricsSession::handle() {
 }
 
 void MetricsSession::answer(const Request& request) {
-    if (request.method != http::verb::get) return write(request, "405 Method Not Allowed", "GET only\n");
+    if (request.method != http::verb::get) return write(request, "405 Method Not Allowed\r\nAllow: GET", "GET only\n");
     if (request.target != "/metrics") return write(request, "404 Not Found", "metrics are at /metrics\n");
     on_router(
         router_, socket_.get_executor(), [](Router& r) { return report_metrics(r); },
@@ -60,7 +65,7 @@ void MetricsSession::write(const Request& request, std::string_view status, std:
         "HTTP/{}.{} {}\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nContent-Length: {}\r\n"
         "Connection: {}\r\n\r\n{}",
         request.version / 10, request.version % 10, status, body.size(), request.keep_alive ? "keep-alive" : "close",
-        body);
+        request.method == http::verb::head ? "" : body);
     hang_up_later();
     const auto then = [self = shared_from_this(), goes_on = request.keep_alive](error_code error, std::size_t) {
         if (!error && goes_on) self->read();

@@ -67,7 +67,7 @@ public:
     // whole block.
     [[nodiscard]] std::size_t pieces(std::span<iovec> room, std::size_t max_bytes = SIZE_MAX) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
-    void rewind();
+    void rewind() noexcept;
 
 private:
     struct Entry {
@@ -109,7 +109,7 @@ private:
     std::array<std::size_t, classes> class_bytes_{};
     std::array<std::size_t, classes> oldest_{};  // where to look for the oldest of each class: none lies before
 
-    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty: the newest block of each key,
+    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty or rewound: the newest block of each key,
     // and those that have a newer one, in the order in which they were superseded.
     bool jammed_ = false;
     std::vector<Newest> newest_;

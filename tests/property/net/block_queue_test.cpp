@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "support/seed.hpp"
@@ -26,8 +27,8 @@ struct Model {
     std::size_t max_bytes;
     std::deque<Block> blocks;
     std::size_t begun = 0;
-    // Numbers of blocks that a newer one superseded, in that order, since the first jam of what is queued or the
-    // last rewind.
+    // Numbers of blocks that a newer one superseded, in that order, since the first jam of what is queued or, if
+    // that is later, the first after the last rewind.
     std::vector<std::size_t> superseded;
     bool jammed = false;
 
@@ -44,11 +45,9 @@ struct Model {
             return;
         }
     }
-    void jam() {
-        if (!std::exchange(jammed, true)) find_superseded();
-    }
     // Those of which a newer one is queued, in the order in which the newer ones came.
-    void find_superseded() {
+    void jam() {
+        if (std::exchange(jammed, true)) return;
         superseded.clear();
         std::vector<Block> earlier;
         for (const Block& b : blocks) {
@@ -64,7 +63,7 @@ struct Model {
     }
     // What was pinned may go again.
     void rewind() {
-        if (std::exchange(begun, 0) != 0 && jammed) find_superseded();
+        if (std::exchange(begun, 0) != 0) jammed = false;
     }
     bool drop_one(std::uint8_t arriving) {
         while (!superseded.empty()) {
