@@ -142,6 +142,7 @@ Arguments declare_one(Arguments command, Options& options, const char* name, con
         .type_name("BYTES")
         .range(1, 1 << 30);
     sub.add_flag("--json", options.json, "one JSON object a line");
+    sub.fallthrough();
     sub.footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));
     return sub;
 }

@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "command.hpp"
 #include "counted.hpp"
@@ -101,6 +103,8 @@ private:
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
+        if (!options_.start.empty() && destinations_.sent() == 0 && !destinations_.lost_any())
+            say(common_, fmt::format("nothing lies behind --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
             say(common_,
                 fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
@@ -120,6 +124,16 @@ private:
     MonoTime next_progress_{};
     bool progress_shown_ = false;
 };
+
+// A destination of the recording's own name would rename what is to be read.
+bool is_written_over(const runtime::Endpoint& recording, const std::vector<std::string>& to) {
+    return std::ranges::any_of(to, [&](const std::string& text) {
+        const auto endpoint = runtime::parse_endpoint(text);
+        std::error_code none;
+        return endpoint && endpoint->scheme == runtime::Scheme::tlog &&
+               std::filesystem::equivalent(endpoint->path, recording.path, none);
+    });
+}
 
 Exit replay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
@@ -146,6 +160,8 @@ Exit replay(const Common& common, Options& options) {
     auto sources = runtime::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
     if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
+    if (is_written_over(*endpoint, options.to))
+        return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; name another file", options.file));
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());

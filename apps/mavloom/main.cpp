@@ -43,7 +43,7 @@ constexpr std::string_view footer =
     "signal.";
 
 void add_common(CLI::App& command, Common& common, bool uses_dialect) {
-    command.add_flag("-v,--verbose", common.verbose, "say more on stderr; may be repeated");
+    command.add_flag("-v,--verbose", common.verbose, "say more on stderr (relay and route do)");
     command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
     if (!uses_dialect) return;
     command
@@ -173,9 +173,9 @@ void say(const Common& common, std::string_view text) {
     if (!common.quiet) tell(fmt::format("mavloom: {}", text));
 }
 
-// A program that was started with one of them closed would give its number to the first socket it opens.
+// A program that was started with one of them closed would give its number to the first socket it opens. Writing there stays an error.
 void keep_standard_descriptors() noexcept {
-    for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
+    for (int fd = ::open("/dev/null", O_RDONLY); fd >= 0; fd = ::open("/dev/null", O_RDONLY)) {
         if (fd <= STDERR_FILENO) continue;
         ::close(fd);
         return;

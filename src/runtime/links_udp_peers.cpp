@@ -29,15 +29,18 @@ std::size_t UdpPeers::queued_bytes() const {
 }
 
 // With verify= a good signature vouches for the sender; without, the checksum of a defined message does: an id without definition alone does
-// not.
+// not. Frames with a wrong signature are counted as those of a peer that went at once.
 bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
     bool found = false;
+    std::uint64_t refused = 0;
     stranger_.parse(datagram.bytes, [&](const wire::ParseEvent& event) {
         if (found || event.kind != wire::ParseEvent::Kind::frame) return;
         found = verifies ? signature->vouches(event.frame, receive_time(datagram)) : event.info != nullptr;
+        if (verifies && !found) ++refused;
     });
+    if (!found) endpoint_.counters.gone.bad_signature.add(refused);
     return found;
 }
 

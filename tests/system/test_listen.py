@@ -396,6 +396,27 @@ def test_a_stderr_that_takes_nothing_harms_nobody(program, command):
     assert full_disk.returncode in (0, 3, 4) and closed.returncode == full_disk.returncode
 
 
+@pytest.mark.parametrize("command", ["listen {log} --json", "dialect list", "replay {log} --speed max --to tlog:///dev/null --json"])
+def test_a_closed_stdout_is_an_error(program, command):
+    arguments = command.format(log=frames.FLIGHT).split()
+    done = harness.subprocess.run(["bash", "-c", 'exec "$0" "$@" >&-', program, *arguments], capture_output=True, text=True, timeout=60)
+
+    assert done.returncode == 1 and "cannot write" in done.stderr
+
+
+def test_unsigned_frames_of_strangers_are_bad_signatures(run, spawn, tmp_path):
+    key = tmp_path / "x.key"
+    assert run("key", "new", key).status == 0
+    process = spawn("listen", f"udpin://127.0.0.1:0?verify={key}", "--json", "--stats")
+    address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
+    for frame in frames.heartbeats(3):
+        sender.sendto(frame, address)
+    time.sleep(0.5)
+    totals = json_lines(process.stop().stdout)[-1]["stats"]["totals"]
+
+    assert (totals["bad_signature"], totals["stray_bytes"]) == (3, 3 * 21)
+
+
 def test_a_file_that_is_no_recording(run):
     done = run("listen", f"tlog://{harness.ROOT / 'README.md'}")
 

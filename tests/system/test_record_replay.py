@@ -197,6 +197,22 @@ def test_a_file_at_its_limit_keeps_whole_records_and_counts_no_others(program, t
     assert f"{recorded['not_written']} frames not written" in done.stderr
 
 
+@pytest.mark.parametrize("destination", ["x.tlog", "./x.tlog", "tlog://x.tlog"])
+def test_a_recording_is_not_replayed_onto_itself(run, tmp_path, destination):
+    (tmp_path / "x.tlog").write_bytes(frames.FLIGHT.read_bytes())
+    done = run("replay", "x.tlog", "--to", destination, "--speed", "max", cwd=tmp_path)
+
+    assert done.status == 2 and "the recording itself" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["x.tlog"]
+    assert (tmp_path / "x.tlog").read_bytes() == frames.FLIGHT.read_bytes()
+
+
+def test_a_start_behind_the_end_is_said(run, tmp_path):
+    done = run("replay", frames.FLIGHT, "--to", tmp_path / "x.tlog", "--speed", "max", "--start", "10h")
+
+    assert done.status == 0 and "nothing lies behind --start 10h" in done.stderr
+
+
 def test_an_unwritable_place_is_an_error(run, tmp_path):
     done = run("record", frames.FLIGHT, "-o", tmp_path / "missing" / "x.tlog")
 
