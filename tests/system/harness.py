@@ -2,6 +2,7 @@
 """What the system tests share: running the program under a deadline, waiting for a condition, free ports. Fixtures are in conftest.py."""
 import os
 import pathlib
+import random
 import re
 import signal
 import socket
@@ -48,18 +49,20 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
     return sock
 
 
-_given_ports = set()
+# Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its number can take it.
+_ports = random.sample(range(20_000, 32_000), 12_000)
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:
     """A port nobody has bound a moment ago, never the same twice in a run. Prefer port 0 where the program tells the port it got."""
     while True:
+        port = _ports.pop()
         with socket.socket(socket.AF_INET, kind) as sock:
-            sock.bind(("127.0.0.1", 0))
-            port = sock.getsockname()[1]
-        if port not in _given_ports:
-            _given_ports.add(port)
-            return port
+            try:
+                sock.bind(("127.0.0.1", port))
+                return port
+            except OSError:
+                continue
 
 
 class Finished:
