@@ -16,8 +16,10 @@ endfunction()
 # mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
-# A module without sources is an interface library. OCCASIONAL sources, names without .cpp, run once or beside the work: optimised further than -O1 they
-# would compile half as long again and speed up nothing that counts.
+# A module without sources is an interface library. OCCASIONAL: sources, names without .cpp, of which mavloom_occasional is true.
+
+# For what runs once or beside the work: optimised further it would compile half as long again and speed up nothing that counts.
+set(mavloom_occasional $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 
 # -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329).
 add_library(mavloom_warnings INTERFACE)
@@ -53,7 +55,7 @@ function(mavloom_module name)
     add_library(${target}_occasional OBJECT ${arg_OCCASIONAL})
     set_target_properties(${target}_occasional PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_features(${target}_occasional PRIVATE cxx_std_20)
-    target_compile_options(${target}_occasional PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
+    target_compile_options(${target}_occasional PRIVATE ${mavloom_occasional})
     target_include_directories(${target}_occasional PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target}_occasional PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
     mavloom_precompile(${target}_occasional ${target}_occasional)

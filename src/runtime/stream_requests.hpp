@@ -25,9 +25,9 @@ public:
         const auto asked = std::ranges::find_if(asked_,
                                                 [&](const Asked& a) { return a.link == link && a.source == source; });
         if (asked == asked_.end()) {
-            if (asked_.size() == most_sources)
-                *std::ranges::min_element(asked_, {}, &Asked::heard) = {link, source, now, now};
-            else asked_.push_back({link, source, now, now});
+            const Asked added{link, source, now, now};
+            if (asked_.size() < most_sources) asked_.push_back(added);
+            else *std::ranges::min_element(asked_, {}, &Asked::heard) = added;
             return true;
         }
         asked->heard = now;

@@ -103,7 +103,6 @@ def test_one_is_singular(run, tmp_path):
     assert "junk_bytes: 1 byte outside" in listened.stdout and "damaged_places: 1 damaged place in" in listened.stdout
     relayed = run("relay", log, "--to", f"tlog://{tmp_path}/out.tlog", "--only", "ATTITUDE")
     assert "1 frame in, " in relayed.stderr and "filtered: 1 frame that --only leaves out" in relayed.stderr
-    assert run("bench", "parse", log, "--turns", "1", "-q", "--dialect", "/nowhere.xml").status == 3
     assert re.search(r"\(1 frame, 21 bytes, median of 1 turn\)", run("bench", "parse", log, "--turns", "1").stdout)
     for text in (replayed.stderr, listened.stdout, relayed.stderr):
         assert re.search(r"\b1 (frame|byte|place|message|datagram)s\b", text) is None, text
@@ -152,3 +151,9 @@ def test_a_smaller_receive_buffer_gets_a_hint(spawn):
     enough = spawn("listen", "udpin://127.0.0.1:0?rcvbuf=64k")
     enough.wait_output("listening on", stream="err")
     assert "rmem_max" not in enough.stop().stderr
+
+
+def test_benchmarks_take_the_options_of_every_command(run):
+    done = run("bench", "parse", frames.FLIGHT, "--turns", "1", "-q", "--dialect", "/nowhere.xml")
+
+    assert done.status == 3 and "/nowhere.xml" in done.stderr

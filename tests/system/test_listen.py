@@ -407,12 +407,12 @@ def test_a_closed_stdout_is_an_error(program, command):
 def test_unsigned_frames_of_strangers_are_bad_signatures(run, spawn, tmp_path):
     key = tmp_path / "x.key"
     assert run("key", "new", key).status == 0
-    process = spawn("listen", f"udpin://127.0.0.1:0?verify={key}", "--json", "--stats")
+    process = spawn("listen", f"udpin://127.0.0.1:0?verify={key}", "--json", "--stats", "--count", "1")
     address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
     for frame in frames.heartbeats(3):
         sender.sendto(frame, address)
-    time.sleep(0.5)
-    totals = json_lines(process.stop().stdout)[-1]["stats"]["totals"]
+    run("relay", frames.FLIGHT, "--only", "ATTITUDE", "--sign", key, "--to", f"udpout://127.0.0.1:{address[1]}")
+    totals = json_lines(process.wait().stdout)[-1]["stats"]["totals"]
 
     assert (totals["bad_signature"], totals["stray_bytes"]) == (3, 3 * 21)
 

@@ -271,7 +271,7 @@ def test_a_port_comes_back_under_a_new_number(program, port, tmp_path):
                               program, "listen", "serial:///dev/ttyACM0", "--json"])
     try:
         listen.wait_output('"sys":1', stream="out")
-        dev = pathlib.Path(f"/proc/{listen.pid}/root/dev")
+        dev = pathlib.Path("/proc", str(listen.pid), "root", "dev")
         (dev / "serial/by-id/usb-Autopilot-if00").unlink()
         (dev / "ttyACM0").unlink()
         first.unplug()
