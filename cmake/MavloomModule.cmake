@@ -13,11 +13,6 @@ function(mavloom_precompile target owner)
   endif()
 endfunction()
 
-# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
-#
-# One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
-# A module without sources is an interface library. OCCASIONAL: sources, names without .cpp, of which mavloom_occasional is true.
-
 # For what runs once or beside the work: optimised further it would compile half as long again and speed up nothing that counts.
 set(mavloom_occasional $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 
@@ -27,6 +22,10 @@ target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wsha
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
+# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
+#
+# One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
+# A module without sources is an interface library. OCCASIONAL: sources (names without .cpp) to compile with mavloom_occasional.
 function(mavloom_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;OCCASIONAL" ${ARGN})
   set(target mavloom_${name})
@@ -37,7 +36,7 @@ function(mavloom_module name)
     add_library(${target} INTERFACE)
   else()
     list(TRANSFORM arg_OCCASIONAL REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/${name}/\\1.cpp")
-    list(REMOVE_ITEM sources ${arg_OCCASIONAL} "")
+    list(REMOVE_ITEM sources ${arg_OCCASIONAL} "")  # "", for it must be given something
     add_library(${target} ${sources})
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
@@ -45,6 +44,7 @@ function(mavloom_module name)
   endif()
   add_library(mavloom::${name} ALIAS ${target})
   set_property(GLOBAL APPEND PROPERTY MAVLOOM_MODULES ${name})
+  # A DEFINE_SYMBOL of its own, in a shared library, would keep it from sharing precompiled headers.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL "")
   target_compile_features(${target} ${scope} cxx_std_20)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/mavloom/${name}/*.hpp")

@@ -160,8 +160,8 @@ def sent_by(replay):
 
 
 def damaged_in(replay):
-    """In how many places of the flight replay says that it found damage."""
-    return sum(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) damaged place", line)))
+    """In how many places of the flight replay says that it found damage, or a frame that nobody may pass on."""
+    return sum(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) (damaged place|frames? not sent: an unknown)", line)))
 
 
 def compare(options, received, shown, count, damaged):

@@ -60,6 +60,7 @@ public:
 private:
     void on_frame(const runtime::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
+        any_read_ = true;
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
 
@@ -103,12 +104,15 @@ private:
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
-        if (!options_.start.empty() && destinations_.sent() == 0 && !destinations_.lost_any())
+        if (!options_.start.empty() && !any_read_ && sources_.finished_recordings() && sources_.error() == nullptr)
             say(common_, fmt::format("nothing lies behind --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
             say(common_,
                 fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
                             counted(counters.lost_bytes.value(), "byte")));
+        if (counters.unknown_flags.value() != 0)
+            say(common_, fmt::format("{}: {} not sent: an unknown incompatibility flag", options_.file,
+                                     counted(counters.unknown_flags.value(), "frame")));
         const auto printed = options_.json ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;
@@ -123,15 +127,17 @@ private:
     Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
+    bool any_read_ = false;
 };
 
-// A destination of the recording's own name would rename what is to be read.
+// A destination of the recording's own name would rename what is to be read; one that rotates makes names of its own.
 bool is_written_over(const runtime::Endpoint& recording, const std::vector<std::string>& to) {
     return std::ranges::any_of(to, [&](const std::string& text) {
         const auto endpoint = runtime::parse_endpoint(text);
         std::error_code none;
-        return endpoint && endpoint->scheme == runtime::Scheme::tlog &&
-               std::filesystem::equivalent(endpoint->path, recording.path, none);
+        if (!endpoint || endpoint->scheme != runtime::Scheme::tlog) return false;
+        const bool rotates = endpoint->options.rotate_bytes != 0 || endpoint->options.rotate_every != Nanoseconds{};
+        return !rotates && std::filesystem::equivalent(endpoint->path, recording.path, none);
     });
 }
 

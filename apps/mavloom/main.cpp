@@ -77,11 +77,12 @@ void refuse_empty_values(CLI::App& command) {
 std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
-    const auto left = command->remaining(true);
+    const auto left = app.remaining(true);
     if (left.empty()) return error.what();
     std::vector<std::string> known;
-    for (const auto* option : command->get_options())
-        for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+    for (const CLI::App* at = command; at != &app; at = at->get_parent())  // a subcommand takes its command's options too
+        for (const auto* option : at->get_options())
+            for (const auto& name : option->get_lnames()) known.push_back("--" + name);
     for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; }))
         known.push_back(sub->get_name());
     const std::vector<std::string_view> names(known.begin(), known.end());

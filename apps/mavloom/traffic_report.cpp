@@ -47,7 +47,8 @@ auto losses_of(const runtime::Totals& t) {
         Named{"unknown_flags", "frame", "with an unknown incompatibility flag", t.unknown_flags},
         Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
         Named{"wrong_peer", "datagram", "from another address than the one called", t.wrong_peer},
-        Named{"stray_bytes", "byte", "of strangers, in no valid or well signed frame", t.stray_bytes},
+        Named{"stray_bytes", "byte", "of strangers, in datagrams without a valid (with verify=: a well signed) frame",
+              t.stray_bytes},
         Named{"peers_refused", "peer", "beyond max_peers", t.peers_refused},
     };
 }

@@ -11,11 +11,20 @@ namespace mavloom::net {
 BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
     assert(block_class < classes && !block.empty());
     if (block_class != classes - 1) key = 0;
-    Pushed result;
-    if (bytes_ + block.size() > limits_.max_bytes && !make_room(block.size(), block_class, key, result.dropped)) {
-        ++result.dropped;
-        return result;
-    }
+    if (bytes_ + block.size() > limits_.max_bytes) [[unlikely]]
+        return push_when_full(block, block_class, key, now);
+    append(block, block_class, key, now);
+    return {.queued = true};
+}
+
+BlockQueue::Pushed BlockQueue::push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
+    std::uint32_t dropped = 0;
+    if (!make_room(block.size(), block_class, key, dropped)) return {.dropped = dropped + 1};
+    append(block, block_class, key, now);
+    return {.queued = true, .dropped = dropped};
+}
+
+void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
     if (tail_ + block.size() > capacity_ || entries_.size() == entries_.capacity()) reserve(block.size());
     std::memcpy(memory_.get() + tail_, block.data(), block.size());
     entries_.push_back(
@@ -25,8 +34,6 @@ BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, st
     class_bytes_[block_class] += block.size();
     ++blocks_;
     if (jammed_ && key != 0) note_key(key, entries_.size() - 1);
-    result.queued = true;
-    return result;
 }
 
 // Checks first that enough may go, so that nothing is dropped for a block that then does not fit.

@@ -53,7 +53,7 @@ private:
     std::string output_;
 };
 
-// One client over HTTP: the same, and it has to send its request, and to take the answer, within ten seconds.
+// One client over HTTP: the same, and it has to send its request, and to take the answer, within http_patience.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
     MetricsSession(Tcp::socket socket, Router& router, std::shared_ptr<void> place)

@@ -31,8 +31,8 @@ void MetricsSession::read() {
     });
 }
 
-// What waits on the socket then fails, and the last to hold the session lets it go. A wait that has ended but not been told yet is not cancelled by a
-// new one: it looks at the time.
+// What waits on the socket then fails, and the last to hold the session lets it go. A wait that has ended but not been told yet is not
+// cancelled by a new one: it looks at the time.
 void MetricsSession::hang_up_later() {
     deadline_.expires_after(http_patience);
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
@@ -53,7 +53,8 @@ void MetricsSession::handle() {
 }
 
 void MetricsSession::answer(const Request& request) {
-    if (request.method != http::verb::get) return write(request, "405 Method Not Allowed\r\nAllow: GET", "GET only\n");
+    if (request.method != http::verb::get && request.method != http::verb::head)
+        return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", "GET and HEAD only\n");
     if (request.target != "/metrics") return write(request, "404 Not Found", "metrics are at /metrics\n");
     on_router(
         router_, socket_.get_executor(), [](Router& r) { return report_metrics(r); },

@@ -62,7 +62,7 @@ def free_port(kind: int = socket.SOCK_DGRAM) -> int:
                 sock.bind(("127.0.0.1", port))
                 return port
             except OSError:
-                continue
+                pass
 
 
 class Finished:

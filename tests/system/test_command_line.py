@@ -153,6 +153,13 @@ def test_a_smaller_receive_buffer_gets_a_hint(spawn):
     assert "rmem_max" not in enough.stop().stderr
 
 
+def test_an_option_of_a_subcommand_has_a_nearest_spelling(run):
+    done = run("bench", "parse", frames.FLIGHT, "--tunrs", "3")
+
+    assert done.status == 2 and "'--tunrs' is not expected here" in done.stderr and "--turns" in done.stderr
+    assert "--dialect" in run("dialect", "show", "ATTITUDE", "--dialet", "x.xml").stderr
+
+
 def test_benchmarks_take_the_options_of_every_command(run):
     done = run("bench", "parse", frames.FLIGHT, "--turns", "1", "-q", "--dialect", "/nowhere.xml")
 

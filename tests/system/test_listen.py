@@ -404,14 +404,15 @@ def test_a_closed_stdout_is_an_error(program, command):
     assert done.returncode == 1 and "cannot write" in done.stderr
 
 
-def test_unsigned_frames_of_strangers_are_bad_signatures(run, spawn, tmp_path):
+def test_unsigned_frames_of_strangers_are_bad_signatures(run, spawn, tmp_path, udp_socket):
     key = tmp_path / "x.key"
     assert run("key", "new", key).status == 0
     process = spawn("listen", f"udpin://127.0.0.1:0?verify={key}", "--json", "--stats", "--count", "1")
-    address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
+    port, sender = port_of(process), udp_socket()
     for frame in frames.heartbeats(3):
-        sender.sendto(frame, address)
-    run("relay", frames.FLIGHT, "--only", "ATTITUDE", "--sign", key, "--to", f"udpout://127.0.0.1:{address[1]}")
+        sender.sendto(frame, ("127.0.0.1", port))
+    relayed = run("relay", frames.FLIGHT, "--only", "ATTITUDE", "--sign", key, "--to", f"udpout://127.0.0.1:{port}")
+    assert "bytes sent" in relayed.stderr, relayed
     totals = json_lines(process.wait().stdout)[-1]["stats"]["totals"]
 
     assert (totals["bad_signature"], totals["stray_bytes"]) == (3, 3 * 21)

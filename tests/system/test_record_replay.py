@@ -207,10 +207,36 @@ def test_a_recording_is_not_replayed_onto_itself(run, tmp_path, destination):
     assert (tmp_path / "x.tlog").read_bytes() == frames.FLIGHT.read_bytes()
 
 
+def test_a_recording_that_rotates_is_not_the_one_it_is_named_after(run, tmp_path):
+    (tmp_path / "x.tlog").write_bytes(frames.FLIGHT.read_bytes())
+    done = run("replay", "x.tlog", "--to", "x.tlog?rotate_bytes=100M", "--speed", "max", cwd=tmp_path)
+
+    assert done.status == 0, done
+    assert (tmp_path / "x.tlog").read_bytes() == frames.FLIGHT.read_bytes()
+
+
 def test_a_start_behind_the_end_is_said(run, tmp_path):
     done = run("replay", frames.FLIGHT, "--to", tmp_path / "x.tlog", "--speed", "max", "--start", "10h")
+    other = run("replay", frames.FLIGHT, "--to", tmp_path / "y.tlog", "--speed", "max", "--start", "1s", "--only", "GPS2_RAW")
 
     assert done.status == 0 and "nothing lies behind --start 10h" in done.stderr
+    assert other.status == 0 and "nothing lies behind" not in other.stderr
+
+
+def test_frames_with_an_unknown_flag_are_left_out_and_named(run, tmp_path):
+    records = frames.read_tlog(frames.FLIGHT)[:20]
+    flagged = bytearray(records[7][1])
+    flagged[2] |= 0x02  # in incompat_flags; no such flag is defined
+    mavlink = frames.mavlink
+    checksum = mavlink.x25crc(flagged[1:-2])
+    checksum.accumulate(bytes([mavlink.mavlink_map[int.from_bytes(flagged[7:10], "little")].crc_extra]))
+    flagged[-2:] = checksum.crc.to_bytes(2, "little")
+    records[7] = (records[7][0], bytes(flagged))
+
+    done = run("replay", frames.write_tlog(tmp_path / "in.tlog", records), "--to", tmp_path / "out.tlog", "--speed", "max")
+
+    assert "in.tlog: 1 frame not sent: an unknown incompatibility flag" in done.stderr
+    assert frames.read_tlog(tmp_path / "out.tlog") == records[:7] + records[8:]
 
 
 def test_an_unwritable_place_is_an_error(run, tmp_path):

@@ -345,6 +345,10 @@ def test_metrics_answers_what_it_does_not_serve(net):
             fetch(port, path, method)
         assert error.value.code == status
     with socket.create_connection(("127.0.0.1", port)) as client:
+        client.sendall(b"HEAD /metrics HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        head = client.makefile("rb").read()
+        assert head.startswith(b"HTTP/1.1 200 OK\r\n") and head.endswith(b"\r\n\r\n") and head.count(b"\r\n\r\n") == 1
+    with socket.create_connection(("127.0.0.1", port)) as client:
         client.sendall(b"\x00\xffnot http\r\n\r\n")
         client.settimeout(harness.DEFAULT_TIMEOUT_S)
         assert client.recv(65536) == b""

@@ -84,6 +84,8 @@ private:
     static constexpr std::size_t first_capacity = 16384;
     static constexpr std::size_t kept_capacity = 65536;  // memory beyond it is given back when a jam is over
 
+    Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
+    void append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
     [[nodiscard]] bool make_room(std::size_t size, std::uint8_t block_class, std::uint64_t key, std::uint32_t& dropped);
     [[nodiscard]] bool drop_one(std::uint8_t block_class) noexcept;
     [[nodiscard]] bool drop_superseded() noexcept;
@@ -109,8 +111,8 @@ private:
     std::array<std::size_t, classes> class_bytes_{};
     std::array<std::size_t, classes> oldest_{};  // where to look for the oldest of each class: none lies before
 
-    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty or rewound: the newest block of each key,
-    // and those that have a newer one, in the order in which they were superseded.
+    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty or rewound: the newest block of
+    // each key, and those that have a newer one, in the order in which they were superseded.
     bool jammed_ = false;
     std::vector<Newest> newest_;
     std::size_t keys_ = 0;

@@ -52,8 +52,8 @@ struct EndpointCounters {
     Counter peers_evicted;  // the longest idle, gone for a newcomer
     Counter send_errors;    // datagrams that met a closed port (ICMP said so) or that the kernel refused
     Counter reconnects;
-    // Sums over the peers and clients that are gone, and the bad signatures of strangers, who never were peers: with the counters of the links
-    // that are there they make the endpoint's whole. A link is added when its on_link_down has returned.
+    // Sums over the peers and clients that are gone, and the bad signatures of strangers, who never were peers: with the counters of the
+    // links that are there they make the endpoint's whole. A link is added when its on_link_down has returned.
     LinkCounters gone;
     Counter gone_queued;  // whole frames that were still queued when their link went
 };

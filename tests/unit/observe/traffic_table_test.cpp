@@ -89,6 +89,23 @@ TEST(TrafficTable, RowsOfLinksThatAreGoneAreGivenBack) {
 
     ASSERT_EQ(sut.sorted().size(), 1u);
     EXPECT_EQ(sut.sorted()[0].link, LinkId{1});
+    sut.add(LinkId{2}, heartbeat, at(1s));
+    ASSERT_EQ(sut.sorted().size(), 2u);
+    EXPECT_EQ(sut.sorted()[1].count, 1u) << "nothing is left of the row that went";
+}
+
+TEST(TrafficTable, ManyRowsInTurnAreCountedEach) {
+    TrafficTable sut;
+    auto bytes = test::heartbeat_v2;
+    for (unsigned turn = 0; turn < 3; ++turn)
+        for (unsigned link = 1; link <= 8; ++link)
+            for (unsigned component = 0; component < 256; ++component) {
+                bytes[6] = static_cast<std::uint8_t>(component);
+                sut.add(LinkId{link}, wire::FrameView::unchecked(bytes), at(turn * 1s));
+            }
+
+    ASSERT_EQ(sut.rows().size(), 8 * 256u);
+    for (const auto& row : sut.rows()) EXPECT_EQ(row.count, 3u);
 }
 
 TEST(TrafficTable, BoundsItsRowsAndCountsTheRest) {

@@ -138,6 +138,7 @@ TEST_F(LinksSigning, SignedFramesPassVerificationOthersAreCounted) {
         },
         listener, right, wrong, unsigned_one));
     EXPECT_EQ(listener.links->links().size(), 1u) << "those without a good signature are no links";
+    EXPECT_EQ(counters.gone.bad_signature.value(), 6u);
     const LinkCounters& peer = listener.counters(listener.recorder.frames[0].link);
     EXPECT_EQ(peer.bad_signature.value(), 0u);
     for (const auto& heard : listener.recorder.frames) {
