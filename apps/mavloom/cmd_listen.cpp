@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "command.hpp"
 #include "counted.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_backlog = 1s;  // what Ctrl-C waits for while a slow reader takes the rest
+constexpr auto short_backlog = 1s;  // a terminal prints no longer after Ctrl-C; for a pipe or file it is told that there is more
 
 struct Options {
     ReceiveOptions receive;
@@ -54,7 +55,7 @@ public:
 
 private:
     void handle(const runtime::FrameQueue::Entry& entry) {
-        if (Signals::received() && !in_time_for_backlog()) return;
+        if (Signals::received() && !goes_on_after_signal()) return;
         if (!wanted(entry)) return;
         const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame,
                                          dialect_.find(entry.frame.id())};
@@ -79,22 +80,25 @@ private:
         }
     }
 
-    bool in_time_for_backlog() {
-        if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + longest_backlog;
+    bool goes_on_after_signal() {
+        if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + short_backlog;
         if (mono_now() < backlog_end_) return true;
-        going_ = false;
-        return false;
+        going_ = ::isatty(STDOUT_FILENO) == 0;
+        if (going_) say(common_, "printing what was received; once more Ctrl-C ends at once");
+        backlog_end_ = MonoTime::max();
+        return going_;
     }
 
     Exit finish() {
         if (output_.state() == Output::State::failed) return fail(output_.error());
-        if (options_.stats) report();
+        const auto unprinted = count_unprinted();
+        if (options_.stats) report(unprinted);
         if (!options_.stats) say_losses(common_, receiver_.totals());
-        if (const auto unprinted = count_unprinted(); unprinted != 0)
+        if (unprinted != 0)
             say(common_,
-                counted(unprinted, "message") + " received but not printed: the output was too slow for the end");
+                counted(unprinted, "message") + " received but not printed: nobody took the output at the end");
         if (const auto* error = receiver_.error()) return fail(*error);
-        return Signals::status(Exit::done);
+        return Signals::status(unprinted != 0 ? Exit::failed : Exit::done);
     }
 
     // What waited behind a stalled output when the end was asked for; nothing where the reader left or has all it asked for.
@@ -107,12 +111,12 @@ private:
     }
 
     // Where the lines go; to stderr beside CSV rows and where the output takes no more.
-    void report() {
+    void report(std::uint64_t unprinted) {
         if (csv_ != nullptr || output_.state() == Output::State::interrupted) {
             talk(traffic_text(traffic_, receiver_, dialect_));
             return;
         }
-        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_)
+        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
                                               : traffic_text(traffic_, receiver_, dialect_));
         output_.flush();
     }

@@ -50,6 +50,12 @@ SetupResult<record::RotatingWriter> create_output(const Common& common, const st
     return create_recording(common, *parsed, "--output");
 }
 
+// What was received and still waits when writing has failed.
+void give_up_the_rest(const Options& options, runtime::Receiver& receiver, record::RotatingWriter& writer) {
+    while (const auto entry = receiver.next())
+        if (options.selection.takes(entry->frame)) writer.give_up();
+}
+
 std::string summary(const record::RotatingWriter& file, const runtime::Totals& heard) {
     Json totals{{"frames", heard.frames}, {"bytes", heard.bytes}};
     totals.update(losses_json(heard));
@@ -69,6 +75,7 @@ Exit record(const Common& common, Options& options) {
     auto recorded = record_all(options, **receiver, *writer);
     (*receiver)->stop();
     (*receiver)->join();
+    if (!recorded) give_up_the_rest(options, **receiver, *writer);
     auto closed = writer->close();
     say_recorded(common, *writer);
     say_losses(common, (*receiver)->totals());

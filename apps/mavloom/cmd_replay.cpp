@@ -60,7 +60,8 @@ public:
 private:
     void on_frame(const runtime::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
-        any_read_ = true;
+        ++frames_;
+        bytes_ += rx.frame.size();
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
 
@@ -90,21 +91,16 @@ private:
         const auto& counters = sources_.recordings().front()->reader.counters();
         runtime::Totals read;
         read.add(counters);
-        Json totals{{"frames", counters.records.value()}, {"bytes", frame_bytes(counters)}};
+        Json totals{{"frames", frames_}, {"bytes", bytes_}};
         totals.update(losses_json(read));
         return stats_line({{"destinations", destinations_.sums_json()}, {"totals", std::move(totals)}});
-    }
-
-    // Of the frames, without the times in front of them.
-    static std::uint64_t frame_bytes(const record::ReadCounters& counters) {
-        return counters.record_bytes.value() - record::time_length * counters.records.value();
     }
 
     Exit finish() {
         const auto closed = destinations_.close();
         destinations_.say_sums(common_);
         const auto& counters = sources_.recordings().front()->reader.counters();
-        if (!options_.start.empty() && !any_read_ && sources_.finished_recordings() && sources_.error() == nullptr)
+        if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
             say(common_, fmt::format("nothing lies behind --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
             say(common_,
@@ -127,7 +123,7 @@ private:
     Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
-    bool any_read_ = false;
+    std::uint64_t frames_ = 0, bytes_ = 0;  // of the recording that had their turn
 };
 
 // A destination of the recording's own name would rename what is to be read; one that rotates makes names of its own.

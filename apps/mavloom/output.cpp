@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_after_signal = 1s;
+constexpr auto longest_stall = 10s, longest_stall_after_signal = 1s;
 constexpr int look_for_signals_ms = 100;
 
 }  // namespace
@@ -27,9 +27,10 @@ bool Output::wait_for_room() {
     for (;;) {
         pollfd out{STDOUT_FILENO, POLLOUT, 0};
         if (::poll(&out, 1, look_for_signals_ms) == 1) return true;
-        if (!Signals::received() && mono_now() < end_) continue;
-        if (!give_up_) give_up_ = mono_now() + longest_after_signal;
-        if (mono_now() >= *give_up_) return false;
+        const auto now = mono_now();
+        if (!Signals::received() && now < end_) continue;
+        if (!stalled_since_) stalled_since_ = now;
+        if (now - *stalled_since_ >= (Signals::received() ? longest_stall_after_signal : longest_stall)) return false;
     }
 }
 
@@ -63,6 +64,12 @@ void Output::take_error(int error) {
     }
 }
 
+// A pipe takes up to PIPE_BUF bytes whole or not at all, so that no line is cut in it.
+static std::size_t whole_lines(std::string_view text) noexcept {
+    const auto last = text.substr(0, PIPE_BUF).rfind('\n');
+    return last == std::string_view::npos ? text.size() : last + 1;
+}
+
 Output::State Output::flush() {
     const char* p = buffer_.data();
     std::size_t left = buffer_.size();
@@ -71,9 +78,10 @@ Output::State Output::flush() {
             state_ = State::interrupted;
             break;
         }
-        const auto written = write_some(p, left);
+        const auto written = write_some(p, way_ == Way::whole ? left : whole_lines({p, left}));
         full = written < 0;
         if (written >= 0) {
+            stalled_since_.reset();
             p += written;
             left -= static_cast<std::size_t>(written);
         } else {
@@ -83,12 +91,6 @@ Output::State Output::flush() {
     lost_lines_ += static_cast<std::uint64_t>(std::count(p, p + left, '\n'));
     buffer_.clear();
     return state_;
-}
-
-// A pipe takes up to PIPE_BUF bytes whole or not at all, so that no line is cut in it.
-static std::size_t whole_lines(std::string_view text) noexcept {
-    const auto last = text.substr(0, PIPE_BUF).rfind('\n');
-    return last == std::string_view::npos ? text.size() : last + 1;
 }
 
 Output::State Output::flush_what_fits() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Standard output. A reader that went away (`| head`) is an end, not an error; a full disk is an error; one that stalls is waited for, until a
-// signal asks for the end: from then on it has a second to take the rest. Single owner.
+// Standard output. A reader that went away (`| head`) is an end, not an error; a full disk is an error; one that stalls is waited for, until the
+// end is asked for: from then on it has to take something within a second of a signal, or within ten seconds of `end_at`. Pipes take whole lines.
+// Single owner.
 #pragma once
 
 #include <sys/types.h>
@@ -21,15 +22,15 @@ public:
     // Where lines are appended; hand over with `flush_if_full` after each and `flush` when idle.
     [[nodiscard]] message::TextBuffer& buffer() noexcept { return buffer_; }
     State flush_if_full() { return full() ? flush() : state_; }
-    // Writes all, however long the reader takes; after a signal for at most a second in all, then `interrupted`.
+    // Writes all, however long the reader takes; when the end was asked for, only while it takes anything, then `interrupted`.
     State flush();
     // Never waits: writes the lines that fit, and leaves the others in the buffer. Who appends looks whether it is `full`.
     State flush_what_fits();
     [[nodiscard]] bool full() const noexcept { return buffer_.size() >= flush_bytes; }
-    // False when a reader that stalls has had its second after a signal or the end.
+    // False when a reader stalls and the end was asked for.
     [[nodiscard]] bool wait_for_room();
 
-    // From then on it is as after a signal (`--for`).
+    // Asks for the end then (`--for`).
     void end_at(MonoTime end) noexcept { end_ = end; }
 
     // Lines given up when the wait was interrupted.
@@ -51,7 +52,7 @@ private:
     State state_ = State::open;
     std::optional<SetupError> error_;
     MonoTime end_ = MonoTime::max();
-    std::optional<MonoTime> give_up_;  // set at the first wait after a signal
+    std::optional<MonoTime> stalled_since_;  // after the end was asked for
     std::uint64_t lost_lines_ = 0;
 };
 

@@ -113,7 +113,7 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
 }
 
 std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
-                         const dialect::Dialect& dialect) {
+                         const dialect::Dialect& dialect, std::uint64_t unprinted) {
     const auto rows = traffic.sorted();
     std::size_t from = 0;
     auto sources = Json::array();
@@ -132,7 +132,8 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
                            {"messages", std::move(messages)}});
     }
     const auto& totals = receiver.totals();
-    Json sums{{"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}};
+    Json sums{
+        {"frames", totals.frames}, {"bytes", totals.bytes}, {"unlisted", traffic.unlisted()}, {"unprinted", unprinted}};
     sums.update(losses_json(totals));
     return stats_line({{"sources", std::move(sources)}, {"totals", std::move(sums)}});
 }

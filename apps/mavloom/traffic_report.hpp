@@ -21,9 +21,10 @@ using Json = nlohmann::ordered_json;
 // A table for people. `receiver` has been joined.
 std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
                          const dialect::Dialect& dialect);
-// One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md.
+// One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md. `unprinted`: messages that were received and
+// not printed, since nobody took them.
 std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
-                         const dialect::Dialect& dialect);
+                         const dialect::Dialect& dialect, std::uint64_t unprinted);
 // Lines on stderr for whatever was lost or damaged; nothing when all is well.
 void say_losses(const Common& common, const runtime::Totals& totals);
 

@@ -62,9 +62,9 @@ void TlogReader::lose(std::size_t bytes) noexcept {
     begin_ += bytes;
 }
 
-Result<Record, TlogReader::Stop> TlogReader::next() {
+Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {
     if (error_) return tl::unexpected(Stop::failed);
-    while (true) {
+    for (const std::uint64_t begin = position(); position() - begin < most_damage;) {
         if (needs_more()) [[unlikely]] {
             if (const auto stop = fill()) return tl::unexpected(*stop);
             continue;
@@ -92,6 +92,7 @@ Result<Record, TlogReader::Stop> TlogReader::next() {
         return Record{wall_from_us(load_be64(bytes.data())), wire::FrameView::unchecked(bytes.subspan(time_length)),
                       found.info, offset, lost};
     }
+    return tl::unexpected(Stop::damage);
 }
 
 SetupResult<void> TlogReader::seek(std::uint64_t offset) {

@@ -10,6 +10,10 @@ namespace mavloom::runtime {
 
 // How often an empty pipe is looked at.
 static constexpr std::chrono::milliseconds pipe_look{5};
+// How much is read of a file before anything is opened, to see whether it is a recording; longer damage at its head is left to the loop.
+static constexpr std::uint64_t longest_check = 16u << 20;
+// How much damage is read before signals, ends and live links are looked at again.
+static constexpr std::uint64_t damage_a_turn = 256u << 10;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
     auto links = Links::create(dialect);
@@ -52,7 +56,8 @@ SetupResult<void> Sources::check(const Endpoint& endpoint) const {
         reader.error().code = SetupCode::bad_input;
         return tl::unexpected(std::move(reader.error()));
     }
-    if (!reader->next() && reader->counters().lost_bytes.value() != 0)
+    const auto record = reader->next(longest_check);
+    if (!record && record.error() == record::TlogReader::Stop::end && reader->counters().lost_bytes.value() != 0)
         return tl::unexpected(no_record(endpoint.label()));
     return {};
 }
@@ -79,16 +84,17 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
 }
 
 void Sources::advance(Recording& recording, LinkHandler& handler) {
-    const auto record = recording.reader.next();
-    if (!record && record.error() == record::TlogReader::Stop::nothing_yet) {
+    const auto record = recording.reader.next(damage_a_turn);
+    using Stop = record::TlogReader::Stop;
+    if (!record && (record.error() == Stop::nothing_yet || record.error() == Stop::damage)) {
         recording.next.reset();
-        recording.due = mono_now() + pipe_look;
+        recording.due = mono_now() + (record.error() == Stop::damage ? Nanoseconds{} : pipe_look);
         return;
     }
     if (!record) {
         recording.ended = true;
         const auto& counters = recording.reader.counters();
-        if (record.error() == record::TlogReader::Stop::failed) {
+        if (record.error() == Stop::failed) {
             recording.error = recording.reader.error();
         } else if (counters.records.value() == 0 && counters.lost_bytes.value() != 0) {
             recording.error = no_record(recording.name);

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pty
+import re
 import resource
 import select
 import signal
@@ -350,10 +351,53 @@ def test_ctrl_c_ends_it_although_nobody_ever_reads(spawn):
     os.close(write_end)
     harness.wait_for(lambda: len(select.select([read_end], [], [], 0)[0]) == 1, what="the pipe to fill")
     done = process.stop(timeout=20)
+    shown = b""
+    while chunk := os.read(read_end, 1 << 16):
+        shown += chunk
     os.close(read_end)
+    unprinted = int(re.search(r"(\d+) messages received but not printed", done.stderr)[1])
+    heard = int(re.search(r"total heard: (\d+) frames", done.stderr)[1])
 
-    assert done.status == 130
-    assert "received but not printed" in done.stderr and "ATTITUDE" in done.stderr
+    assert done.status == 130 and "ATTITUDE" in done.stderr
+    assert shown.endswith(b"\n") and shown.count(b"\n") + unprinted == heard
+
+
+@pytest.mark.parametrize("end, status", [(["--for", "2s"], 0), ([], 130)], ids=["for", "interrupt"])
+def test_the_end_waits_for_a_reader_that_takes_what_is_left(spawn, end, status):
+    read_end, write_end = os.pipe()
+    process = spawn("listen", "udpin://127.0.0.1:0", "--json", "--stats", *end, stdout=write_end)
+    os.close(write_end)
+    address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
+    for frame in frames.heartbeats(5_000):
+        sender.sendto(frame, address)
+    if end:
+        time.sleep(3)  # behind the end: nothing was read before
+    else:
+        harness.wait_for(lambda: len(select.select([read_end], [], [], 0)[0]) == 1, what="the pipe to fill")
+        process.send(signal.SIGINT)
+    text = b""
+    while chunk := os.read(read_end, 4096):
+        text += chunk
+        time.sleep(0.01)  # 400 kB/s: slower than it is written
+    os.close(read_end)
+    lines = json_lines(text.decode())
+    totals = lines[-1]["stats"]["totals"]
+
+    assert process.wait().status == status
+    assert len(lines) - 1 == totals["frames"] == 5_000 - totals["kernel_drop"] and totals["unprinted"] == 0
+
+
+def test_a_recording_of_nothing_but_damage_leaves_room_for_the_rest(spawn):
+    process = spawn("listen", "tlog:///dev/zero", "udpin://127.0.0.1:0", "--json")
+    address, sender = ("127.0.0.1", port_of(process)), harness.udp_socket()
+    sender.sendto(frames.attitude(), address)
+    process.wait_output("ATTITUDE", stream="out")
+
+    assert process.stop().status == 130
+
+
+def test_the_end_comes_although_a_recording_is_nothing_but_damage(run):
+    assert run("listen", "tlog:///dev/zero", "--for", "200ms").status == 0
 
 
 @pytest.mark.parametrize("arguments, status, said", [

@@ -197,6 +197,17 @@ def test_a_file_at_its_limit_keeps_whole_records_and_counts_no_others(program, t
     assert f"{recorded['not_written']} frames not written" in done.stderr
 
 
+@pytest.mark.parametrize("command", [["record", frames.FLIGHT, "-o", "tlog:///dev/full"],
+                                     ["replay", frames.FLIGHT, "--to", "tlog:///dev/full", "--speed", "max"]], ids=lambda c: c[0])
+def test_every_frame_that_was_read_has_its_place_in_the_sums(run, command):
+    done = run(*command, "--json", "-q")
+    sums = json.loads(done.stdout)["stats"]
+    destination = sums["destinations"][0]
+
+    assert done.status == 1 and destination["not_written"] > 0
+    assert sums["totals"]["frames"] == destination["frames"] + destination["not_written"]
+
+
 @pytest.mark.parametrize("destination", ["x.tlog", "./x.tlog", "tlog://x.tlog"])
 def test_a_recording_is_not_replayed_onto_itself(run, tmp_path, destination):
     (tmp_path / "x.tlog").write_bytes(frames.FLIGHT.read_bytes())

@@ -29,6 +29,8 @@ public:
     // An error means that records are lost, as `lost_records` counts them: this one (TlogWriter::write; a new segment that cannot be opened), or
     // the last of the segment behind us, which could not be closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
+    // A record that the caller no longer tries to write: one more of `lost_records`.
+    void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
     [[nodiscard]] SetupResult<void> close();
 
@@ -43,7 +45,7 @@ public:
     [[nodiscard]] std::uint64_t taken_records() const noexcept;
     [[nodiscard]] std::uint64_t written_records() const noexcept;
     [[nodiscard]] std::uint64_t written_bytes() const noexcept;
-    // Records that are in no file: refused by `write`, or still buffered when their segment was closed.
+    // Records that are in no file: refused by `write`, given up, or still buffered when their segment was closed.
     [[nodiscard]] std::uint64_t lost_records() const noexcept;
 
 private:

@@ -36,9 +36,11 @@ public:
         end,          // the file is read to its end
         failed,       // `error` says why; nothing more can be read
         nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; may be called again
+        damage,       // nothing but damage in `most_damage` bytes; may be called again
     };
-    // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record.
-    [[nodiscard]] Result<Record, Stop> next();
+    // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record. Gives
+    // way after `most_damage` bytes without one: who has other work gets to it although a file is nothing but damage.
+    [[nodiscard]] Result<Record, Stop> next(std::uint64_t most_damage = ~std::uint64_t{0});
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
 
     // Goes on at `offset`, which should be that of a record. Not for pipes. Bytes read again are counted again.

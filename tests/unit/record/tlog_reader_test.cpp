@@ -350,6 +350,26 @@ TEST(TlogReader, SaysWhyAFileCannotBeOpened) {
     EXPECT_THAT(folder.error().text, testing::HasSubstr("Is a directory"));
 }
 
+TEST(TlogReader, GivesWayWhereThereIsNothingButDamage) {
+    const TempDir dir;
+    for (const auto byte : std::initializer_list<std::uint8_t>{0x00, 0xfd, 0xfe}) {
+        const test::Bytes junk(1'000'000, byte);
+        test::write_file(dir / "x.tlog", record(t0, test::heartbeat_v2) + junk + record(t0 + 1, test::attitude_v2));
+        auto reader = TlogReader::open(dir / "x.tlog", golden_table());
+        ASSERT_TRUE(reader->next(1000).has_value());
+
+        int gave_way = 0;
+        auto found = reader->next(1000);
+        for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next(1000)) ++gave_way;
+
+        ASSERT_TRUE(found.has_value());
+        EXPECT_EQ(found->frame.id().value, 30u);
+        EXPECT_EQ(found->lost_bytes, 1'000'000u);
+        EXPECT_GE(gave_way, 1);
+        EXPECT_EQ(reader->counters().damaged_places.value(), 1u);
+    }
+}
+
 TEST(TlogReader, SeeksToARecord) {
     const TempDir dir;
     test::write_file(dir / "x.tlog", record(t0, test::heartbeat_v2) + record(t0 + 1, test::attitude_v2));
