@@ -28,7 +28,7 @@ def measure(program, load, flight, rate, seconds, form):
         while chunk := listen.stdout.read1(1 << 20):
             lines += chunk.count(b"\n")
         counted.append(lines)
-    reader = threading.Thread(target=count)
+    reader = threading.Thread(target=count, daemon=True)
     reader.start()
     generator = subprocess.Popen([load, "127.0.0.1", str(port), flight, str(rate), str(seconds)], stdout=subprocess.PIPE)
     memory = []

@@ -112,7 +112,7 @@ public:
     Output::State flush() { return output_.flush_what_fits(); }
     // When to `flush` next although no frame comes.
     [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + look_for_room; }
-    // The reader has a second to take the rest.
+    // A reader that still takes anything gets the rest.
     void finish() {
         output_.end_at(mono_now());
         while (flush() == Output::State::open && output_.buffer().size() != 0 && output_.wait_for_room()) {}
@@ -194,6 +194,8 @@ private:
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
         auto config = read_config(options_.config, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
+        if (Plan{*config, plan_.from_command_line}.endpoints().empty())
+            return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
         const bool same_rules = config->router == plan_.config.router;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;

@@ -102,6 +102,7 @@ Output::State Output::flush_what_fits() {
         const std::string_view left(buffer_.data() + done, buffer_.size() - done);
         const auto written = write_some(left.data(), way == Way::whole ? left.size() : whole_lines(left));
         if (written >= 0) {
+            stalled_since_.reset();
             done += static_cast<std::size_t>(written);
             continue;
         }

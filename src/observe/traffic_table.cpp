@@ -14,9 +14,13 @@ double TrafficRow::rate_hz() const noexcept {
 double TrafficRow::recent_rate_hz(WallTime now) const noexcept {
     const bool is_long_ago = last - older.time > 3 * rate_window && count > newer.count;
     const Mark& from = is_long_ago ? newer : older;
-    const std::chrono::duration<double> span = last - from.time, silence = now - last;
-    if (span.count() <= 0) return 0;
-    const double rate = static_cast<double>(count - from.count) / span.count();
+    const std::chrono::duration<double> silence = now - last;
+    std::chrono::duration<double> span = last - from.time;
+    const auto gaps = static_cast<double>(count - from.count);
+    // A burst says nothing of what comes behind it.
+    if (span < rate_window && silence > 4 * span / gaps) span += silence;
+    if (span.count() <= 0 || gaps == 0) return 0;
+    const double rate = gaps / span.count();
     return silence <= 2 * rate_window ? rate : std::min(rate, 1 / silence.count());
 }
 

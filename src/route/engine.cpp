@@ -20,6 +20,7 @@ Engine::~Engine() = default;
 
 bool Engine::add_link(LinkId link, const LinkPolicy& policy) { return impl_->add_link(link, policy); }
 void Engine::remove_link(LinkId link) { impl_->remove_link(link); }
+void Engine::set_options(const Options& options) { impl_->set_options(options); }
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
 std::uint64_t Engine::mark_of(const wire::FrameView& frame) const noexcept { return impl_->mark_of(frame); }

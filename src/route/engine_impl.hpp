@@ -21,6 +21,7 @@ public:
 
     bool add_link(LinkId id, const LinkPolicy& policy);
     void remove_link(LinkId id);
+    void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t hash, const wire::MessageInfo* info,
@@ -123,6 +124,7 @@ private:
             (*reasons_)[slot] = reason;
     }
 
+    [[nodiscard]] Nanoseconds timeout_of(const LinkPolicy& policy) const noexcept;
     void index_links();
     void rebuild();
     void grow(std::size_t slots);

@@ -60,7 +60,7 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
                                .filters_in = !policy.in.admits_all()});
     ids_[slot] = id;
     ++link_count;
-    routes_.add_link(slot, std::clamp(policy.route_timeout.value_or(options.route_timeout), Nanoseconds{}, longest));
+    routes_.add_link(slot, timeout_of(policy));
     index_links();
     rebuild();
     return true;
@@ -75,6 +75,21 @@ void Engine::Impl::remove_link(LinkId id) {
     ids_[slot] = LinkId{};
     --link_count;
     index_links();
+    rebuild();
+}
+
+Nanoseconds Engine::Impl::timeout_of(const LinkPolicy& policy) const noexcept {
+    return std::clamp(policy.route_timeout.value_or(options.route_timeout), Nanoseconds{}, longest);
+}
+
+void Engine::Impl::set_options(const Options& given) {
+    const auto [seed, recent_frames] = std::pair{options.seed, options.recent_frames};
+    options = bounded(given);
+    options.seed = seed;
+    options.recent_frames = recent_frames;
+    window_ = std::max(echo_window, options.dedup);
+    for (Slot slot = 0; slot < links.size(); ++slot)
+        if (links[slot] != nullptr) routes_.set_timeout(slot, timeout_of(links[slot]->policy));
     rebuild();
 }
 

@@ -23,8 +23,8 @@ public:
 
     // Has the frame's bucket fetched from memory meanwhile.
     void prefetch(std::uint64_t hash) const noexcept {
-        const std::size_t first = bucket(hash);
-        for (std::size_t i = first; i < first + ways; ++i) __builtin_prefetch(&cells_[i * stride_], 1);
+        const std::uint64_t* place = &cells_[bucket(hash) * stride_];
+        for (std::size_t i = 0; i < ways; ++i, place += stride_) __builtin_prefetch(place, 1);
     }
 
     // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.

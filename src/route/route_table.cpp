@@ -40,6 +40,11 @@ void RouteTable::remove_link(Slot slot) noexcept {
     while (links_[slot].oldest != none) remove(links_[slot].oldest);
 }
 
+void RouteTable::set_timeout(Slot slot, Nanoseconds timeout) noexcept {
+    links_[slot].timeout_ns = timeout.count();
+    next_expiry_ns_ = 0;  // to be found anew
+}
+
 Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
     Link& link = links_[slot];
     std::uint32_t index = link.newest;

@@ -47,6 +47,7 @@ public:
     void resize(std::size_t words);
     void add_link(Slot slot, Nanoseconds timeout);
     void remove_link(Slot slot) noexcept;
+    void set_timeout(Slot slot, Nanoseconds timeout) noexcept;
 
     // Forgets what is older than its link's timeout. To be called before the sets are used.
     void expire(MonoTime now, Change& change) noexcept {

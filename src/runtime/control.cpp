@@ -40,6 +40,7 @@ public:
             if (error) return accept_later();  // no descriptors are left, say
             if (static_cast<std::size_t>(places_.use_count()) <= most_sessions)
                 std::make_shared<Session>(std::move(socket), router_, places_)->read();
+            else Session::turn_away(socket);
             accept();
         });
     }

@@ -86,12 +86,11 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     // The router closes behind the answer, because nothing more is asked.
     std::string input, output = std::string(request) + "\n";
     bool done = false;
-    asio::async_write(socket, asio::buffer(output), [&](error_code e, std::size_t) {
-        if (e) return;
-        socket.shutdown(Local::socket::shutdown_send, e);
-        asio::async_read(socket, asio::dynamic_buffer(input),
-                         [&](error_code read_error, std::size_t) { done = read_error == asio::error::eof; });
-    });
+    asio::async_write(
+        socket, asio::buffer(output), [&](error_code e, std::size_t) {  // who turns us away may still say why
+            socket.shutdown(Local::socket::shutdown_send, e);
+            asio::async_read(socket, asio::dynamic_buffer(input), [&](error_code, std::size_t) { done = true; });
+        });
     context.run_for(limit);
     if (!done)
         return setup_error(SetupCode::unreachable,

@@ -7,6 +7,14 @@
 
 namespace mavloom::runtime {
 
+void ControlSession::turn_away(Local::socket& socket) {
+    error_code error;
+    socket.non_blocking(true, error);
+    socket.write_some(asio::buffer(std::string_view(R"({"ok":false,"error":"too many clients are connected"})"
+                                                    "\n")),
+                      error);
+}
+
 void ControlSession::read() {
     asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->ask();

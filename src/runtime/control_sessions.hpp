@@ -41,6 +41,8 @@ public:
         : socket_(std::move(socket)), router_(router), place_(std::move(place)) {}
 
     void read();
+    // Says that there are too many, as far as the socket takes it at once.
+    static void turn_away(Local::socket& socket);
 
 private:
     void ask();
@@ -60,6 +62,7 @@ public:
         : socket_(std::move(socket)), deadline_(socket_.get_executor()), router_(router), place_(std::move(place)) {}
 
     void read();
+    static void turn_away(Tcp::socket& socket);
 
 private:
     struct Request;

@@ -24,6 +24,13 @@ struct MetricsSession::Request {
     bool keep_alive;
 };
 
+void MetricsSession::turn_away(Tcp::socket& socket) {
+    error_code error;
+    socket.non_blocking(true, error);
+    socket.write_some(asio::buffer(std::string_view("HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\n\r\n")),
+                      error);
+}
+
 void MetricsSession::read() {
     hang_up_later();
     asio::async_read_until(socket_, input_, "\r\n\r\n", [self = shared_from_this()](error_code error, std::size_t) {
@@ -55,7 +62,8 @@ void MetricsSession::handle() {
 void MetricsSession::answer(const Request& request) {
     if (request.method != http::verb::get && request.method != http::verb::head)
         return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", "GET and HEAD only\n");
-    if (request.target != "/metrics") return write(request, "404 Not Found", "metrics are at /metrics\n");
+    if (std::string_view(request.target).substr(0, request.target.find('?')) != "/metrics")
+        return write(request, "404 Not Found", "metrics are at /metrics\n");
     on_router(
         router_, socket_.get_executor(), [](Router& r) { return report_metrics(r); },
         [self = shared_from_this(), request](const Later<std::string>& text) { self->write(request, "200 OK", text()); });

@@ -21,6 +21,7 @@ namespace {
 
 constexpr Nanoseconds fast_beat = 100ms;  // until the far side answers
 constexpr Nanoseconds beat_interval = 1s;
+constexpr std::size_t told_each_look = 2;
 constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: duplicate ids, rows of links that went
 
 constexpr std::uint8_t ardupilot = 3;                   // MAV_AUTOPILOT_ARDUPILOTMEGA
@@ -165,13 +166,14 @@ bool Router::remove(std::string_view label) {
 }
 
 void Router::configure(const RouterConfig& config) {
+    const bool other_beats = config_.heartbeat != config.heartbeat;
     config_ = config;
-    engine_ = route::Engine(dialect_.wire_table(), engine_options(config));
-    duplicate_ids_told_ = 0;
-    heartbeats_.clear();
+    engine_.set_options(engine_options(config));
     stream_requests_->clear();
+    if (!other_beats) return;
+    heartbeats_.clear();
     for (const auto& link : links_->links())
-        if (link.up) on_link_up(link.id, link.endpoint, link.name);
+        if (link.up) begin_to_beat(link.id, link.endpoint);
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
@@ -251,12 +253,25 @@ void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name)
     if (!engine_.add_link(link, by_id_[endpoint.value]->policy))
         return notice_(LogLevel::warning,
                        fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
+    begin_to_beat(link, endpoint);
+    if (may_tell_of_link()) notice_(LogLevel::info, fmt::format("{}: up", name));
+}
+
+void Router::begin_to_beat(LinkId link, EndpointId endpoint) {
     if (config_.heartbeat && !by_id_[endpoint.value]->policy.tap) heartbeats_.push_back({link, links_->now()});
-    notice_(LogLevel::info, fmt::format("{}: up", name));
+}
+
+bool Router::may_tell_of_link() noexcept {
+    if (may_tell_ == 0) {
+        ++not_told_;
+        return false;
+    }
+    --may_tell_;
+    return true;
 }
 
 void Router::on_link_down(LinkId link, EndpointId, std::string_view why) {
-    notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
+    if (may_tell_of_link()) notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
     forget_link(link);
     a_link_went_ = true;
 }
@@ -363,6 +378,9 @@ void Router::ask_for_streams(const RxFrame& rx) {
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
+    if (not_told_ != 0)
+        notice_(LogLevel::info, fmt::format("{} more times a link came or went", std::exchange(not_told_, 0)));
+    may_tell_ = std::min(most_told, may_tell_ + told_each_look);
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });

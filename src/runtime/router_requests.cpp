@@ -41,7 +41,7 @@ Later<Lines> add(Router& router, const std::string& url) {
 
 // An endpoint or a recording by its name.
 Later<Lines> remove(Router& router, const std::string& name) {
-    if (!router.remove(name)) return failed(fmt::format("there is no endpoint {}; links shows them", name));
+    if (!router.remove(name)) return failed(fmt::format("there is no endpoint {}; stats shows them", name));
     router.tell(LogLevel::info, name + ": removed by ctl");
     return done();
 }

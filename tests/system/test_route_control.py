@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Around the routing: ctl, stat, metrics, reload, --explain, keys and signatures at the border, recordings, and what bad input gets."""
+import contextlib
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
@@ -216,6 +218,25 @@ def test_two_of_one_name(spawn, run):
     assert len(router.ask("links")) == 0
 
 
+def test_too_many_clients_are_told_so(spawn, run):
+    port = routers.tcp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", f"127.0.0.1:{port}")
+    router.ask("links")  # with a connection of its own
+    with contextlib.ExitStack() as idle:
+        for _ in range(63):
+            client = idle.enter_context(socket.socket(socket.AF_UNIX))
+            client.connect(control_path(router))
+        for _ in range(64):
+            idle.enter_context(socket.create_connection(("127.0.0.1", port)))
+        done = run("ctl", router.name, "links", env=router.env)
+        with pytest.raises(urllib.error.HTTPError) as error:
+            fetch(port)
+
+    assert done.status == 1 and "too many clients are connected" in done.stderr
+    assert error.value.code == 503
+    harness.wait_for(lambda: run("ctl", router.name, "links", env=router.env).status == 0, what="room for one more")
+
+
 def test_without_a_name_a_second_router_does_without_a_socket(spawn):
     env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
     first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env) for _ in range(2))
@@ -248,6 +269,23 @@ def as_somebody(program):
     folder = tempfile.mkdtemp(prefix="mv-")
     os.chmod(folder, 0o755)
     return shutil.copy(program, folder), {"user": 65534, "group": 65534, "extra_groups": []}
+
+
+def test_a_key_of_somebody_else_is_a_bad_input_file(program, tmp_path):
+    copy, user = as_somebody(program)
+    if not user:
+        pytest.skip("only root can make a file that its user may not read")
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="mv-"))
+    folder.chmod(0o755)
+    key = folder / "x.key"
+    key.write_text("ab" * 32 + "\n")
+    key.chmod(0o600)
+    done = subprocess.run([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}?verify={key}"], capture_output=True, text=True,
+                          timeout=harness.DEFAULT_TIMEOUT_S, **user)
+    shutil.rmtree(folder)
+    shutil.rmtree(os.path.dirname(copy))
+
+    assert done.returncode == 3 and f"{key}: Permission denied" in done.stderr
 
 
 def test_a_folder_whose_name_is_too_long_for_a_socket(program):
@@ -442,6 +480,7 @@ def test_reload_opens_a_changed_endpoint_anew(reloadable):
     ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?idel=2'\n", "did you mean 'idle'?"),
     ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?out_block=ATITUDE'\n", "did you mean 'ATTITUDE'?"),
     (None, "cannot read"),
+    ("", "names no endpoint"),
 ])
 def test_a_broken_file_changes_nothing(reloadable, broken, said):
     sut = reloadable(f"udpout://127.0.0.1:{routers.udp_port()}?name=copy")
@@ -497,6 +536,24 @@ def test_reload_takes_other_rules_and_keeps_the_connections(reloadable):
     sut.peer.until(lost)
 
     assert sut.names() == before
+
+
+def test_reload_of_rules_keeps_what_was_counted_and_learned(reloadable):
+    sut = reloadable()
+    sut.passes()
+    sut.client.send(command(GCS, (66, 6)))
+    harness.wait_for(lambda: any(row["unknown_target"] for row in sut.router.stats("link")), what="the count")
+    ups = sut.router.process.stderr.count(": up")
+    counters = ("forwarded", "nowhere", "unknown_target", "frames_in")
+    before = [[row[name] for name in counters] for row in sut.router.stats("link")]
+    routes = sut.router.ask("routes")
+    sut.write(router_table="[router]\ndedup_ms = 5\nroute_timeout = 40\n")
+    sut.reload()
+
+    assert [[row[name] for name in counters] for row in sut.router.stats("link")] == before
+    assert [r["frames"] for r in sut.router.ask("routes")] == [r["frames"] for r in routes] and routes
+    assert sut.router.process.stderr.count(": up") == ups
+    sut.passes()
 
 
 def test_reload_takes_the_level_of_the_log(reloadable):

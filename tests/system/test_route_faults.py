@@ -152,6 +152,18 @@ def test_ten_thousand_peers_of_one_host_take_bounded_memory(pair, program):
         assert memory[crowd] - memory[crowd // 10] < 4096, memory
 
 
+def test_a_crowd_that_comes_and_goes_is_told_in_few_lines(pair):
+    net = pair(options="max_peers=4&name=in")
+    crowd = 1000
+    for number in range(crowd):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as peer:
+            peer.sendto(routers.heartbeat((200, 1)), (LOCALHOST, net.port))
+    harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"] + e["peers_refused"] >= crowd - 4, what="the crowd to be seen")
+    net.process.wait_output(r"(\d+) more times a link came or went", stream="err")
+
+    assert net.process.stderr.count(": up") + net.process.stderr.count(": down") < 200
+
+
 def test_sources_and_messages_of_peers_that_are_gone_give_their_places_back(pair):
     """The table of messages has room for 65,536 rows: those of evicted peers must not keep newcomers out."""
     net = pair(options="max_peers=4&name=in")

@@ -165,6 +165,8 @@ public:
     // Forgets the link and its routes. Nothing happens for an id that is not there.
     void remove_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
+    // Other rules for the same links: routes, counters and what was heard lately stay. `seed` and `recent_frames` are those of the beginning.
+    void set_options(const Options& options);
     // Instead of the group_order that their policies gave. Nothing happens for an id that is not there.
     void set_group_orders(std::span<const GroupOrder> orders);
 

@@ -85,6 +85,7 @@ private:
         route::LinkPolicy policy;
         bool verifies = false;
     };
+    static constexpr std::size_t most_told = 100;  // lines about links in a row
     struct HeartbeatLink {
         LinkId link;
         MonoTime due{};
@@ -104,7 +105,10 @@ private:
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
     void order_as(const std::vector<Endpoint>& endpoints);
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
+    void begin_to_beat(LinkId link, EndpointId endpoint);
     void forget_link(LinkId link);
+    // Of a crowd of links that come and go a few are told, and how many there were.
+    [[nodiscard]] bool may_tell_of_link() noexcept;
     void send(const RxFrame& rx, std::span<const LinkId> links);
     void run_posted();
     void beat(HeartbeatLink& link, MonoTime now);
@@ -134,6 +138,7 @@ private:
     bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
     Counter heartbeats_sent_, not_signed_;
     std::size_t duplicate_ids_told_ = 0;
+    std::size_t may_tell_ = most_told, not_told_ = 0;  // lines about links
     MonoTime started_ = mono_now();
     MonoTime look_due_{};
 

@@ -49,6 +49,17 @@ TEST(TrafficTable, TheRecentRateForgetsWhatIsTenSecondsOld) {
     EXPECT_NEAR(rate(3670s), 1. / 60, 1e-3);
 }
 
+TEST(TrafficTable, ABurstIsNoRate) {
+    TrafficTable sut;
+    for (auto t = 0us; t < 200us; t += 20us) sut.add(LinkId{1}, heartbeat, at(t));
+    const auto rate = [&](Nanoseconds now) { return sut.sorted()[0].recent_rate_hz(at(now)); };
+
+    EXPECT_NEAR(rate(1s), 9, 0.01);
+    EXPECT_NEAR(rate(9s), 1, 0.01);
+    for (int i = 0; i < 2; ++i) sut.add(LinkId{2}, heartbeat, at(5s));  // of one datagram
+    EXPECT_NEAR(sut.sorted()[1].recent_rate_hz(at(7s)), 0.5, 0.01);
+}
+
 TEST(TrafficTable, TheRecentRateOutlivesAClockThatIsSetBack) {
     TrafficTable sut;
     for (auto t = 1000s; t < 1010s; t += 1s) sut.add(LinkId{1}, heartbeat, at(t));

@@ -39,6 +39,25 @@ TEST(Engine, TakesEachLinkOnce) {
     EXPECT_EQ(sut.links(), 1u);
 }
 
+TEST(Engine, OtherOptionsKeepRoutesAndCounters) {
+    Network sut;
+    sut.links(3);
+    sut.hears(2, vehicle);
+    ASSERT_THAT(sut.command(1, gcs, Id{66, 1}), IsEmpty());
+    Options other;
+    other.unknown_target = UnknownTarget::flood;
+    other.route_timeout = 5s;
+
+    sut.engine.set_options(other);
+
+    EXPECT_EQ(sut.engine.counters(LinkId{1})->unknown_target.value(), 1u);
+    EXPECT_THAT(sut.command(1, gcs, vehicle), ElementsAre(2));
+    EXPECT_THAT(sut.command(1, gcs, Id{66, 1}), UnorderedElementsAre(2, 3));
+    sut.now += 6s;
+    sut.hears(1, gcs);
+    EXPECT_EQ(sut.engine.counters().routes_expired.value(), 2u) << "also those learned before have the new timeout";
+}
+
 TEST(Engine, RefusesLinksBeyondItsBound) {
     Network sut;
     sut.links(Engine::max_links);
