@@ -55,8 +55,11 @@ public:
 
 private:
     void handle(const runtime::FrameQueue::Entry& entry) {
-        if (Signals::received() && !goes_on_after_signal()) return;
         if (!wanted(entry)) return;
+        if (Signals::received() && !goes_on_after_signal()) {
+            ++unprinted_;
+            return;
+        }
         const message::Received received{entry.time, receiver_.link_name(entry.link), entry.frame,
                                          dialect_.find(entry.frame.id())};
         if (options_.stats) traffic_.add(entry.link, entry.frame, entry.time);
@@ -96,7 +99,7 @@ private:
         if (!options_.stats) say_losses(common_, receiver_.totals());
         if (unprinted != 0)
             say(common_,
-                counted(unprinted, "message") + " received but not printed: nobody took the output at the end");
+                counted(unprinted, "message") + " received but not printed: the end did not wait for the output");
         if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(unprinted != 0 ? Exit::failed : Exit::done);
     }
@@ -105,19 +108,17 @@ private:
     std::uint64_t count_unprinted() {
         const bool complete = options_.receive.count != 0 && printed_ == options_.receive.count;
         if (complete || output_.state() == Output::State::closed_by_reader) return 0;
-        std::uint64_t unprinted = output_.lost_lines();
+        std::uint64_t unprinted = unprinted_ + output_.lost_lines();
         while (const auto entry = receiver_.next()) unprinted += wanted(*entry);
         return unprinted;
     }
 
     // Where the lines go; to stderr beside CSV rows and where the output takes no more.
     void report(std::uint64_t unprinted) {
-        if (csv_ != nullptr || output_.state() == Output::State::interrupted) {
-            talk(traffic_text(traffic_, receiver_, dialect_));
-            return;
-        }
-        output_.buffer().append(options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
-                                              : traffic_text(traffic_, receiver_, dialect_));
+        const auto table = options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
+                                         : traffic_text(traffic_, receiver_, dialect_);
+        if (csv_ != nullptr || output_.state() == Output::State::interrupted) return talk(table);
+        output_.buffer().append(table);
         output_.flush();
     }
 
@@ -129,7 +130,7 @@ private:
     const dialect::Message* csv_;
     Output output_;
     observe::TrafficTable traffic_;
-    std::uint64_t printed_ = 0;
+    std::uint64_t printed_ = 0, unprinted_ = 0;
     MonoTime backlog_end_{};
     bool going_ = true;
 };
@@ -163,7 +164,9 @@ Run declare_listen(Arguments command, const Common& common) {
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C.");
+        "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C; 1 where "
+        "nobody "
+        "took the output behind the end of --for.");
     return [options, &common] { return listen(common, *options); };
 }
 

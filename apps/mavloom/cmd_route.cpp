@@ -194,7 +194,8 @@ private:
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
         auto config = read_config(options_.config, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
-        if (Plan{*config, plan_.from_command_line}.endpoints().empty())
+        const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
+        if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
             return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
         const bool same_rules = config->router == plan_.config.router;
         plan_.config = std::move(*config);

@@ -80,9 +80,12 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     const auto left = app.remaining(true);
     if (left.empty()) return error.what();
     std::vector<std::string> known;
-    for (const CLI::App* at = command; at != &app; at = at->get_parent())  // a subcommand takes its command's options too
+    const CLI::App* at = command;  // and its parents: a subcommand takes its command's options too
+    do {
         for (const auto* option : at->get_options())
             for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+        at = at->get_parent();
+    } while (at != nullptr && at != &app);
     for (const auto* sub : command->get_subcommands([](const CLI::App*) { return true; }))
         known.push_back(sub->get_name());
     const std::vector<std::string_view> names(known.begin(), known.end());

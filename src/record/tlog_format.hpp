@@ -21,7 +21,8 @@ struct Found {
 // `bytes` begins at the position in question and holds all that is left of the file, or at least two longest records.
 [[nodiscard]] Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept;
 
-// How many bytes at the front cannot begin a record because no start byte stands where it would have to; all but the last eight at most.
+// How many bytes at the front cannot begin a record: no start byte stands where it would have to, or no plausible time before it. All but the last
+// eight at most.
 [[nodiscard]] std::size_t skip_startless(ByteView bytes) noexcept;
 
 // The length of the record at the front, by its header alone; 0 where `bytes` does not hold it whole.

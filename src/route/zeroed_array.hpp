@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fixed array of zero bits from calloc that begins on a cache line: large tables of which most is never used cost no memory until it is.
+// A fixed array of zero bits from calloc that begins on a cache line: large tables of which most is never used cost no memory until it is
+// (on huge pages, 2 MiB of it at a time).
 // Private to module route.
 #pragma once
 

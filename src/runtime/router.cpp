@@ -173,7 +173,7 @@ void Router::configure(const RouterConfig& config) {
     if (!other_beats) return;
     heartbeats_.clear();
     for (const auto& link : links_->links())
-        if (link.up) begin_to_beat(link.id, link.endpoint);
+        if (link.up && engine_.counters(link.id) != nullptr) begin_to_beat(link.id, link.endpoint);
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
@@ -249,29 +249,29 @@ void Router::send(const RxFrame& rx, std::span<const LinkId> links) {
 }
 
 void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name) {
-    if (engine_.counters(link) != nullptr) return;  // a reload in the same turn has told it
     if (!engine_.add_link(link, by_id_[endpoint.value]->policy))
         return notice_(LogLevel::warning,
                        fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
     begin_to_beat(link, endpoint);
-    if (may_tell_of_link()) notice_(LogLevel::info, fmt::format("{}: up", name));
+    if (may_tell_of_link(endpoint)) notice_(LogLevel::info, fmt::format("{}: up", name));
 }
 
 void Router::begin_to_beat(LinkId link, EndpointId endpoint) {
     if (config_.heartbeat && !by_id_[endpoint.value]->policy.tap) heartbeats_.push_back({link, links_->now()});
 }
 
-bool Router::may_tell_of_link() noexcept {
-    if (may_tell_ == 0) {
-        ++not_told_;
+bool Router::may_tell_of_link(EndpointId endpoint) noexcept {
+    OpenedEndpoint& opened = *by_id_[endpoint.value];
+    if (opened.may_tell == 0) {
+        ++opened.not_told;
         return false;
     }
-    --may_tell_;
+    --opened.may_tell;
     return true;
 }
 
-void Router::on_link_down(LinkId link, EndpointId, std::string_view why) {
-    if (may_tell_of_link()) notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
+void Router::on_link_down(LinkId link, EndpointId endpoint, std::string_view why) {
+    if (may_tell_of_link(endpoint)) notice_(LogLevel::info, fmt::format("{}: down, {}", links_->link_name(link), why));
     forget_link(link);
     a_link_went_ = true;
 }
@@ -378,9 +378,11 @@ void Router::ask_for_streams(const RxFrame& rx) {
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
-    if (not_told_ != 0)
-        notice_(LogLevel::info, fmt::format("{} more times a link came or went", std::exchange(not_told_, 0)));
-    may_tell_ = std::min(most_told, may_tell_ + told_each_look);
+    for (const auto& e : endpoints_) {
+        e->may_tell = std::min(most_told, e->may_tell + told_each_look);
+        if (const auto more = std::exchange(e->not_told, 0); more != 0)
+            notice_(LogLevel::info, fmt::format("{}: {} more times a link came or went", e->endpoint.label(), more));
+    }
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });

@@ -10,8 +10,6 @@ namespace mavloom::runtime {
 
 // How often an empty pipe is looked at.
 static constexpr std::chrono::milliseconds pipe_look{5};
-// How much is read of a file before anything is opened, to see whether it is a recording; longer damage at its head is left to the loop.
-static constexpr std::uint64_t longest_check = 16u << 20;
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
 
@@ -56,8 +54,7 @@ SetupResult<void> Sources::check(const Endpoint& endpoint) const {
         reader.error().code = SetupCode::bad_input;
         return tl::unexpected(std::move(reader.error()));
     }
-    const auto record = reader->next(longest_check);
-    if (!record && record.error() == record::TlogReader::Stop::end && reader->counters().lost_bytes.value() != 0)
+    if (!reader->next() && reader->counters().lost_bytes.value() != 0)
         return tl::unexpected(no_record(endpoint.label()));
     return {};
 }
@@ -83,13 +80,17 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
     return {};
 }
 
-void Sources::advance(Recording& recording, LinkHandler& handler) {
+bool Sources::advance(Recording& recording, LinkHandler& handler) {
     const auto record = recording.reader.next(damage_a_turn);
     using Stop = record::TlogReader::Stop;
-    if (!record && (record.error() == Stop::nothing_yet || record.error() == Stop::damage)) {
+    if (!record && record.error() == Stop::damage) {
         recording.next.reset();
-        recording.due = mono_now() + (record.error() == Stop::damage ? Nanoseconds{} : pipe_look);
-        return;
+        return false;
+    }
+    if (!record && record.error() == Stop::nothing_yet) {
+        recording.next.reset();
+        recording.due = mono_now() + pipe_look;
+        return true;
     }
     if (!record) {
         recording.ended = true;
@@ -101,10 +102,11 @@ void Sources::advance(Recording& recording, LinkHandler& handler) {
         } else if (counters.records.value() == 0) {
             handler.on_notice(recording.endpoint, recording.name + " holds no frames");
         }
-        return;
+        return true;
     }
     recording.next = *record;
     recording.due = recording.pacer.due(record->time);
+    return true;
 }
 
 // What is due, the earliest first: several recordings are played side by side.
@@ -114,14 +116,14 @@ std::size_t Sources::play(LinkHandler& handler, std::size_t most_frames) {
     for (; played < most_frames; ++played) {
         Recording* const first = earliest();
         if (first == nullptr || first->due > now) break;
-        if (!first->next) {  // at the very beginning: reading is left to the loop
-            advance(*first, handler);
+        if (!first->next) {  // at the very beginning: reading is left to the loop; or behind damage
+            if (!advance(*first, handler)) break;
             continue;
         }
         const auto& record = *first->next;
         const auto update = first->sequence.update(record.frame);
         handler.on_frame({record.frame, record.info, first->link, first->endpoint, record.time, update});
-        advance(*first, handler);
+        if (!advance(*first, handler)) return played + 1;
     }
     return played;
 }
@@ -130,9 +132,10 @@ Sources::Recording* Sources::earliest() noexcept {
     Recording* first = nullptr;
     for (const auto& recording : recordings_) {
         if (recording->ended) continue;
+        // One whose next record is not read yet goes first: it may be the earliest.
         const bool sooner = first == nullptr || recording->due < first->due ||
-                            (recording->due == first->due && recording->next && first->next &&
-                             recording->next->time < first->next->time);
+                            (recording->due == first->due && first->next &&
+                             (!recording->next || recording->next->time < first->next->time));
         if (sooner) first = recording.get();
     }
     return first;

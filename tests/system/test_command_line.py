@@ -157,6 +157,7 @@ def test_an_option_of_a_subcommand_has_a_nearest_spelling(run):
     done = run("bench", "parse", frames.FLIGHT, "--tunrs", "3")
 
     assert done.status == 2 and "'--tunrs' is not expected here" in done.stderr and "--turns" in done.stderr
+    assert "did you mean '--version'" in run("--versoin").stderr
     assert "--dialect" in run("dialect", "show", "ATTITUDE", "--dialet", "x.xml").stderr
 
 

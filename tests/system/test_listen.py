@@ -345,9 +345,10 @@ def test_memory_stays_flat_under_peers_and_garbage_from_many_ports(spawn):
     assert later[-1] - first < 4096
 
 
-def test_ctrl_c_ends_it_although_nobody_ever_reads(spawn):
+@pytest.mark.parametrize("form", [[], ["--json"]], ids=["text", "json"])
+def test_ctrl_c_ends_it_although_nobody_ever_reads(spawn, form):
     read_end, write_end = os.pipe()
-    process = spawn("listen", frames.FLIGHT, "udpin://127.0.0.1:0", "--stats", stdout=write_end)
+    process = spawn("listen", frames.FLIGHT, "udpin://127.0.0.1:0", "--stats", *form, stdout=write_end)
     os.close(write_end)
     harness.wait_for(lambda: len(select.select([read_end], [], [], 0)[0]) == 1, what="the pipe to fill")
     done = process.stop(timeout=20)
@@ -356,7 +357,12 @@ def test_ctrl_c_ends_it_although_nobody_ever_reads(spawn):
         shown += chunk
     os.close(read_end)
     unprinted = int(re.search(r"(\d+) messages received but not printed", done.stderr)[1])
-    heard = int(re.search(r"total heard: (\d+) frames", done.stderr)[1])
+    if form:
+        totals = json.loads(next(line for line in done.stderr.splitlines() if line.startswith("{")))["stats"]["totals"]
+        assert totals["unprinted"] == unprinted > 0
+        heard = totals["frames"]
+    else:
+        heard = int(re.search(r"total heard: (\d+) frames", done.stderr)[1])
 
     assert done.status == 130 and "ATTITUDE" in done.stderr
     assert shown.endswith(b"\n") and shown.count(b"\n") + unprinted == heard
@@ -521,3 +527,16 @@ def test_two_gigabytes_of_zeros(program, tmp_path):
     assert done.returncode == 3
     assert str(2 << 30) in done.stderr and "holds no record" in done.stderr
     assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss < 256 * 1024
+
+
+def test_damage_does_not_change_the_order_of_recordings(run, tmp_path):
+    records = frames.read_tlog(frames.FLIGHT)[:2000]
+    first, second = records[::2], records[1::2]
+    whole = frames.write_tlog(tmp_path / "a.tlog", first).read_bytes()
+    middle = len(frames.write_tlog(tmp_path / "half.tlog", first[:500]).read_bytes())
+    (tmp_path / "a.tlog").write_bytes(whole[:middle] + b"\x00\xfd" * 500_000 + whole[middle:])
+    frames.write_tlog(tmp_path / "b.tlog", second)
+
+    times = [line["time_us"] for line in json_lines(run("listen", tmp_path / "a.tlog", tmp_path / "b.tlog", "--json").stdout)]
+
+    assert times == [time_us for time_us, _ in first + second]  # as fast as possible: one after the other

@@ -2,7 +2,7 @@
 // Decides where a frame goes: a frame and the link it came on in, a set of links out. Learns which system and component is behind which link,
 // knows groups of redundant links, filters, rate limits, copies and echoes. It opens nothing, sends nothing and reads no clock.
 //
-// One owner thread; the counters' values may be read from any. Allocates when it is made and when links are added or removed, never for a
+// One owner thread; the counters' values may be read from any. Allocates when it is made and when links or options change, never for a
 // frame; memory is bounded whatever is sent (the constants of Engine). routing.md section 5, DESIGN.md section 4, docs/guide/routing.md.
 #pragma once
 

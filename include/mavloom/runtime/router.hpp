@@ -44,7 +44,7 @@ public:
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
     // By its label (`name=`, else the URL without its query). False when there is none.
     bool remove(std::string_view label);
-    // Other [router] values. Links stay; what was learned is learned again within a heartbeat.
+    // Other [router] values. Links stay, and so does what was learned and counted.
     void configure(const RouterConfig& config);
     // The endpoints become these: those that are the same stay as they are. What could not be opened is told and left out; one of the same
     // name that was there before is opened again.
@@ -79,13 +79,14 @@ public:
     [[nodiscard]] MonoTime started() const noexcept { return started_; }
 
 private:
+    static constexpr std::size_t most_told = 100;  // lines about links of one endpoint in a row
     struct OpenedEndpoint {
         EndpointId id;
         Endpoint endpoint;
         route::LinkPolicy policy;
         bool verifies = false;
+        std::size_t may_tell = most_told, not_told = 0;  // lines about its links
     };
-    static constexpr std::size_t most_told = 100;  // lines about links in a row
     struct HeartbeatLink {
         LinkId link;
         MonoTime due{};
@@ -107,8 +108,8 @@ private:
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
     void begin_to_beat(LinkId link, EndpointId endpoint);
     void forget_link(LinkId link);
-    // Of a crowd of links that come and go a few are told, and how many there were.
-    [[nodiscard]] bool may_tell_of_link() noexcept;
+    // Of a crowd of links of an endpoint that come and go a few are told, and how many there were.
+    [[nodiscard]] bool may_tell_of_link(EndpointId endpoint) noexcept;
     void send(const RxFrame& rx, std::span<const LinkId> links);
     void run_posted();
     void beat(HeartbeatLink& link, MonoTime now);
@@ -138,7 +139,6 @@ private:
     bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
     Counter heartbeats_sent_, not_signed_;
     std::size_t duplicate_ids_told_ = 0;
-    std::size_t may_tell_ = most_told, not_told_ = 0;  // lines about links
     MonoTime started_ = mono_now();
     MonoTime look_due_{};
 

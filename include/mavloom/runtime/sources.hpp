@@ -70,7 +70,8 @@ private:
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
     explicit Sources(std::unique_ptr<Links> links) noexcept : links_(std::move(links)) {}
-    void advance(Recording& recording, LinkHandler& handler);
+    // Reads its next record. False: it met much damage and gives way to links and signals.
+    bool advance(Recording& recording, LinkHandler& handler);
     std::size_t play(LinkHandler& handler, std::size_t most_frames);
     [[nodiscard]] Recording* earliest() noexcept;
 

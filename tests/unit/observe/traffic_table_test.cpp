@@ -93,7 +93,7 @@ TEST(TrafficTable, SortsByLinkSourceAndId) {
 TEST(TrafficTable, RowsOfLinksThatAreGoneAreGivenBack) {
     TrafficTable sut;
     sut.add(LinkId{1}, heartbeat, at(0s));
-    sut.add(LinkId{2}, heartbeat, at(0s));
+    for (int i = 0; i < 3; ++i) sut.add(LinkId{2}, heartbeat, at(0s));
     sut.add(LinkId{2}, attitude, at(0s));
 
     sut.forget_links_unless([](LinkId link) { return link == LinkId{1}; });
@@ -117,6 +117,21 @@ TEST(TrafficTable, ManyRowsInTurnAreCountedEach) {
 
     ASSERT_EQ(sut.rows().size(), 8 * 256u);
     for (const auto& row : sut.rows()) EXPECT_EQ(row.count, 3u);
+}
+
+TEST(TrafficTable, RowsThatComeAgainAtOnceAreCountedEach) {
+    TrafficTable sut;
+    auto bytes = test::heartbeat_v2;
+    for (unsigned component = 0; component < 256; ++component)
+        for (unsigned again = 0; again < 4; ++again) {
+            bytes[6] = static_cast<std::uint8_t>(component);
+            sut.add(LinkId{1}, wire::FrameView::unchecked(bytes), at(0s));
+            sut.add(LinkId{1}, attitude, at(0s));
+        }
+
+    const auto rows = sut.sorted();
+    ASSERT_EQ(rows.size(), 257u);
+    for (const auto& row : rows) EXPECT_EQ(row.count, row.id.value == 0 ? 4u : 1024u);
 }
 
 TEST(TrafficTable, BoundsItsRowsAndCountsTheRest) {
