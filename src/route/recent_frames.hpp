@@ -21,12 +21,6 @@ public:
     void resize(std::size_t capacity, std::size_t words);
     [[nodiscard]] bool active() const noexcept { return places_ != 0; }
 
-    // Has the frame's bucket fetched from memory meanwhile.
-    void prefetch(std::uint64_t hash) const noexcept {
-        const std::uint64_t* place = &cells_[bucket(hash) * stride_];
-        for (std::size_t i = 0; i < ways; ++i, place += stride_) __builtin_prefetch(place, 1);
-    }
-
     // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.
     [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
     // Begins anew for the frame that was `found` at `index`, or was not: heard and sent nowhere. True if one younger than `window` had to give
