@@ -79,6 +79,8 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     auto config = read_config(options.config, dialect);
     if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
     plan.config = std::move(*config);
+    if (auto checked = runtime::check_key_files(plan.config, options.config); !checked)
+        return tl::unexpected(std::move(checked.error()));
     if (plan.endpoints().empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
     return plan;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mavloom/base/suggest.hpp"
+#include "runtime/config_keys.hpp"
 #include "runtime/endpoint_parts.hpp"
 
 namespace mavloom::runtime {
@@ -204,6 +205,20 @@ std::string schemes_text(SchemeSet schemes) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// A rule of the whole router, taken for an option of one endpoint: by its name, nearly, or by its beginning ("dedup").
+std::string router_key_hint(std::string_view typed) {
+    constexpr std::size_t least_beginning = 4;
+    std::vector<std::string_view> names;
+    for (const ConfigKey& key : config_keys())
+        if (key.section == "router") names.push_back(key.name);
+    auto meant = nearest(typed, names);
+    if (meant.empty() && typed.size() >= least_beginning) {
+        const auto begins = [&](std::string_view n) { return n.starts_with(typed); };
+        if (std::ranges::count_if(names, begins) == 1) meant = *std::ranges::find_if(names, begins);
+    }
+    return meant.empty() ? std::string{} : fmt::format("; '{}' is a key of [router] in a configuration file", meant);
+}
+
 }  // namespace
 
 std::vector<std::string_view> detail::option_names_for(Scheme scheme) {
@@ -235,6 +250,7 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
     if (option == nullptr) {
         const auto names = option_names_for(endpoint.scheme);
         auto hint = did_you_mean(key, names);
+        if (hint.empty()) hint = router_key_hint(key);
         if (hint.empty()) hint = fmt::format("; {} takes {}", scheme_name(endpoint.scheme), fmt::join(names, ", "));
         return usage(fmt::format("there is no option {}{}", in_quotes(key), hint));
     }

@@ -85,6 +85,7 @@ bool Sources::advance(Recording& recording, LinkHandler& handler) {
     using Stop = record::TlogReader::Stop;
     if (!record && record.error() == Stop::damage) {
         recording.next.reset();
+        if (recording.pacer.waits()) recording.due = mono_now();  // the others do not wait for it
         return false;
     }
     if (!record && record.error() == Stop::nothing_yet) {

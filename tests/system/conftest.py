@@ -41,8 +41,7 @@ def spawn(program):
         running.append(harness.Running([program, *args], env=harness.environment(env), **options))
         return running[-1]
     yield start
-    for process in running:
-        process.kill()
+    harness.end(running)
 
 
 @pytest.fixture

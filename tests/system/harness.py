@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the system tests share: running the program under a deadline, waiting for a condition, free ports. Fixtures are in conftest.py."""
+import contextlib
 import os
 import pathlib
 import random
@@ -159,3 +160,13 @@ class Running:
     def _join(self):
         for reader in self._readers:
             reader.join(timeout=5)
+
+
+def end(processes):
+    """Kills what still runs, and takes away the control socket that a killed router leaves."""
+    for process in processes:
+        process.kill()
+        if "--name" in process.args:
+            name = process.args[process.args.index("--name") + 1]
+            with contextlib.suppress(OSError):
+                os.unlink(f"/run/mavloom/{name}.ctl")

@@ -6,7 +6,6 @@ import collections
 import itertools
 import json
 import os
-import pathlib
 import pty
 import select
 import shutil
@@ -246,7 +245,6 @@ class Router:
         self.name = f"test-{os.getpid()}-{next(_names)}"
         self.env = {"XDG_RUNTIME_DIR": runtime_dir(), **{f"MAVLOOM_ROUTER_{k.upper()}": str(v) for k, v in (rules or {}).items()}, **(env or {})}
         self.process = spawn("route", *args, "--name", self.name, env=self.env)
-        atexit.register(pathlib.Path(f"/run/mavloom/{self.name}.ctl").unlink, missing_ok=True)  # a killed one leaves it
         self._control = harness.wait_for(self._connect, what="the control socket").makefile("rwb")
 
     def _connect(self):

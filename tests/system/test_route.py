@@ -13,6 +13,7 @@ MR: mavlink-router, P: mavp2p, G: gomavlib, S: mavlink-server, F: MAVSDK, N: nob
 | S3, and S1, S2 over WebSocket and zenoh | do not apply: no such endpoints |
 | S5 ArduCopter SITL | needs ArduPilot's simulator; test_route_clients.py passes commands, parameters and missions instead |
 | S6 URL grammar | unit tests of endpoints |
+| limits, private links, the best of a group | below; groups over bad networks in test_route_networks.py |
 """
 import os
 import pathlib
@@ -970,3 +971,160 @@ def test_n23_a_whole_system_is_reached_on_all_its_links(net, kind):
 
     assert sut.command(3, GCS, (1, 0)) == [1, 2]
     assert sut.command(3, GCS, (1, 154)) == [2]
+
+
+# ---- limits, private links, the best of a group ----------------------------------------------------------------------
+
+def vfr_hud():
+    return make(mavlink.MAVLink_vfr_hud_message(unique(), 1, 2, 3, 4, 5))
+
+
+def test_max_rate_holds_back_what_it_names_and_nothing_else(net, filter_kind):
+    sut = net(filter_kind, options={2: "max_rate=ATTITUDE:10"})
+    offered, got, begin = [], [], time.monotonic()
+
+    def ten_came():
+        offered.extend((attitude(), attitude()))
+        other = vfr_hud()
+        for frame in (*offered[-2:], other):
+            sut[1].send(frame)
+        got.extend(sut[2].until(other))
+        return len(got) == 10
+    harness.wait_for(ten_came, what="ten of them")
+
+    assert time.monotonic() - begin > 0.85  # nine intervals
+    assert set(got) < set(offered)
+    held = len(offered) - len(got)
+    link = sut.link(2)
+    assert (link["out_rate_limited"], link["out_bytes_limited"]) == (held, 0)
+    assert sut.link(1)["rate_limited"] == held
+
+
+def test_max_rate_is_of_each_source_and_holds_for_a_heartbeat_that_it_names(net, filter_kind):
+    sut = net(filter_kind, options={2: "max_rate=HEARTBEAT:0.01"})
+    sent = [heartbeat((system, 1)) for _ in range(5) for system in (1, 2)]
+    last = attitude()
+    for frame in (*sent, last):
+        sut[1].send(frame)
+
+    assert sut[2].until(last) == sent[:2]
+    assert sut.link(2)["out_rate_limited"] == 8
+
+
+def test_max_bytes_lets_so_many_out_in_a_second(net, filter_kind):
+    sut = net(filter_kind, options={2: "max_bytes=4000"})
+    burst, begin = 1000, time.monotonic()
+    offered, got, marks = [], [], []
+
+    def a_second_of_bytes_came():
+        offered.extend(attitude() for _ in range(10))
+        marks.append(heartbeat())
+        for frame in (*offered[-10:], marks[-1]):
+            sut[1].send(frame)
+        got.extend(sut[2].until(marks[-1]))
+        return len(b"".join(got + marks)) >= burst + 4000
+    harness.wait_for(a_second_of_bytes_came, what="a second's bytes")
+
+    assert time.monotonic() - begin > 0.9
+    assert set(got) < set(offered)
+    held = len(offered) - len(got)
+    link = sut.link(2)
+    assert (link["out_rate_limited"], link["out_bytes_limited"]) == (0, held)
+    assert sut.link(1)["rate_limited"] == held
+
+
+@pytest.mark.short
+@pytest.mark.parametrize("option, counter", [("max_rate=*:1", "out_rate_limited"), ("max_bytes=560", "out_bytes_limited")])
+def test_commands_and_heartbeats_pass_the_limits_of_all(net, option, counter):
+    sut = net(("udpout", "tcpin"), options={2: option})
+    sut.hears(2, (12, 1))
+    urgent, telemetry = [], []
+    for _ in range(40):
+        urgent += [command(VEHICLE, (12, 1)), heartbeat()]
+        telemetry.append(attitude())
+        for frame in (*urgent[-2:], telemetry[-1]):
+            sut[1].send(frame)
+    last = heartbeat()
+    sut[1].send(last)
+    got = sut[2].until(last)
+
+    assert [frame for frame in got if frame not in telemetry] == urgent
+    held = len(telemetry) + len(urgent) - len(got)
+    assert held > 0
+    assert sut.link(2)[counter] == sut.link(1)["rate_limited"] == held
+
+
+def test_a_private_link_gets_what_is_for_exactly_a_pair_heard_there(net, filter_kind):
+    sut = net(filter_kind, 3, options={3: "private=true"}, rules={"unknown_target": "flood"})
+    sut[3].send(heartbeat((7, 1)))
+    sut.router.wait_counter(sut[3], "private_link", 1)
+    others = [attitude(), unknown(), command(VEHICLE, (0, 0)), command(VEHICLE, (66, 6))]
+    whole_system = [command(VEHICLE, (7, component)) for component in (0, 2)]
+    exact = command(VEHICLE, (7, 1))
+    sut.send(1, heartbeat((0, 0)), watched=[1, 2])  # a byte stream has to be in step before an id without definition is believed
+
+    assert sut.send(1, *others, *whole_system, exact, watched=[1, 2]) == [[2]] * 4 + [[]] * 3
+    assert sut[3].until(exact) == []
+
+
+def test_nothing_from_a_private_link_is_forwarded(net, filter_kind):
+    sut = net(filter_kind, 3, options={3: "private=true"})
+    sut.send(2, heartbeat(VEHICLE), watched=[1, 2])
+    said = [heartbeat((7, 1)), attitude((7, 1)), command((7, 1), VEHICLE), unknown((7, 1))]
+    for frame in said:
+        sut[3].send(frame)
+    sut.router.wait_counter(sut[3], "private_link", len(said))
+
+    assert sut.send(1, attitude((9, 9)), watched=[1, 2]) == [2]  # and nothing else came
+
+
+class BestOfTwo:
+    """The vehicle behind links 1 and 2 of a group, the ground station on link 3."""
+
+    def __init__(self, net):
+        self.sut = net("udpout", 3, options={number: "group=air&group_mode=best" for number in (1, 2)})
+        for _ in range(3):
+            self.brings(heartbeat(VEHICLE), 1, 2)
+
+    def brings(self, frame, *members):
+        for number in members:
+            self.sut[number].send(frame)
+        self.sut[3].until(frame)
+
+    def carrier(self):
+        """The one member that a command takes."""
+        order, mark = command(GCS, VEHICLE), heartbeat(GCS)
+        self.sut[3].send(order)
+        self.sut[3].send(mark)
+        (number,) = [number for number in (1, 2) if order in self.sut[number].until(mark)]
+        return number
+
+
+def test_best_takes_the_member_that_brings_more_heartbeats_and_goes_back(net):
+    group = BestOfTwo(net)
+    first = group.carrier()
+
+    def changes_after(worse, better):
+        beats = 0
+        while group.carrier() == worse and beats < 20:
+            group.brings(heartbeat(VEHICLE), better)
+            group.brings(attitude(VEHICLE), worse)  # it is not silent
+            beats += 1
+        return beats
+    assert 4 <= changes_after(first, 3 - first) <= 6
+    assert 9 <= changes_after(3 - first, first) <= 11
+
+
+def test_best_leaves_a_silent_member_and_goes_back(net):
+    group = BestOfTwo(net)
+    first = group.carrier()
+    for silent, heard in ((first, 3 - first), (3 - first, first)):
+        begin = time.monotonic()
+        group.brings(attitude(VEHICLE), silent)
+        assert group.carrier() == silent
+
+        def is_left():
+            group.brings(attitude(VEHICLE), heard)
+            return group.carrier() == heard
+        harness.wait_for(is_left, what="the other member")
+        assert time.monotonic() - begin > 2.9

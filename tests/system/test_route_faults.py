@@ -618,8 +618,7 @@ def own_hosts(program, tmp_path):
         return running[-1]
     start.file = file
     yield start
-    for process in running:
-        process.kill()
+    harness.end(running)
 
 
 @pytest.mark.parametrize("scheme", ["udpout", "tcpout"])

@@ -299,8 +299,7 @@ def spawn_in(program):
             return running[-1]
         return start
     yield on
-    for process in running:
-        process.kill()
+    harness.end(running)
 
 
 def on(machine, *command):

@@ -29,6 +29,7 @@ public:
     // the pace goes on from there.
     [[nodiscard]] MonoTime due(WallTime recorded) noexcept;
 
+    [[nodiscard]] bool waits() const noexcept { return speed_ != max_speed; }
     [[nodiscard]] std::uint64_t jumps() const noexcept { return jumps_; }
 
 private:

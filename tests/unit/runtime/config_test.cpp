@@ -192,6 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
             "r.toml:3: 'idle' stands in the url already"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nqueue_byte = 2\n",
             "r.toml:3: there is no option 'queue_byte', did you mean 'queue_bytes'?"},
+        Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\ndedup_ms = 5\n",
+            "r.toml:3: there is no option 'dedup_ms'; 'dedup_ms' is a key of [router] in a configuration file"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nbaud = 2\n", "does not take the option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"udpn\"\n", "did you mean 'udpin'?"},
         // routing.md MR26
