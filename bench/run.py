@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, each beside its peer: ./run bench [parse|decode|listen|route ...]
+"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|listen|inside|route ...]
 Options that are not known here go to the one benchmark that is named: ./run bench route --quick"""
 import argparse
 import pathlib
@@ -18,6 +18,7 @@ def commands(program, build):
         "parse": [[folder / "parse_bench", FLIGHT, chunk] for chunk in ("4096", "65536", "256")],
         "decode": [[sys.executable, HERE / "decode.py", "--program", program]],
         "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
+        "inside": [[folder / "inside_bench", FLIGHT, frames] for frames in ("8", "1")],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
     }
 

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <string_view>
 #include <vector>
 
+#include "../cpu_time.hpp"
 #include "c_library.h"
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/dialect/dialect.hpp"
@@ -20,6 +20,7 @@
 namespace {
 
 using namespace mavloom;
+using bench::cpu_seconds;
 
 // The frames of a tlog without their times: what a serial line would have carried.
 std::vector<std::uint8_t> frames_of(const char* path, const wire::MessageTable& table) {
@@ -49,13 +50,6 @@ peer_result our_parse(ByteView bytes, std::size_t chunk, const wire::MessageTabl
         parser.feed(bytes.subspan(at, std::min(chunk, bytes.size() - at)), MonoTime{}, sink);
     parser.finish(sink);
     return result;
-}
-
-// This thread's processor time: whoever else runs on the core meanwhile does not count for either side.
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 template <class F>

@@ -129,6 +129,11 @@ void EventLoop::wait(MonoTime deadline) noexcept {
     count_ = epoll_wait(epoll_.get(), events_.get(), events_per_wait, ms);
 }
 
+void EventLoop::sleep_until(MonoTime when) noexcept {
+    const timespec at = timespec_of(when.time_since_epoch());
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
+}
+
 // Timers that a callback starts, also for now or earlier, wait for the next turn.
 void EventLoop::run_timers(MonoTime now) {
     const std::uint64_t newest = last_timer_;

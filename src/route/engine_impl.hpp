@@ -23,8 +23,9 @@ public:
     void remove_link(LinkId id);
     void set_options(const Options& given);
     void set_group_orders(std::span<const GroupOrder> orders);
-    [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
-                                 MonoTime now) noexcept;
+    [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
+    [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t hash, const wire::MessageInfo* info,
+                                 LinkId ingress, MonoTime now) noexcept;
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
                      std::vector<Explanation>& why);
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
@@ -81,6 +82,7 @@ private:
     // A frame on its way through.
     struct Passage {
         const wire::FrameView& frame;
+        std::uint64_t hash;  // of its bytes; 0 where no frames are remembered
         const wire::MessageInfo* info;
         MessageId id;
         Pair source;
@@ -88,15 +90,14 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
-        bool is_copy = false;  // of a frame that another link brought
-        std::uint64_t hash = 0;
+        bool is_copy = false;    // of a frame that another link brought
         std::size_t recent = 0;  // its place among the recent frames
     };
 
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
     [[nodiscard]] Verdict judge(Passage& p) noexcept;
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
-    void remember(Passage& p, std::uint64_t hash, bool found) noexcept;
+    void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
     // The link brought this HEARTBEAT a moment ago.

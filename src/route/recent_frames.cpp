@@ -39,7 +39,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
     grown.words_ = words;
     grown.stride_ = stride;
     grown.places_ = capacity;
-    grown.cells_ = ZeroedArray<std::uint64_t>(capacity * stride);
+    grown.cells_ = ZeroedArray<std::uint64_t>::on_huge_pages(capacity * stride);
     const std::size_t kept = std::min(words, words_);
     for (std::size_t i = 0; i < places_ && capacity != 0; ++i) {
         if (hash(i) == 0) continue;
@@ -50,31 +50,6 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
         assign(grown.sent(at), sent(i), kept);
     }
     *this = std::move(grown);
-}
-
-bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) const noexcept {
-    const std::size_t first = index = bucket(wanted);
-    for (std::size_t i = first; i < first + ways; ++i) {
-        if (hash(i) != wanted) continue;
-        index = i;
-        return true;
-    }
-    return false;
-}
-
-bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds window, bool found,
-                       std::size_t& index) noexcept {
-    bool gave_way = false;
-    if (!found) {
-        const std::size_t first = index;
-        for (std::size_t i = first + 1; i < first + ways; ++i)
-            if (time_ns(i) < time_ns(index)) index = i;
-        gave_way = hash(index) != 0 && now - time(index) < window;
-    }
-    cells_[index * stride_] = new_hash;
-    cells_[index * stride_ + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
-    each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
-    return gave_way;
 }
 
 void RecentFrames::forget(Slot slot) noexcept {

@@ -21,6 +21,12 @@ public:
     void resize(std::size_t capacity, std::size_t words);
     [[nodiscard]] bool active() const noexcept { return places_ != 0; }
 
+    // Has the frame's bucket fetched from memory meanwhile.
+    void prefetch(std::uint64_t hash) const noexcept {
+        const std::uint64_t* place = &cells_[bucket(hash) * stride_];
+        for (std::size_t i = 0; i < ways; ++i, place += stride_) __builtin_prefetch(place, 1);
+    }
+
     // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.
     [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
     // Begins anew for the frame that was `found` at `index`, or was not: heard and sent nowhere. True if one younger than `window` had to give
@@ -51,5 +57,30 @@ private:
     std::size_t places_ = 0;  // a power of two
     std::size_t words_ = 0, stride_ = 0;
 };
+
+inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) const noexcept {
+    const std::size_t first = index = bucket(wanted);
+    for (std::size_t i = first; i < first + ways; ++i) {
+        if (hash(i) != wanted) continue;
+        index = i;
+        return true;
+    }
+    return false;
+}
+
+inline bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds window, bool found,
+                              std::size_t& index) noexcept {
+    bool gave_way = false;
+    if (!found) {
+        const std::size_t first = index;
+        for (std::size_t i = first + 1; i < first + ways; ++i)
+            if (time_ns(i) < time_ns(index)) index = i;
+        gave_way = hash(index) != 0 && now - time(index) < window;
+    }
+    cells_[index * stride_] = new_hash;
+    cells_[index * stride_ + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
+    each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
+    return gave_way;
+}
 
 }  // namespace mavloom::route

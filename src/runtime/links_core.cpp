@@ -57,12 +57,14 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     assert(handler_ == nullptr && "turn must not be called inside a callback");
     handler_ = &handler;
     running_ = true;
-    frames_this_turn_ = 0;
     now_ = mono_now();
+    coalescing_.count(turn_began_, now_, std::exchange(frames_this_turn_, 0), std::exchange(more_waits_, false));
     tell_backlog();
     flush();
+    if (const auto until = coalescing_.rest_until(); until && deadline > now_)
+        net::EventLoop::sleep_until(std::min(*until, deadline));
     loop_->wait(wait_limit(deadline));
-    now_ = mono_now();
+    now_ = turn_began_ = mono_now();
     if (loop_->dispatch(now_)) collect_answers();
     run_tickers();
     expire_blocked();

@@ -21,6 +21,7 @@
 #include "mavloom/wire/parse_event.hpp"
 #include "mavloom/wire/sequence.hpp"
 #include "mavloom/wire/signing.hpp"
+#include "runtime/links_coalescing.hpp"
 #include "runtime/links_message_class.hpp"
 #include "runtime/links_signature_state.hpp"
 
@@ -203,6 +204,8 @@ public:
         outlets_.push_back(&outlet);
     }
     void forget(Outlet& outlet) noexcept;
+    // This turn's reading left something behind.
+    void note_more_waits() noexcept { more_waits_ = true; }
 
     // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for: but when the turns have begun there are
     // frames to be passed on, and nobody waits.
@@ -253,6 +256,9 @@ private:
     MonoTime now_ = mono_now();
     bool running_ = false;  // a turn was made
     std::size_t frames_this_turn_ = 0;
+    bool more_waits_ = false;
+    MonoTime turn_began_{};
+    Coalescing coalescing_;
     std::vector<Outlet*> outlets_, flushing_;
     std::vector<Ticker*> tickers_;
     std::vector<std::pair<std::uint64_t, OpenEndpoint*>> questions_;

@@ -73,6 +73,7 @@ void UdpPort::receive() {
     net::ReceiveBatch& batch = core_.receive_batch();
     const auto count = socket_.receive(batch);
     if (!count) return;  // would_block, or an ICMP error that `failed` reports as well
+    if (*count == net::ReceiveBatch::slots) core_.note_more_waits();
     for (std::size_t i = 0; i < *count; ++i) {
         const net::Datagram datagram = batch[i];
         UdpPeer* const peer = owner_.peer_of(*this, datagram);

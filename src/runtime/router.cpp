@@ -223,6 +223,7 @@ bool Router::has(const Endpoint& endpoint) const {
 // ---- frames ----------------------------------------------------------------------------------------------------------
 
 void Router::on_frame(const RxFrame& rx) {
+    const std::uint64_t mark = engine_.mark_of(rx.frame);
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
     traffic_.add(rx.link, rx.frame, rx.time);
     if (config_.request_streams_hz != 0 && rx.frame.id() == msg::Heartbeat::id) ask_for_streams(rx);
@@ -231,7 +232,7 @@ void Router::on_frame(const RxFrame& rx) {
         explainer_(rx, decision, why_);
         send(rx, decision.links);
     } else {
-        send(rx, engine_.route(rx.frame, rx.info, rx.link, links_->now()).links);
+        send(rx, engine_.route(rx.frame, mark, rx.info, rx.link, links_->now()).links);
     }
 }
 

@@ -31,7 +31,8 @@ std::size_t SequenceTracker::find_or_add(Source source) {
     return index;
 }
 
-SequenceTracker::Update SequenceTracker::update(const FrameView& frame) {
+// Flattened it takes a quarter less time.
+[[gnu::flatten]] SequenceTracker::Update SequenceTracker::update(const FrameView& frame) {
     const std::size_t index = find_or_add(frame.source());
     if (index == 0) {
         ++untracked_;

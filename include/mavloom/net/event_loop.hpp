@@ -66,6 +66,8 @@ public:
 
     // Waits until something happens, a timer is due, or `deadline`. May now and then return before with nothing to do.
     void wait(MonoTime deadline) noexcept;
+    // Sleeps until `when` or a signal; nothing else ends it, `wake` neither.
+    static void sleep_until(MonoTime when) noexcept;
     // Calls the handlers of what `wait` found: timers first. Returns true when `wake` was among the causes.
     bool dispatch(MonoTime now);
     bool run_once(MonoTime deadline) {

@@ -170,9 +170,16 @@ public:
     // Instead of the group_order that their policies gave. Nothing happens for an id that is not there.
     void set_group_orders(std::span<const GroupOrder> orders);
 
+    // What `route` knows the frame's bytes by. Who calls this first, and something else before `route`, has their place among the frames of the
+    // last moments fetched from memory meanwhile.
+    [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     // Where the frame goes. `info` is null for an id without definition. `now` never goes back. At most a few tens of nanoseconds.
+    [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
+                                 LinkId ingress, MonoTime now) noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
-                                 MonoTime now) noexcept;
+                                 MonoTime now) noexcept {
+        return route(frame, mark_of(frame), info, ingress, now);
+    }
     // The same with the table's own look-up.
     [[nodiscard]] Decision route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept;
     // The same, and writes into `why` the reason for every link, by rising id. Allocates.

@@ -141,6 +141,14 @@ TEST_F(EventLoopTest, DeadlinesThatAreNotShortMoveToAndFro) {
     EXPECT_EQ(never.timers, 0);
 }
 
+TEST_F(EventLoopTest, SleepsUntilTheInstantAndForThePastNotAtAll) {
+    const MonoTime begin = mono_now();
+    EventLoop::sleep_until(begin + milliseconds(3));
+    EXPECT_GE(mono_now(), begin + milliseconds(3));
+    EventLoop::sleep_until(begin);
+    EventLoop::sleep_until(MonoTime{});
+}
+
 TEST_F(EventLoopTest, WakesFromAnotherThread) {
     std::thread other([&] { loop->wake(); });
     EXPECT_TRUE(loop->run_once(mono_now() + seconds(10)));

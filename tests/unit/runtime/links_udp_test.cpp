@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/resolver.hpp"
+#include "mavloom/net/udp.hpp"
+#include "runtime/links_coalescing.hpp"
 #include "unit/runtime/links_fixture.hpp"
 
 namespace mavloom::runtime {
@@ -65,6 +67,30 @@ TEST(LinksUdp, AllFiveFramesOfADatagramArriveInOrder) {
     PlainSocket::udp().send_to(node.port(in), datagram);
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 5; }, node));
     EXPECT_EQ(node.recorder.bytes(), datagram);
+}
+
+TEST(LinksUdp, ARushIsTakenWholeAndInOrder) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto peer = PlainSocket::udp();
+    const MonoTime end = mono_now() + 5 * detail::Coalescing::window;
+    Bytes sent;
+    std::uint8_t sequence = 0;
+    std::size_t frames = 0;
+    while (mono_now() < end || frames < 10 * net::ReceiveBatch::slots) {
+        for (std::size_t i = 0; i < net::ReceiveBatch::slots + 1; ++i, ++frames) {
+            const Bytes frame = heartbeat(sequence++);
+            sent.insert(sent.end(), frame.begin(), frame.end());
+            peer.send_to(node.port(in), frame);
+        }
+        for (const int turn : {1, 2})  // the first leaves one
+            node.links->turn(node.recorder, mono_now() + std::chrono::milliseconds(turn));
+    }
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == frames; }, node));
+    Bytes got;
+    for (const auto& heard : node.recorder.frames) got.insert(got.end(), heard.bytes.begin(), heard.bytes.end());
+    EXPECT_EQ(got, sent);
+    EXPECT_EQ(node.info(in).counters->kernel_drop.value(), 0u);
 }
 
 TEST(LinksUdp, HalfAFrameHarmsNobodyElse) {
