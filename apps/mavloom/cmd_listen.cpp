@@ -37,6 +37,7 @@ public:
         if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
         const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); },
                               &receiver_);
+        say_ports(common_, receiver_.endpoints());
         const auto end = options_.receive.end(mono_now());
         output_.end_at(end);
         receiver_.start(end);

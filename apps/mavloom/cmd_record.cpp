@@ -69,6 +69,7 @@ Exit record(const Common& common, Options& options) {
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());
     const Signals signals([](void* r) noexcept { static_cast<runtime::Receiver*>(r)->stop(); }, receiver->get());
+    say_ports(common, (*receiver)->endpoints());
     auto writer = create_output(common, options.file);
     if (!writer) return Signals::received() ? Signals::status(Exit::failed) : fail(writer.error());
     (*receiver)->start(options.receive.end(mono_now()));

@@ -11,6 +11,7 @@
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/runtime/sources.hpp"
 #include "output.hpp"
+#include "receiving.hpp"
 #include "signals.hpp"
 #include "traffic_report.hpp"
 
@@ -21,7 +22,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t frames_a_turn = 1024;  // of recordings
-constexpr auto longest_drain = 200ms;        // for what had arrived before the end was asked for
 constexpr auto longest_flush = 5s;           // for what is queued to leave
 
 struct Options {
@@ -81,7 +81,7 @@ private:
 
     void drain() {
         const auto begin = mono_now();
-        while (mono_now() < begin + longest_drain && sources_.turn(*this, MonoTime{}, 0) != 0) {}
+        sources_.drain(*this);
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
         sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
@@ -158,15 +158,12 @@ SetupResult<void> check_words(Options& options) {
     return {};
 }
 
-SetupResult<void> open_sources(const Common& common, const Options& options, runtime::Sources& sources) {
+SetupResult<void> open_sources(const Options& options, runtime::Sources& sources) {
     for (const auto& text : options.sources) {
         const auto endpoint = runtime::parse_endpoint(text);
         if (!endpoint) return tl::unexpected(endpoint.error());
         if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
     }
-    for (const auto& info : sources.links().endpoints())
-        if (info.endpoint.address.port == 0 && info.local_port != 0)
-            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return {};
 }
 
@@ -178,8 +175,9 @@ Exit relay(const Common& common, Options& options) {
     if (!stage) return fail(stage.error());
     auto sources = runtime::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
-    if (auto opened = open_sources(common, options, *sources); !opened) return fail(opened.error());
+    if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
+    say_ports(common, sources->links().endpoints());
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()

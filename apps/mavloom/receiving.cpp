@@ -72,6 +72,12 @@ void ReceiveOptions::declare(Arguments command) {
         .type_name("BYTES");
 }
 
+void say_ports(const Common& common, const std::vector<runtime::EndpointInfo>& endpoints) {
+    for (const auto& info : endpoints)
+        if (info.endpoint.address.port == 0 && info.local_port != 0)
+            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+}
+
 SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common,
                                                                      const dialect::Dialect& dialect) {
     if (auto counted = parse_count(); !counted) return tl::unexpected(std::move(counted.error()));
@@ -90,9 +96,6 @@ SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Commo
         if (!endpoint) return tl::unexpected(endpoint.error());
         if (auto added = (*receiver)->add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
-    for (const auto& info : (*receiver)->endpoints())
-        if (info.endpoint.address.port == 0 && info.local_port != 0)
-            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
     return receiver;
 }
 

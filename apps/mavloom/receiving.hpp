@@ -29,6 +29,9 @@ private:
     std::optional<ComponentId> component_;
 };
 
+// Says which ports were given to endpoints that asked for any. Whoever waits for these lines may end the program at once: call it when Signals is there.
+void say_ports(const Common& common, const std::vector<runtime::EndpointInfo>& endpoints);
+
 struct ReceiveOptions {
     std::vector<std::string> sources;
     std::string duration;  // --for

@@ -36,7 +36,7 @@ struct Datagrams {
 };
 
 // Such frames are for somebody who is not here; the others go to everybody.
-bool has_target(const wire::ParseEvent& event) noexcept {
+bool may_have_target(const wire::ParseEvent& event) noexcept {
     return event.info == nullptr || event.info->target_system_offset < event.frame.payload().size();
 }
 
@@ -47,7 +47,7 @@ Datagrams load(const char* path, const wire::MessageTable& table, std::size_t pe
     std::vector<std::size_t> ends;
     wire::StreamParser parser(table);
     parser.feed(file, MonoTime{}, [&](const wire::ParseEvent& event) {
-        if (event.kind != wire::ParseEvent::Kind::frame || has_target(event)) return;
+        if (event.kind != wire::ParseEvent::Kind::frame || may_have_target(event)) return;
         result.bytes.insert(result.bytes.end(), event.frame.bytes().begin(), event.frame.bytes().end());
         if (++result.frames % per_datagram == 0) ends.push_back(result.bytes.size());
     });
@@ -76,7 +76,7 @@ public:
         MonoTime now = begin;
         for (std::size_t i = 0; i < datagrams.each.size(); ++i) {
             parser_.parse(datagrams.each[i], [&](const wire::ParseEvent& event) { on_event<until>(event, now); });
-            if (i % datagrams_per_turn != 0) continue;
+            if ((i + 1) % datagrams_per_turn != 0) continue;
             flush(out);
             now += std::chrono::microseconds{100};
         }

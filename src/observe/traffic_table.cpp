@@ -38,7 +38,7 @@ static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
 }
 
 TrafficRow* TrafficTable::find(const Key& key) {
-    Near& near = near_[KeyHash()(key) >> (57 - 8)];
+    Near& near = near_[KeyHash()(key) >> (hash_bits - near_bits)];
     if (near.row != nullptr && near.key == key) [[likely]]
         return near.row;
     const auto it = rows_.find(key);

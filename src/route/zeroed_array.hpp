@@ -23,8 +23,9 @@ public:
 
     // For one that is read all over: where the system has huge pages to give (2 MiB), a place is found without walking the page tables.
     [[nodiscard]] static ZeroedArray on_huge_pages(std::size_t size) {
-        ZeroedArray array(size, huge_page);
-        if (size * sizeof(T) >= huge_page) ::madvise(array.at_, size * sizeof(T), MADV_HUGEPAGE);  // advice: may fail
+        const bool large = size * sizeof(T) >= huge_page;
+        ZeroedArray array(size, large ? huge_page : cache_line);
+        if (large) ::madvise(array.at_, size * sizeof(T), MADV_HUGEPAGE);  // advice: may fail
         return array;
     }
 

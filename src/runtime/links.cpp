@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "runtime/links_core.hpp"
@@ -33,6 +34,10 @@ public:
 
     [[nodiscard]] OpenEndpoint* find(EndpointId id) const noexcept {
         return id.value < endpoints.size() ? endpoints[id.value].get() : nullptr;
+    }
+    void choose_coalescing() {
+        core.allow_coalescing(std::ranges::none_of(
+            endpoints, [](const auto& e) { return e != nullptr && e->info.endpoint.options.low_latency; }));
     }
 
     Core core;
@@ -104,11 +109,13 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     if (!opened) return tl::unexpected(std::move(opened).error());
     impl_->endpoints.push_back(std::move(*opened));
     impl_->signs_as.try_emplace(endpoint.label(), id);
+    impl_->choose_coalescing();
     return id;
 }
 
 void Links::remove(EndpointId endpoint) {
     if (impl_->find(endpoint) != nullptr) impl_->endpoints[endpoint.value].reset();
+    impl_->choose_coalescing();
 }
 
 std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return impl_->core.turn(handler, deadline); }

@@ -14,7 +14,10 @@ namespace mavloom::runtime::detail {
 
 class Coalescing {
 public:
-    // It begins, and ends, with a window of more than a frame every 20 us: far more than vehicles send, a burst of them included.
+    // Without it every turn may begin at once.
+    void allow(bool allowed) noexcept { allowed_ = allowed; }
+
+    // It begins with a window of more than a frame every 20 us, far more than vehicles send, a burst of them included; and ends with one of fewer.
     static constexpr Nanoseconds window = std::chrono::milliseconds{10};
     static constexpr std::int64_t many_frames = 500;
     static constexpr Nanoseconds turn_interval = std::chrono::microseconds{200};
@@ -28,7 +31,7 @@ public:
             frames_ = 0;
         }
         rest_until_.reset();
-        if (busy_ && !more_waits && began + turn_interval > now) rest_until_ = began + turn_interval;
+        if (allowed_ && busy_ && !more_waits && began + turn_interval > now) rest_until_ = began + turn_interval;
     }
     // When the next turn may begin; nothing where that is now.
     [[nodiscard]] std::optional<MonoTime> rest_until() const noexcept { return rest_until_; }
@@ -36,7 +39,7 @@ public:
 private:
     MonoTime since_{};
     std::int64_t frames_ = 0;
-    bool busy_ = false;
+    bool busy_ = false, allowed_ = true;
     std::optional<MonoTime> rest_until_;
 };
 

@@ -206,6 +206,8 @@ public:
     void forget(Outlet& outlet) noexcept;
     // This turn's reading left something behind.
     void note_more_waits() noexcept { more_waits_ = true; }
+    // Whether turns of a rush may begin later than they could.
+    void allow_coalescing(bool allowed) noexcept { coalescing_.allow(allowed); }
 
     // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for: but when the turns have begun there are
     // frames to be passed on, and nobody waits.

@@ -13,8 +13,7 @@ constexpr std::size_t most_names = 65'536;        // likewise for links that com
 constexpr std::size_t most_sources = 65'536;      // bounds what forged system and component ids can make us remember
 constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 of header and the longest frame, rounded
 constexpr std::size_t frames_a_turn = 4096;       // of recordings, so that live links get their turn
-constexpr auto longest_drain = 200ms;
-constexpr auto drops_every = 1s;  // how often the kernel is asked for its drops
+constexpr auto drops_every = 1s;                  // how often the kernel is asked for its drops
 
 }  // namespace
 
@@ -76,17 +75,9 @@ void Receiver::run() {
         sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), room);
         queue_->publish();
     }
-    drain();
+    sources_.drain(*this, [this] { queue_->publish(); });
     sources_.add_to(totals_);
     queue_->close();
-}
-
-// What had arrived before the end was asked for is not left in the kernel's buffers.
-void Receiver::drain() {
-    const auto limit = mono_now() + longest_drain;
-    // A turn full of junk has no frames either: several such turns in a row mean that nothing is left.
-    for (int empty_turns = 0; empty_turns < 16 && mono_now() < limit; queue_->publish())
-        empty_turns = sources_.turn(*this, MonoTime{}, 0) == 0 ? empty_turns + 1 : 0;
 }
 
 void Receiver::on_frame(const RxFrame& rx) {

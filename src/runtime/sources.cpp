@@ -12,6 +12,10 @@ namespace mavloom::runtime {
 static constexpr std::chrono::milliseconds pipe_look{5};
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
+// A drain ends after some turns without a frame, for one full of junk has none either, and the system may still be handing over what was sent;
+// and where frames keep coming, after more turns than empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn.
+static constexpr int last_empty_turns = 16, most_drain_turns = 1400;
+static constexpr std::chrono::milliseconds empty_turn{1};
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
     auto links = Links::create(dialect);
@@ -146,6 +150,15 @@ std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t m
     if (const auto* first = earliest(); first != nullptr && most_frames != 0) deadline = std::min(deadline, first->due);
     const std::size_t frames = links_->turn(handler, deadline);
     return frames + play(handler, most_frames);
+}
+
+// Counts turns, not time: on a busy machine time may pass before the first of them.
+void Sources::drain(LinkHandler& handler, const std::function<void()>& after_turn) {
+    int empty_turns = 0;
+    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns; ++turns) {
+        empty_turns = turn(handler, mono_now() + empty_turn, 0) == 0 ? empty_turns + 1 : 0;
+        after_turn();
+    }
 }
 
 std::size_t Sources::send(const wire::FrameView& frame) {

@@ -40,11 +40,20 @@ def wait_for(condition, timeout: float = DEFAULT_TIMEOUT_S, what: str = "the con
     return value
 
 
+def enlarge_receive_buffer(sock: socket.socket):
+    """To 8 MiB: whatever the system's limit where we are root."""
+    so_rcvbufforce = 33
+    try:
+        sock.setsockopt(socket.SOL_SOCKET, so_rcvbufforce, 8 << 20)
+    except PermissionError:
+        sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+
+
 def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> socket.socket:
     """A bound UDP socket on a port of the kernel's choice, with a receive buffer that a burst of frames fits in."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     sock = socket.socket(family, socket.SOCK_DGRAM)
-    sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+    enlarge_receive_buffer(sock)
     sock.bind((host, 0))
     sock.settimeout(timeout)
     return sock
@@ -159,14 +168,15 @@ class Running:
 
     def _join(self):
         for reader in self._readers:
-            reader.join(timeout=5)
+            reader.join(DEFAULT_TIMEOUT_S)
+            assert not reader.is_alive(), f"{self.args} has ended, and somebody still holds its output open"
 
 
 def end(processes):
     """Kills what still runs, and takes away the control socket that a killed router leaves."""
     for process in processes:
         process.kill()
-        if "--name" in process.args:
+        if process.process.returncode == -signal.SIGKILL and "--name" in process.args:
             name = process.args[process.args.index("--name") + 1]
             with contextlib.suppress(OSError):
                 os.unlink(f"/run/mavloom/{name}.ctl")

@@ -139,7 +139,7 @@ class UdpEnd(End):
         super().__init__(label)
         self.target = target
         self.sock = sock or socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8 << 20)
+        harness.enlarge_receive_buffer(self.sock)
         self.sock.bind(("0.0.0.0" if sock else "127.0.0.1", port))
         self.port = self.sock.getsockname()[1]
 

@@ -24,7 +24,7 @@ ESCAPE = "a\x1b[31m\x7f\u009b"
     [f"--{ESCAPE}", "listen"],
 ])
 def test_control_characters_do_not_reach_the_terminal(run, arguments):
-    done = run(*arguments, timeout=10)
+    done = run(*arguments)
     assert done.status in (1, 2, 3) and "a?[31m" in done.stderr, done
     assert re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", done.stderr + done.stdout) is None, done
 
@@ -44,7 +44,7 @@ def test_control_characters_of_a_converted_file_do_not_reach_the_terminal(run, t
     (["replay", "x.tlog", "--to", OUT, "--start", ""], "--start"), (["replay", "x.tlog", "--to", OUT, "--speed", ""], "--speed"),
 ])
 def test_an_empty_value_is_wrong_use(run, arguments, option):
-    done = run(*arguments, timeout=10)
+    done = run(*arguments)
     assert done.status == 2 and f"{option}: the value is empty" in done.stderr, done
 
 
@@ -63,9 +63,9 @@ def test_options_of_the_program_itself(run):
 
 
 def test_sign_link_id_says_what_it_needs_and_its_range(run):
-    alone = run("relay", IN, "--to", OUT, "--sign-link-id", "3", timeout=10)
+    alone = run("relay", IN, "--to", OUT, "--sign-link-id", "3")
     assert alone.status == 2 and "--sign-link-id requires --sign" in alone.stderr
-    far = run("relay", IN, "--to", OUT, "--sign", "x", "--sign-link-id", "300", timeout=10)
+    far = run("relay", IN, "--to", OUT, "--sign", "x", "--sign-link-id", "300")
     assert far.status == 2 and re.search(r"--sign-link-id: .*300.*0.*255", far.stderr), far
     assert "0 to 255" in run("relay", "--help").stdout
 
@@ -78,7 +78,7 @@ def test_only_commands_that_read_messages_take_a_dialect(run, command, takes):
 @pytest.mark.parametrize("arguments", [["route", "--config", "/tmp"], ["check", "/tmp"], ["check", "--convert", "/tmp"], ["listen", IN, "--dialect", "/tmp"],
                                        ["replay", "/tmp", "--to", OUT], ["bench", "parse", "/tmp"]])
 def test_a_folder_is_no_input_file(run, arguments):
-    done = run(*arguments, timeout=10)
+    done = run(*arguments)
     assert done.status == 3, done
 
 

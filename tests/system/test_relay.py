@@ -94,7 +94,7 @@ def test_a_far_side_that_goes_is_a_loss_with_status_4(spawn, tcp_port):
         connection.close()
     done = process.wait()
 
-    assert done.status == 4
+    assert done.status == 4, done.stderr
     assert "nobody was there" in done.stderr or "dropped" in done.stderr
 
 
@@ -282,7 +282,7 @@ def test_a_stalled_client_gets_whole_frames_only_and_the_other_all(spawn):
     stalled = socket.socket()
     stalled.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     stalled.connect(("127.0.0.1", tcp))
-    good, vehicle = socket.create_connection(("127.0.0.1", tcp)), harness.udp_socket()
+    good, vehicle = socket.create_connection(("127.0.0.1", tcp), timeout=harness.DEFAULT_TIMEOUT_S), harness.udp_socket()
     sent, got = [], b""
     for frame in itertools.islice(itertools.chain.from_iterable(frames.heartbeats(1000) for _ in range(100)), 60_000):
         vehicle.sendto(frame, ("127.0.0.1", udp))

@@ -244,7 +244,7 @@ def test_mr14_to_mr25_filters(net, filter_kind, case, option, made, passing):
                                  "udpin://127.0.0.1:0", "tcpin://127.0.0.1:0", "serial://?baud=57600", "serial:///dev/ttyS0?baud=0", "udp://127.0.0.1:14550",
                                  "udpboth://127.0.0.1:14550"])
 def test_mr26_bad_endpoints_are_refused(run, url):
-    done = run("route", url, timeout=10)
+    done = run("route", url)
 
     assert done.status == 2 and done.stdout == ""
     assert len(done.stderr.splitlines()) == 1
@@ -558,7 +558,7 @@ def test_s4_33_of_33_heartbeats_between_pymavlink_programs(spawn, first, second)
         sender.mav.heartbeat_send(2, 12, 81, 1000 + i, 4, 3)
     got = []
     while len(got) < 33:
-        beat = receiver.recv_match(type="HEARTBEAT", blocking=True, timeout=10)
+        beat = receiver.recv_match(type="HEARTBEAT", blocking=True, timeout=harness.DEFAULT_TIMEOUT_S)
         assert beat is not None, f"{len(got)} of 33"
         if beat.get_srcSystem() == 1 and beat.custom_mode >= 1000:
             got.append(beat.custom_mode)
@@ -816,8 +816,8 @@ def test_n15_a_clock_that_is_stepped_back_changes_nothing(spawn, tmp_path, progr
     port, out_port = routers.udp_port(), routers.udp_port()
     end, far = UdpEnd(("127.0.0.1", port)), UdpEnd()
     log = tmp_path / "out.tlog"
-    router = Router(spawn, f"udpin://127.0.0.1:{port}?idle=2", f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{out_port}", f"tlog://{log}",
-                    rules={"dedup_ms": 400, "route_timeout": 3},
+    router = Router(spawn, f"udpin://127.0.0.1:{port}?idle=10", f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{out_port}", f"tlog://{log}",
+                    rules={"dedup_ms": 400, "route_timeout": 12},
                     env={"LD_PRELOAD": str(faketime_library()), "FAKETIME_TIMESTAMP_FILE": str(clock), "FAKETIME_NO_CACHE": "1",
                          "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
     far.target = ("127.0.0.1", out_port)

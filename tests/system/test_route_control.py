@@ -212,7 +212,7 @@ def control_path(router):
 
 def test_two_of_one_name(spawn, run):
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
-    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env, timeout=10)
+    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env)
 
     assert done.status == 1
     assert f"{router.name}.ctl is served by a router that runs; --name gives this one another name" in done.stderr
@@ -969,7 +969,7 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
     udp, tcp = harness.udp_socket(), socket.create_server(("127.0.0.1", 0))
     with udp, tcp:
         values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1], "folder": tmp_path}
-        done = run("route", *(argument.format(**values) for argument in arguments), env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, timeout=10)
+        done = run("route", *(argument.format(**values) for argument in arguments), env={"XDG_RUNTIME_DIR": routers.runtime_dir()})
 
     assert done.status == status and said in done.stderr, done
     complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]
@@ -981,13 +981,13 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
 def test_bad_files(run, tmp_path, text, said):
     file = tmp_path / "bad.toml"
     file.write_text(text)
-    done = run("route", "--config", file, timeout=10)
+    done = run("route", "--config", file)
 
     assert done.status == 3 and said in done.stderr and len(done.stderr.splitlines()) == 1, done
 
 
 def test_a_bad_variable(run):
-    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", env={"MAVLOOM_ROUTER_DEDUP": "5"}, timeout=10)
+    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", env={"MAVLOOM_ROUTER_DEDUP": "5"})
 
     assert done.status == 3 and "did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?" in done.stderr
 

@@ -70,9 +70,10 @@ private:
         std::uint64_t source_and_id;
         friend bool operator==(const Key&, const Key&) = default;
     };
-    struct KeyHash {  // 57 bits, of which the first depend on all of the key
+    static constexpr int hash_bits = 57, near_bits = 8;
+    struct KeyHash {  // of the hash_bits the first depend on nearly all of the key
         std::size_t operator()(const Key& key) const noexcept {
-            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> 7;
+            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> (64 - hash_bits);
         }
     };
     struct Near {
@@ -83,7 +84,8 @@ private:
     [[nodiscard]] TrafficRow* find(const Key& key);
 
     std::unordered_map<Key, TrafficRow, KeyHash> rows_;
-    std::array<Near, 256> near_{};  // rows that were asked for lately, by the first 8 bits of their hash: most frames need no more
+    std::array<Near, 1 << near_bits>
+        near_{};  // rows that were asked for lately, by the first bits of their hash: most frames need no more
     std::uint64_t unlisted_ = 0;
 };
 

@@ -171,7 +171,7 @@ public:
     void set_group_orders(std::span<const GroupOrder> orders);
 
     // What `route` knows the frame's bytes by. Who calls this first, and something else before `route`, has their place among the frames of the
-    // last moments fetched from memory meanwhile.
+    // last moments fetched from memory meanwhile. The mark holds until links or options change.
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
     // Where the frame goes. `info` is null for an id without definition. `now` never goes back. At most a few tens of nanoseconds.
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,

@@ -124,7 +124,8 @@ public:
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
 
-    // One turn: waits until something is readable, writable, due, or `deadline`; reads all that is there (bounded, so that one flooded
+    // One turn: waits until something is readable, writable, due, or `deadline` (in a rush of frames, and where no endpoint has low_latency, it
+    // begins 0.2 ms after the last one at the earliest); reads all that is there (bounded, so that one flooded
     // socket cannot starve the rest), calls the handler, then sends what was queued. Returns the number of frames received.
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 

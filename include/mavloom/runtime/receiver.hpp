@@ -49,7 +49,7 @@ public:
     // Stops by itself at `end` (`--for`).
     void start(MonoTime end = MonoTime::max());
 
-    // What the kernel holds already is still received (for at most 200 ms). Async-signal-safe.
+    // What the kernel holds already is still received (at most what a full receive buffer holds). Async-signal-safe.
     void stop() noexcept;
     void join();
 
@@ -72,7 +72,6 @@ private:
     void on_notice(EndpointId endpoint, std::string_view text) override;
 
     void run();
-    void drain();
     [[nodiscard]] std::size_t frames_that_fit() const noexcept;
     void count_loss(const RxFrame& rx);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,11 @@ public:
 
     // One turn of the links, then at most `most_frames` frames of the recordings that are due, the earliest first. Returns the number of frames handed over.
     std::size_t turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames);
+
+    // At the end: hands over what had arrived from live sources when the end was asked for, `after_turn` after each turn, until several turns in
+    // a row brought no frame, at most what a full receive buffer holds.
+    void drain(
+        LinkHandler& handler, const std::function<void()>& after_turn = [] {});
 
     [[nodiscard]] bool has_recordings() const noexcept { return !recordings_.empty(); }
 

@@ -40,7 +40,7 @@ TEST(Coalescing, ABurstOfFiveHundredFramesIsNotHeldBack) {
     EXPECT_FALSE(turns.rest_until());
 }
 
-TEST(Coalescing, AFirstBurstAfterSilenceIsNotHeldBackHoweverLong) {
+TEST(Coalescing, AFirstBurstAfterALongSilenceIsNotHeldBack) {
     Coalescing turns;
     turns.count(begin, begin + microseconds{900}, 5000, false);
     EXPECT_FALSE(turns.rest_until());
@@ -59,6 +59,14 @@ TEST(Coalescing, DoesNotRestWhereMoreWaitsOrTheTurnTookLong) {
     turns.count(end, end + microseconds{3}, 64, true);
     EXPECT_FALSE(turns.rest_until());
     turns.count(end, end + microseconds{200}, 1, false);
+    EXPECT_FALSE(turns.rest_until());
+}
+
+TEST(Coalescing, NeverRestsWhereItIsNotAllowed) {
+    Coalescing turns;
+    turns.allow(false);
+    const MonoTime end = rush(turns, begin);
+    turns.count(end, end + microseconds{3}, 1, false);
     EXPECT_FALSE(turns.rest_until());
 }
 

@@ -118,10 +118,10 @@ struct Node {
     Recorder recorder;
 };
 
-// Turns all nodes until `condition` holds; false when it does not within ten seconds.
+// Turns all nodes until `condition` holds; false when it does not within a minute.
 template <class Condition, class... Nodes>
 [[nodiscard]] bool until(Condition&& condition, Nodes&... nodes) {
-    const MonoTime deadline = mono_now() + std::chrono::seconds(10);
+    const MonoTime deadline = mono_now() + std::chrono::seconds(60);
     while (!condition()) {
         if (mono_now() > deadline) return false;
         (nodes.links->turn(nodes.recorder, mono_now() + std::chrono::milliseconds(1)), ...);

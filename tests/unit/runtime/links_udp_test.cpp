@@ -46,7 +46,7 @@ TEST(LinksUdp, ReceiveTimesAreTheKernels) {
     const auto peer = PlainSocket::udp();
     // The kernel switches time stamps on some time after the first socket asked; until then it stamps when the datagram is read.
     bool stamped_on_arrival = false;
-    const MonoTime deadline = mono_now() + std::chrono::seconds(10);
+    const MonoTime deadline = mono_now() + std::chrono::seconds(60);
     for (std::uint8_t i = 0; !stamped_on_arrival && mono_now() < deadline; ++i) {
         node.recorder.frames.clear();
         const WallTime before = wall_now();
