@@ -37,40 +37,32 @@ static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
     row.newer = now;
 }
 
-TrafficRow* TrafficTable::find(const Key& key) {
-    Near& near = near_[KeyHash()(key) >> (hash_bits - near_bits)];
-    if (near.row != nullptr && near.key == key) [[likely]]
-        return near.row;
-    const auto it = rows_.find(key);
-    if (it == rows_.end()) return nullptr;
-    near = {key, &it->second};
-    return near.row;
-}
-
 void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time) {
     const auto source = frame.source();
     const Key key{link.value, std::uint64_t{frame.id().value} << 16 | std::uint64_t{source.system.value} << 8 |
                                   source.component.value};
-    TrafficRow* row = find(key);
-    if (row == nullptr) [[unlikely]] {
+    auto it = rows_.find(key);
+    if (it == rows_.end()) {
         if (rows_.size() == max_rows) {
             ++unlisted_;
             return;
         }
-        row = &rows_.emplace(key, TrafficRow{link, source, frame.id()}).first->second;
-        row->first = time;
-        row->older = row->newer = {time, 1};
+        it = rows_.emplace(key, TrafficRow{link, source, frame.id()}).first;
+        it->second.first = time;
+        it->second.older = it->second.newer = {time, 1};
     } else {
-        const auto gap = time - row->last;
-        row->shortest_gap = row->count == 1 ? gap : std::min(row->shortest_gap, gap);
-        row->longest_gap = row->count == 1 ? gap : std::max(row->longest_gap, gap);
-        const auto age = time - row->newer.time;
+        auto& row = it->second;
+        const auto gap = time - row.last;
+        row.shortest_gap = row.count == 1 ? gap : std::min(row.shortest_gap, gap);
+        row.longest_gap = row.count == 1 ? gap : std::max(row.longest_gap, gap);
+        const auto age = time - row.newer.time;
         if (age >= TrafficRow::rate_window || age < Nanoseconds{}) [[unlikely]]
-            move_marks(*row, {time, row->count + 1});
+            move_marks(row, {time, row.count + 1});
     }
-    row->last = time;
-    ++row->count;
-    row->bytes += frame.size();
+    auto& row = it->second;
+    row.last = time;
+    ++row.count;
+    row.bytes += frame.size();
 }
 
 std::vector<TrafficRow> TrafficTable::rows() const {

@@ -39,7 +39,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
     grown.words_ = words;
     grown.stride_ = stride;
     grown.places_ = capacity;
-    grown.cells_ = ZeroedArray<std::uint64_t>::on_huge_pages(capacity * stride);
+    grown.cells_ = ZeroedArray<std::uint64_t>(capacity * stride);
     const std::size_t kept = std::min(words, words_);
     for (std::size_t i = 0; i < places_ && capacity != 0; ++i) {
         if (hash(i) == 0) continue;

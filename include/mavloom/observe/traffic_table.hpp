@@ -4,7 +4,6 @@
 // Source: routing.md section 6, the proposal's "per message" list.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -44,15 +43,10 @@ class TrafficTable {
 public:
     static constexpr std::size_t max_rows = 65'536;
 
-    TrafficTable() = default;
-    TrafficTable(const TrafficTable&) = delete;
-    TrafficTable& operator=(const TrafficTable&) = delete;
-
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
     // Gives back the rows of links of which `is_there(LinkId)` says no.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {
-        near_.fill({});
         std::erase_if(rows_, [&](const auto& row) { return !is_there(row.second.link); });
     }
 
@@ -70,22 +64,13 @@ private:
         std::uint64_t source_and_id;
         friend bool operator==(const Key&, const Key&) = default;
     };
-    static constexpr int hash_bits = 57, near_bits = 8;
-    struct KeyHash {  // of the hash_bits the first depend on nearly all of the key
+    struct KeyHash {
         std::size_t operator()(const Key& key) const noexcept {
-            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> (64 - hash_bits);
+            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> 7;
         }
     };
-    struct Near {
-        Key key{};
-        TrafficRow* row = nullptr;
-    };
-
-    [[nodiscard]] TrafficRow* find(const Key& key);
 
     std::unordered_map<Key, TrafficRow, KeyHash> rows_;
-    std::array<Near, 1 << near_bits>
-        near_{};  // rows that were asked for lately, by the first bits of their hash: most frames need no more
     std::uint64_t unlisted_ = 0;
 };
 
