@@ -62,6 +62,8 @@ SetupResult<runtime::Config> read_config(const std::string& file, const dialect:
     if (!config) return config;
     if (auto checked = runtime::check_message_names(*config, file, dialect); !checked)
         return tl::unexpected(std::move(checked.error()));
+    if (auto checked = runtime::check_key_files(*config, file); !checked)
+        return tl::unexpected(std::move(checked.error()));
     return config;
 }
 
@@ -79,8 +81,6 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     auto config = read_config(options.config, dialect);
     if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
     plan.config = std::move(*config);
-    if (auto checked = runtime::check_key_files(plan.config, options.config); !checked)
-        return tl::unexpected(std::move(checked.error()));
     if (plan.endpoints().empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
     return plan;
@@ -194,6 +194,9 @@ private:
 
     void reload() {
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
+        std::error_code unknown;
+        if (std::filesystem::is_fifo(options_.config, unknown))
+            return tell(fmt::format("mavloom: {} is a pipe, which is read once; nothing was changed", options_.config));
         auto config = read_config(options_.config, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();

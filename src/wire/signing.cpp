@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/wire/signing.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sodium.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
-#include <string>
+#include <string_view>
 
 namespace mavloom::wire {
 
@@ -42,7 +43,11 @@ std::array<std::uint8_t, hash_length> hash_of(const SigningKey& key, ByteView up
     return first;
 }
 
-std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(const std::string& text) {
+// White space around one word of hexadecimal digits.
+std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(std::string_view text) {
+    constexpr std::string_view space = " \t\r\n\v\f";
+    text.remove_prefix(std::min(text.find_first_not_of(space), text.size()));
+    text = text.substr(0, text.find_last_not_of(space) + 1);
     std::array<std::uint8_t, SigningKey::length> key{};
     std::size_t written = 0;
     const char* end = nullptr;
@@ -64,22 +69,33 @@ static tl::unexpected<SetupError> cannot_open(const std::filesystem::path& file,
     return failed;
 }
 
-SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
+// Of an open file: what is looked at is what is read.
+static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& file) {
     struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) return cannot_open(file, errno);
+    if (::fstat(fd, &status) != 0) return cannot_open(file, errno);
+    if (!S_ISREG(status.st_mode))
+        return setup_error(SetupCode::bad_input, fmt::format("key file {} is no regular file", file.string()));
     if ((status.st_mode & 077) != 0)
         return setup_error(SetupCode::bad_input,
                            fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}", file.string(),
                                        status.st_mode & 0777u, file.string()));
-    std::ifstream in(file);
-    std::string word, more;
-    if (!in) return cannot_open(file, errno);
-    in >> word >> more;
-    const auto key = parse_hex(word);
-    if (!key || !more.empty())
+    std::array<char, 1024> text;
+    const ssize_t size = ::read(fd, text.data(), text.size());
+    if (size < 0) return cannot_open(file, errno);
+    const auto key = parse_hex({text.data(), static_cast<std::size_t>(size)});
+    sodium_memzero(text.data(), text.size());
+    if (!key)
         return setup_error(SetupCode::bad_input,
                            fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
     return SigningKey(*key);
+}
+
+SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
+    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for the writer of a pipe
+    if (fd < 0) return cannot_open(file, errno);
+    auto key = read_key(fd, file);
+    ::close(fd);
+    return key;
 }
 
 std::size_t Signer::sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept {

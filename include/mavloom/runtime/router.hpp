@@ -21,6 +21,7 @@
 #include "mavloom/runtime/config.hpp"
 #include "mavloom/runtime/links.hpp"
 #include "mavloom/runtime/recorder.hpp"
+#include "mavloom/wire/signing.hpp"
 
 namespace mavloom::runtime {
 
@@ -46,7 +47,7 @@ public:
     bool remove(std::string_view label);
     // Other [router] values. Links stay, and so does what was learned and counted.
     void configure(const RouterConfig& config);
-    // The endpoints become these: those that are the same stay as they are. What could not be opened is told and left out; one of the same
+    // The endpoints become these: those that are the same, and the keys in their files, stay as they are. What could not be opened is told and left out; one of the same
     // name that was there before is opened again.
     void become(const std::vector<Endpoint>& endpoints);
 
@@ -84,6 +85,7 @@ private:
         EndpointId id;
         Endpoint endpoint;
         route::LinkPolicy policy;
+        std::vector<std::optional<wire::SigningKey>> keys;  // of its files, as they were then
         bool verifies = false;
         std::size_t may_tell = most_told, not_told = 0;  // lines about its links
     };

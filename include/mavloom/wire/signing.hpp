@@ -42,13 +42,15 @@ public:
     SigningKey& operator=(const SigningKey&) = default;
     ~SigningKey();
 
-    // A file of 64 hexadecimal digits (white space around them is fine), mode 0600 or stricter.
+    // A file of 64 hexadecimal digits (white space around them is fine), mode 0600 or stricter; a regular file.
     [[nodiscard]] static SetupResult<SigningKey> load(const std::filesystem::path& file);
 
     // From the system's random numbers.
     [[nodiscard]] static SetupResult<SigningKey> random();
     // Writes a new file of mode 0600 in the form that `load` reads. An existing file is never replaced: `in_use`.
     [[nodiscard]] SetupResult<void> create_file(const std::filesystem::path& file) const;
+
+    friend bool operator==(const SigningKey&, const SigningKey&) = default;
 
     [[nodiscard]] const std::array<std::uint8_t, length>& bytes() const noexcept { return bytes_; }
 

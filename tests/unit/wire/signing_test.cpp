@@ -209,6 +209,18 @@ TEST_F(KeyFile, RefusesAFileThatOthersCanRead) {
     EXPECT_NE(key.error().text.find("chmod 600"), std::string::npos);
 }
 
+TEST_F(KeyFile, RefusesWhatIsNoRegularFileAtOnce) {
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+
+    const auto fifo = SigningKey::load(path), folder = SigningKey::load(path.parent_path());
+
+    for (const auto* key : {&fifo, &folder}) {
+        ASSERT_FALSE(*key);
+        EXPECT_EQ(key->error().code, SetupCode::bad_input);
+        EXPECT_NE(key->error().text.find("is no regular file"), std::string::npos) << key->error().text;
+    }
+}
+
 TEST_F(KeyFile, NamesAMissingFile) {
     const auto key = SigningKey::load("/nonexistent/key");
 
