@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t stack_bytes = 256 << 10;
+    static constexpr std::size_t stack_bytes = 64 << 10;
     ucontext_t context_{};
     std::unique_ptr<std::byte[]> stack_;
     void* fake_stack_ = nullptr;

@@ -62,7 +62,6 @@ template <class Words>
     const std::uint64_t begin = number * ring.mark_distance();
     // Before a mark is replaced, intent lies at or behind the begin of its successor one lap on.
     const std::uint64_t intent = ring.control->intent.load(std::memory_order_acquire);
-    // A mark behind the tail is of a commit that did not come to its end.
     if (intent >= begin + ring.capacity || mark.position < begin || mark.position > tail) return std::nullopt;
     if (mark.position % record_alignment != 0) return std::nullopt;
     return mark;
