@@ -103,7 +103,7 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
     }
     const MonoTime now = mono_now();
     if (now >= deadline) return tl::unexpected(WriteError::full);
-    producer_.wake_readers();
+    producer_.wake_sleepers();  // whoever sleeps may be who holds
     producer_.sleep_for_room(length, std::min<Nanoseconds>(look_for_dead, deadline - now));
     return {};
 }
