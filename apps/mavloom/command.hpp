@@ -55,6 +55,7 @@ Run declare_record(Arguments, const Common&);
 Run declare_replay(Arguments, const Common&);
 Run declare_dialect(Arguments, const Common&);
 Run declare_check(Arguments, const Common&);
+Run declare_shm(Arguments, const Common&);
 Run declare_bench(Arguments, const Common&);
 
 // Prints "mavloom: TEXT" to stderr and gives the status that belongs to the kind of error.

@@ -20,7 +20,7 @@ ESCAPE = "a\x1b[31m\x7f\u009b"
     ["record", IN, "-o", f"/nowhere/{ESCAPE}"], ["relay", IN, "--to", OUT, "--set", f"{ESCAPE}.x=1"], ["relay", IN, "--to", OUT, "--sign", ESCAPE],
     ["relay", IN, "--to", OUT, "--remap-system", ESCAPE], ["route", OUT, "--explain", ESCAPE], ["route", "--config", ESCAPE],
     ["route", OUT, "--name", ESCAPE], ["route", OUT, "--metrics", ESCAPE], ["check", ESCAPE], ["check", "--convert", ESCAPE], ["dialect", "check", ESCAPE],
-    ["dialect", "show", ESCAPE], ["bench", "parse", ESCAPE], ["ctl", ESCAPE, "links"], ["stat", ESCAPE], ["key", "new", f"/nowhere/{ESCAPE}"],
+    ["dialect", "show", ESCAPE], ["bench", "parse", ESCAPE], ["ctl", ESCAPE, "links"], ["stat", ESCAPE], ["shm", "stat", ESCAPE], ["shm", "read", ESCAPE], ["shm", "remove", ESCAPE], ["key", "new", f"/nowhere/{ESCAPE}"],
     [f"--{ESCAPE}", "listen"],
 ])
 def test_control_characters_do_not_reach_the_terminal(run, arguments):

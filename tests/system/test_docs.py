@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Every command that README, the guides and --help show is run: as written, but for ports (the kernel's choice), a bound on its time, and files of
 the examples' names in a temporary folder."""
+import contextlib
 import os
 import re
 import shlex
@@ -14,7 +15,7 @@ import harness
 pytestmark = pytest.mark.short
 
 PAGES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs").rglob("*.md"))]
-COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key")
+COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key", "shm")
 ASKING = ("ctl", "stat")  # these need a router that runs
 LIVE = ("listen", "relay", "record", "replay", "route")
 
@@ -44,27 +45,34 @@ def runnable(line):
         words += ["--name", f"docs-{os.getpid()}-{harness.free_port()}"]
     if words[:2] == ["check", "--convert"] and ">" in words:
         words = words[:words.index(">")]
+    if "<" in words:
+        words = words[:words.index("<")]
     if words[0] in LIVE and "--for" not in words:
         words += ["--for", "300ms"]
     if "--for" in words:
         words[words.index("--for") + 1] = "300ms"
+    if words[0] == "shm":
+        words = [f"docs-{os.getpid()}" if word == "px4" else word for word in words]
     if words[0] == "replay" and "--no-wait" not in words:
         words.append("--no-wait")
     return words
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, run):
     shutil.copy(frames.FLIGHT, tmp_path / "flight.tlog")
     (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
                                        '<field type="uint16_t" name="count">n</field></message></messages></mavlink>')
     for name in ("mavloom.toml", "router.toml"):
         (tmp_path / name).write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{harness.free_port()}"\n')
+    assert run("shm", "write", f"docs-{os.getpid()}", "--capacity", "64k", input="one\n").status == 0
     for name in ("key", "key.hex", "keys.hex", "vehicle.key", "my.key"):
         (tmp_path / name).write_text("07" * 32)
         (tmp_path / name).chmod(0o600)
-    return tmp_path
+    yield tmp_path
+    with contextlib.suppress(OSError):
+        os.unlink(f"/dev/shm/mavloom.docs-{os.getpid()}")
 
 
 @pytest.fixture
@@ -96,7 +104,8 @@ def test_examples_of_help(run, folder, command):
         assert done.status == 0, done
 
 
-@pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"), ("bench", "parse"), ("bench", "decode")])
+@pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"), ("bench", "parse"), ("bench", "decode"),
+                                           ("shm", "list"), ("shm", "stat"), ("shm", "write"), ("shm", "read"), ("shm", "remove")])
 def test_examples_of_the_help_of_a_part(run, folder, command, part):
     text = run(command, part, "--help").stdout
     examples = re.findall(r"(mavloom %s %s(?: [^[].*)?)$" % (command, part), text, re.MULTILINE)

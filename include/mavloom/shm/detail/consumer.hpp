@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// A reader's side of the algorithm, over memory that is there already: slots, locks and liveness are RingReader's. One thread; allocates at
+// construction.
+//
+// A lossy reader copies a record and then looks whether the writer may have begun to overwrite it (`intent`): if so, the copy is thrown away, and the
+// reader goes on at a mark, which says how many records lie before it. A lossless one keeps its bit in `holders` set while it looks at a record in
+// place; the writer clears that bit before it overwrites anything that is held.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mavloom/shm/detail/ring_scan.hpp"
+#include "mavloom/shm/record.hpp"
+
+namespace mavloom::shm::detail {
+
+template <class Words>
+class Consumer {
+public:
+    Consumer() = default;
+    // `slot`: of this reader, already its own; none: it leaves no trace in the ring (a mapping that is only readable). Lossless readers need one.
+    Consumer(const RingMemory<Words>& ring, std::optional<unsigned> slot, bool lossless)
+        : ring_(ring),
+          slot_(slot),
+          lossless_(lossless),
+          copy_(lossless ? 0 : max_payload(ring.capacity) / sizeof(std::uint64_t) + 1) {}
+
+    enum class Start : std::uint8_t { newest, oldest };
+    // To the next record that will be written, or to the oldest one that is there. False: the ring is damaged. A lossless reader holds from here on.
+    [[nodiscard]] bool start(Start where) noexcept {
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {
+            const std::uint64_t tail = ring_.control->tail.load(std::memory_order_acquire);  // pairs with commit()
+            auto at = where == Start::oldest ? find_mark(ring_, 0) : newest_mark(ring_);
+            if (at && where == Start::newest) at = walk(ring_, *at, tail);
+            if (!at) continue;  // overtaken, or damaged: after so many attempts the latter
+            go_to(*at);
+            if (!lossless_ || hold()) {
+                publish();
+                return true;
+            }
+        }
+        return false;
+    }
+
+    enum class Found : std::uint8_t { record, empty, damaged };
+    // The next record. Releases the one before, whose view ends.
+    [[nodiscard]] Found next(RingRecord& out) noexcept {
+        release();
+        for (int attempt = 0; attempt < most_attempts; ++attempt) {
+            if (position_ == tail_ && !look_for_more()) return Found::empty;
+            if (lossless_ && !holds() && !hold()) {
+                if (!skip_ahead()) return Found::damaged;
+                continue;
+            }
+            const Header header = load_header(ring_, position_);
+            const std::uint64_t available = tail_ - position_;
+            const std::uint64_t size = available > ring_.capacity ? 0 : size_of(ring_, position_, header, available);
+            const bool is_record = size != 0 && !header.is_padding();
+            if (is_record && !lossless_) copy_payload(static_cast<std::size_t>(header.state.length));
+            if (overtaken()) {
+                if (!lossless_ && !skip_ahead()) return Found::damaged;
+                continue;
+            }
+            if (size == 0) return Found::damaged;
+            after_ = position_ + size;
+            if (!is_record) {
+                position_ = after_;
+                continue;
+            }
+            if (header.sequence != static_cast<std::uint32_t>(sequence_)) return Found::damaged;
+            in_hand_ = true;
+            fill(out, header);
+            return Found::record;
+        }
+        return Found::damaged;
+    }
+
+    // Ends the view of the last record. The writer may learn of it later, at the latest when all is read.
+    void release() noexcept {
+        if (!in_hand_) return;
+        in_hand_ = false;
+        position_ = after_;
+        ++sequence_;
+        if (position_ - published_ >= ring_.capacity / publish_parts) publish();
+    }
+
+    // Tells the writer at once.
+    void publish() noexcept {
+        if (!slot_) return;
+        auto& slot = ring_.slots[*slot_];
+        published_ = position_;
+        slot.sequence.store(sequence_, std::memory_order_relaxed);
+        slot.missed.store(missed_, std::memory_order_relaxed);
+        // Sequentially consistent with Producer::sleep_for_room(), and a release for the acquire in Producer::for_each_holder().
+        slot.position.store(position_, std::memory_order_seq_cst);
+        auto& control = *ring_.control;
+        if (!lossless_ || control.room_wanted.load(std::memory_order_seq_cst) == 0) return;
+        control.room_wanted.store(0, std::memory_order_relaxed);
+        control.rooms.fetch_add(1, std::memory_order_release);
+        Words::wake(control.rooms);
+    }
+
+    // Sleeps until something is committed, the writer goes, or `longest` is over; a reader without a slot for all of it.
+    void sleep(Nanoseconds longest) noexcept {
+        auto& control = *ring_.control;
+        const std::uint32_t seen = control.wakes.load(
+            std::memory_order_acquire);  // pairs with Producer::wake_readers_now()
+        if (slot_) control.sleepers.fetch_or(bit(), std::memory_order_seq_cst);
+        if (control.tail.load(std::memory_order_seq_cst) == tail_ && !retired())
+            Words::sleep(control.wakes, seen, longest);
+        if (slot_) control.sleepers.fetch_and(~bit(), std::memory_order_relaxed);
+    }
+
+    // Whether the view of the last record is still what was written: false once a writer that evicts has taken this reader's hold.
+    [[nodiscard]] bool holds() const noexcept {
+        // Acquire: pairs with Producer::drop_holds(). Bytes of a later lap are seen only by who sees the bit gone.
+        return (ring_.control->holders.load(std::memory_order_acquire) & bit()) != 0;
+    }
+
+    [[nodiscard]] bool retired() const noexcept { return ring_.control->retired.load(std::memory_order_acquire) != 0; }
+    // Whether all that was committed is read.
+    [[nodiscard]] bool drained() const noexcept {
+        return (in_hand_ ? after_ : position_) == ring_.control->tail.load(std::memory_order_acquire);
+    }
+    [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
+    [[nodiscard]] std::uint64_t sequence() const noexcept { return sequence_; }
+    [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+    [[nodiscard]] bool lossless() const noexcept { return lossless_; }
+
+private:
+    static constexpr int most_attempts = 10'000;  // a writer is not faster so many times running; damage is
+    static constexpr std::uint64_t publish_parts = 16;
+
+    [[nodiscard]] std::uint64_t bit() const noexcept { return std::uint64_t{1} << *slot_; }
+
+    void go_to(Mark mark) noexcept {
+        position_ = after_ = mark.position;
+        sequence_ = mark.sequence;
+        tail_ = position_;
+        in_hand_ = false;
+    }
+
+    [[nodiscard]] bool look_for_more() noexcept {
+        tail_ = ring_.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
+        if (tail_ != position_) return true;
+        if (published_ != position_) publish();
+        return false;
+    }
+
+    // Sequentially consistent with Producer::extend(): either the writer sees this hold, or its announcement is seen here.
+    [[nodiscard]] bool hold() noexcept {
+        auto& control = *ring_.control;
+        publish();
+        control.holders.fetch_or(bit(), std::memory_order_seq_cst);
+        if (control.intent.load(std::memory_order_seq_cst) <= position_ + ring_.capacity) return true;
+        control.holders.fetch_and(~bit(), std::memory_order_release);
+        return false;
+    }
+
+    // After all that was read of the record: its loads acquired, so that this one is not ahead of them.
+    [[nodiscard]] bool overtaken() const noexcept {
+        if (lossless_) return !holds();
+        return ring_.control->intent.load(std::memory_order_acquire) > position_ + ring_.capacity;
+    }
+
+    // Lapped. Goes on a quarter of the ring before the writer, so as not to be lapped at once again.
+    [[nodiscard]] bool skip_ahead() noexcept {
+        const auto mark = find_mark(ring_, ring_.capacity / 4);
+        if (!mark) return true;  // overtaken meanwhile, or damaged: next() tries so many times
+        if (mark->position < position_ || mark->sequence < sequence_) return false;
+        missed_now_ += mark->sequence - sequence_;
+        missed_ += mark->sequence - sequence_;
+        go_to(*mark);
+        return true;
+    }
+
+    void copy_payload(std::size_t length) noexcept {
+        const auto* word = ring_.word(position_) + record_header_bytes / sizeof(std::uint64_t);
+        const std::size_t words = (length + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
+        // Acquire: pairs with the release of the same word in Producer::store_payload().
+        for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
+    }
+
+    void fill(RingRecord& out, const Header& header) noexcept {
+        const auto* bytes = lossless_
+                                ? reinterpret_cast<const std::uint8_t*>(ring_.word(position_)) + record_header_bytes
+                                : reinterpret_cast<const std::uint8_t*>(copy_.data());
+        out.data = {bytes, static_cast<std::size_t>(header.state.length)};
+        out.info = {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict};
+        out.position = position_;
+        out.sequence = sequence_;
+        out.missed = std::exchange(missed_now_, 0);
+    }
+
+    RingMemory<Words> ring_;
+    std::optional<unsigned> slot_;
+    bool lossless_ = false;
+    bool in_hand_ = false;         // the record at position_ was given out
+    std::uint64_t position_ = 0;   // of the record in hand, or of the next
+    std::uint64_t after_ = 0;      // behind the record in hand
+    std::uint64_t sequence_ = 0;   // of the record at position_
+    std::uint64_t tail_ = 0;       // of the ring, as last seen
+    std::uint64_t published_ = 0;  // position_ as the writer knows it
+    std::uint64_t missed_ = 0;
+    std::uint64_t missed_now_ = 0;     // since the last record that was given out
+    std::vector<std::uint64_t> copy_;  // of the record in hand, where it is not held in place
+};
+
+}  // namespace mavloom::shm::detail

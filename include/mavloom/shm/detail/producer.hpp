@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// The writer's side of the algorithm, over memory that is there already: locks, policies and sleeping are RingWriter's. One thread; allocates
+// nothing.
+//
+//   claim   announce what will be overwritten (`intent`), see that no reader holds it (`holders`), mark the record as being written
+//   commit  length, marks, `tail`; wake who sleeps
+//
+// Killed anywhere in between, it leaves `tail` where it was: everything before it is whole, everything behind it is nothing.
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "mavloom/shm/detail/ring_scan.hpp"
+#include "mavloom/shm/record.hpp"
+
+namespace mavloom::shm::detail {
+
+inline constexpr Nanoseconds wake_distance = std::chrono::milliseconds(1);
+
+template <class Words>
+class Producer {
+public:
+    Producer() = default;
+    explicit Producer(const RingMemory<Words>& ring) noexcept : ring_(ring) {}
+
+    // Finds where the last writer stopped, whatever it was doing. False: the ring is damaged. Requires that no other writer is alive.
+    [[nodiscard]] bool recover() noexcept {
+        auto& control = *ring_.control;
+        tail_ = control.tail.load(std::memory_order_acquire);  // pairs with commit() of the last writer
+        intent_ = control.intent.load(std::memory_order_acquire);
+        if (tail_ % record_alignment != 0 || intent_ < tail_ || intent_ - tail_ > ring_.capacity) return false;
+        const auto mark = newest_mark(ring_);
+        const auto end = mark ? walk(ring_, *mark, tail_) : std::nullopt;
+        if (!end || end->position != tail_) return false;
+        sequence_ = end->sequence;
+        control.records.store(sequence_, std::memory_order_relaxed);
+        next_mark_ = (tail_ / ring_.mark_distance() + 1) * ring_.mark_distance();
+        limit_ = tail_;
+        return true;
+    }
+
+    enum class Room : std::uint8_t { there, held, removed };
+
+    // Room for a record of `length` bytes of payload (at most max_payload()); of an earlier claim nothing remains. `payload` is valid then.
+    [[nodiscard]] Room claim(std::size_t length) noexcept {
+        const std::uint64_t size = record_size(length);
+        const std::uint64_t left = ring_.left_in_lap(tail_);
+        const std::uint64_t padding = size <= left ? 0 : left;
+        const std::uint64_t end = tail_ + padding + size;
+        if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
+        if (end > limit_ && !extend(end)) return Room::held;
+        if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
+        start_ = tail_ + padding;
+        claimed_ = length;
+        store_state(start_, {-1 - static_cast<std::int32_t>(length), 0, 0, 0});
+        return Room::there;
+    }
+
+    // Where the claimed payload goes. Filled by plain stores: a lossy reader that is being lapped at that moment may copy a mixture, which it then
+    // throws away (see extend()).
+    [[nodiscard]] std::uint8_t* payload() const noexcept {
+        return reinterpret_cast<std::uint8_t*>(ring_.word(start_) + record_header_bytes / sizeof(std::uint64_t));
+    }
+
+    // The same by atomic words, release each: pairs with the acquires in Consumer::copy_payload().
+    void store_payload(ByteView bytes) noexcept {
+        auto* word = ring_.word(start_) + record_header_bytes / sizeof(std::uint64_t);
+        const std::uint8_t* from = bytes.data();
+        std::size_t left = bytes.size();
+        for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t), from += sizeof(std::uint64_t), ++word) {
+            std::uint64_t value;
+            std::memcpy(&value, from, sizeof value);
+            word->store(value, std::memory_order_release);
+        }
+        if (left == 0) return;
+        std::uint64_t value = 0;
+        std::memcpy(&value, from, left);
+        word->store(value, std::memory_order_release);
+    }
+
+    // Publishes the first `length` bytes of the claim (no more than were claimed).
+    void commit(const RecordInfo& info, std::size_t length) noexcept {
+        auto& control = *ring_.control;
+        store_header(info, length);
+        const std::uint64_t end = start_ + record_size(length);
+        ++sequence_;
+        if (end >= next_mark_) set_marks(end);
+        control.records.store(sequence_, std::memory_order_relaxed);
+        tail_ = end;
+        control.tail.store(
+            end, std::memory_order_release);  // pairs with the acquires of `tail` in Consumer and ring_scan.hpp
+        if (control.sleepers.load(std::memory_order_relaxed) != 0) wake_readers();
+    }
+
+    [[nodiscard]] std::size_t claimed() const noexcept { return claimed_; }
+    [[nodiscard]] std::uint64_t tail() const noexcept { return tail_; }
+    [[nodiscard]] std::uint64_t records() const noexcept { return sequence_; }
+
+    // Slots whose readers stand in the way of a record of `length` bytes.
+    [[nodiscard]] std::uint64_t blockers(std::size_t length) const noexcept {
+        const std::uint64_t size = record_size(length);
+        const std::uint64_t left = ring_.left_in_lap(tail_);
+        const std::uint64_t end = tail_ + (size <= left ? 0 : left) + size;
+        std::uint64_t found = 0;
+        for_each_holder([&](unsigned slot, std::uint64_t limit) {
+            if (limit < end) found |= std::uint64_t{1} << slot;
+        });
+        return found;
+    }
+
+    // Takes the hold away from the readers of these slots. They find out before they read on.
+    void drop_holds(std::uint64_t slots) noexcept {
+        ring_.control->holders.fetch_and(~slots, std::memory_order_seq_cst);
+    }
+
+    // Sleeps until a reader releases something, or `longest` is over.
+    void sleep_for_room(std::size_t length, Nanoseconds longest) noexcept {
+        auto& control = *ring_.control;
+        const std::uint32_t seen = control.rooms.load(std::memory_order_acquire);
+        // Sequentially consistent with Consumer::publish(): either it sees that room is wanted, or blockers() sees what it released.
+        control.room_wanted.store(1, std::memory_order_seq_cst);
+        if (blockers(length) != 0) Words::sleep(control.rooms, seen, longest);
+        control.room_wanted.store(0, std::memory_order_relaxed);
+    }
+
+    // Wakes all who sleep, at most once in `wake_distance`: nobody's sleep is longer than that before he looks again (Consumer::sleep()).
+    void wake_readers() noexcept {
+        const MonoTime now = Words::now();
+        if (now < next_wake_) return;
+        next_wake_ = now + wake_distance;
+        wake_readers_now();
+    }
+    void wake_sleepers() noexcept {
+        if (ring_.control->sleepers.load(std::memory_order_seq_cst) != 0) wake_readers_now();
+    }
+    void wake_readers_now() noexcept {
+        auto& control = *ring_.control;
+        control.sleepers.store(0, std::memory_order_relaxed);
+        control.wakes.fetch_add(1, std::memory_order_release);  // pairs with the acquire in Consumer::sleep()
+        Words::wake(control.wakes);
+    }
+
+private:
+    void store_state(std::uint64_t position, RecordState state) noexcept {
+        ring_.word(position)->store(pack(state), std::memory_order_release);  // pairs with load_header()
+    }
+
+    void store_header(const RecordInfo& info, std::size_t length) noexcept {
+        auto* word = ring_.word(start_);
+        word[1].store(info.link.value | sequence_ << 32,
+                      std::memory_order_release);  // pairs with load_header(), all three
+        word[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
+        word[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}), std::memory_order_release);
+    }
+
+    // The commit goes from tail_ to `end`, with padding up to start_ in between, and sequence_ counts it already.
+    void set_marks(std::uint64_t end) noexcept {
+        for (; next_mark_ <= end; next_mark_ += ring_.mark_distance()) {
+            const bool in_padding = next_mark_ <= start_;
+            auto& mark = ring_.control->marks[next_mark_ / ring_.mark_distance() % mark_count];
+            mark.position.store(in_padding ? start_ : end, std::memory_order_release);  // pairs with load_mark(), both
+            mark.sequence.store(in_padding ? sequence_ - 1 : sequence_, std::memory_order_release);
+        }
+    }
+
+    // What holds allow is known up to limit_; looks again, and announces the sixty-fourth that `end` lies in. False: readers hold the ring.
+    [[nodiscard]] bool extend(std::uint64_t end) noexcept {
+        const std::uint64_t distance = ring_.mark_distance();
+        std::uint64_t wanted = std::min((end + distance - 1) / distance * distance, held_limit());
+        if (wanted < end) return false;
+        if (wanted > intent_) {
+            intent_ = wanted;
+            // Sequentially consistent with Consumer::hold(): either it sees this intent, or held_limit() sees its hold. The load of `holders` in
+            // there also keeps the plain stores of payload() behind this store, on x86 and on ARM alike: no processor passes a sequentially
+            // consistent store by a sequentially consistent load, nor stores ahead of that load.
+            ring_.control->intent.store(intent_, std::memory_order_seq_cst);
+            wanted = std::min(wanted, held_limit());
+        }
+        limit_ = std::max(limit_, wanted);
+        return wanted >= end;
+    }
+
+    [[nodiscard]] std::uint64_t held_limit() const noexcept {
+        std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
+        for_each_holder([&](unsigned, std::uint64_t of_slot) { limit = std::min(limit, of_slot); });
+        return limit;
+    }
+
+    template <class Visit>
+    void for_each_holder(Visit&& visit) const noexcept {
+        std::uint64_t holders = ring_.control->holders.load(std::memory_order_seq_cst);
+        for (; holders != 0; holders &= holders - 1) {
+            const auto slot = static_cast<unsigned>(std::countr_zero(holders));
+            // Acquire: pairs with Consumer::publish(); what the reader did with the bytes before is over.
+            const std::uint64_t position = ring_.slots[slot].position.load(std::memory_order_acquire);
+            // A position that no reader can have holds nothing: it is damaged, or about to be given up in Consumer::hold().
+            if (tail_ - position <= ring_.capacity) visit(slot, position + ring_.capacity);
+        }
+    }
+
+    RingMemory<Words> ring_;
+    std::uint64_t tail_ = 0;
+    std::uint64_t limit_ = 0;  // may be written up to here without another look
+    std::uint64_t next_mark_ = 0;
+    std::uint64_t sequence_ = 0;
+    std::uint64_t start_ = 0;  // of the claimed record
+    std::size_t claimed_ = 0;
+    std::uint64_t intent_ = 0;
+    MonoTime next_wake_{};
+};
+
+}  // namespace mavloom::shm::detail

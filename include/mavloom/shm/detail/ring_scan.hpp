@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What writer and reader both do with a ring that they did not write: read a record's header, find a mark, count records. Everything read is taken
+// for damage until it has been checked. Any thread; allocates nothing.
+#pragma once
+
+#include <optional>
+
+#include "mavloom/shm/layout.hpp"
+
+namespace mavloom::shm::detail {
+
+struct Header {
+    RecordState state;
+    std::uint32_t link = 0;
+    std::uint32_t sequence = 0;  // its low 32 bits
+    std::int64_t time_ns = 0;
+
+    [[nodiscard]] bool is_padding() const noexcept { return state.flags == padding_flag; }
+};
+
+// Each load acquires: pairs with the release of the same word in Producer::store_header(). Whoever sees a word of a later lap so sees the
+// `intent` that was announced before it.
+template <class Words>
+[[nodiscard]] Header load_header(const RingMemory<Words>& ring, std::uint64_t position) noexcept {
+    const auto* word = ring.word(position);
+    Header header;
+    header.state = unpack(word[0].load(std::memory_order_acquire));
+    if (header.is_padding()) return header;  // which may be all that is left of the lap
+    if (ring.left_in_lap(position) < record_header_bytes) return header;
+    const std::uint64_t tags = word[1].load(std::memory_order_acquire);
+    header.link = static_cast<std::uint32_t>(tags);
+    header.sequence = static_cast<std::uint32_t>(tags >> 32);
+    header.time_ns = static_cast<std::int64_t>(word[2].load(std::memory_order_acquire));
+    return header;
+}
+
+// How far it is to the next record, or 0 where no record of this format stands. `available`: bytes from there to the tail.
+template <class Words>
+[[nodiscard]] std::uint64_t size_of(const RingMemory<Words>& ring, std::uint64_t position, const Header& header,
+                                    std::uint64_t available) noexcept {
+    const std::uint64_t left = ring.left_in_lap(position);
+    const std::int32_t length = header.state.length;
+    if (length < 0 || header.state.flags > padding_flag) return 0;
+    if (header.is_padding()) return static_cast<std::uint64_t>(length) == left && left <= available ? left : 0;
+    if (static_cast<std::size_t>(length) > max_payload(ring.capacity)) return 0;
+    const std::uint64_t size = record_size(static_cast<std::uint64_t>(length));
+    return size <= left && size <= available ? size : 0;
+}
+
+struct Mark {
+    std::uint64_t position = 0;
+    std::uint64_t sequence = 0;
+};
+
+// The mark of the `number`th sixty-fourth since the ring was made: the first record that begins there or behind. Empty when the writer was faster.
+template <class Words>
+[[nodiscard]] std::optional<Mark> load_mark(const RingMemory<Words>& ring, std::uint64_t number,
+                                            std::uint64_t tail) noexcept {
+    const auto& words = ring.control->marks[number % mark_count];
+    // Acquire: pairs with the releases in Producer::set_marks().
+    const Mark mark{words.position.load(std::memory_order_acquire), words.sequence.load(std::memory_order_acquire)};
+    const std::uint64_t begin = number * ring.mark_distance();
+    // Before a mark is replaced, intent lies at or behind the begin of its successor one lap on.
+    const std::uint64_t intent = ring.control->intent.load(std::memory_order_acquire);
+    if (intent >= begin + ring.capacity || mark.position < begin || mark.position > tail) return std::nullopt;
+    if (mark.position % record_alignment != 0) return std::nullopt;
+    return mark;
+}
+
+// The oldest mark that lies `margin` bytes or more before what may be overwritten; the newest where there is none that old.
+template <class Words>
+[[nodiscard]] std::optional<Mark> find_mark(const RingMemory<Words>& ring, std::uint64_t margin) noexcept {
+    const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
+    const std::uint64_t edge = ring.control->intent.load(std::memory_order_acquire) + margin;
+    const std::uint64_t newest = tail / ring.mark_distance();
+    const std::uint64_t oldest = edge < ring.capacity ? 0 : (edge - ring.capacity) / ring.mark_distance() + 1;
+    for (std::uint64_t number = std::min(oldest, newest); number <= newest && number + mark_count > newest; ++number)
+        if (const auto mark = load_mark(ring, number, tail)) return mark;
+    return std::nullopt;
+}
+
+// The newest mark; the writer alone may be sure that there is one.
+template <class Words>
+[[nodiscard]] std::optional<Mark> newest_mark(const RingMemory<Words>& ring) noexcept {
+    const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
+    return load_mark(ring, tail / ring.mark_distance(), tail);
+}
+
+// Goes from record to record up to `tail`. Empty where it meets something else, or was overtaken by the writer.
+template <class Words>
+[[nodiscard]] std::optional<Mark> walk(const RingMemory<Words>& ring, Mark at, std::uint64_t tail) noexcept {
+    while (at.position < tail) {
+        const Header header = load_header(ring, at.position);
+        const std::uint64_t size = size_of(ring, at.position, header, tail - at.position);
+        if (size == 0 || ring.control->intent.load(std::memory_order_acquire) > at.position + ring.capacity)
+            return std::nullopt;
+        if (!header.is_padding() && header.sequence != static_cast<std::uint32_t>(at.sequence++)) return std::nullopt;
+        at.position += size;
+    }
+    return at;
+}
+
+}  // namespace mavloom::shm::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The atomic words of a shared mapping, and sleeping on one of them. The ring's algorithms are templates over this, so that tests can step them
+// through chosen schedules.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "mavloom/base/clock.hpp"
+
+namespace mavloom::shm {
+
+struct SharedWords {
+    using Word32 = std::atomic<std::uint32_t>;
+    using Word64 = std::atomic<std::uint64_t>;
+    static_assert(Word32::is_always_lock_free && Word64::is_always_lock_free, "a lock would not be shared");
+    static_assert(sizeof(Word32) == 4 && sizeof(Word64) == 8);
+
+    // Sleeps while `word` is `expected`, at most `longest`; may return early.
+    static void sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept;
+    // Wakes everybody who sleeps on `word`.
+    static void wake(Word32& word) noexcept;
+    [[nodiscard]] static MonoTime now() noexcept { return mono_now(); }
+};
+
+}  // namespace mavloom::shm

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A reader of a ring (docs/formats/ring.md); up to 64 register, in any processes.
+//
+//     auto reader = shm::RingReader::open("px4");
+//     while (const auto record = reader->read()) use(record->data);
+//
+// A *lossy* reader never holds the writer; it gets copies, and a record's `missed` says by exactly how many records it was lapped before it. A
+// *lossless* one gets views into the ring, and the writer may not pass the record in view (unless it evicts: then `missed` counts too). One owner
+// thread; move-only. After opening nothing is allocated, and nothing but waiting makes a system call.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/shm/detail/consumer.hpp"
+#include "mavloom/shm/record.hpp"
+
+namespace mavloom::shm {
+
+class Segment;
+
+struct ReaderOptions {
+    bool lossless = false;
+    // `oldest`: all that the ring holds, but for the part (at most a thirty-second) that the writer is about to overwrite.
+    enum class From : std::uint8_t { newest, oldest };
+    From from = From::newest;
+    // Waits by looking again and again: the last microsecond, for a core of its own.
+    bool spin = false;
+    // Maps the ring read-only and leaves no trace in it: lossy, not listed, and waiting looks every millisecond. So is every lossy reader who may not
+    // write to the ring (mode 0640 and another user) or finds 64 others.
+    bool read_only = false;
+};
+
+class RingReader {
+public:
+    // `not_found` with the rings that there are; `in_use` for a 65th lossless reader; `permission`; `bad_input` for what is no ring of this version.
+    [[nodiscard]] static SetupResult<RingReader> open(std::string_view name, const ReaderOptions& options = {});
+    RingReader(RingReader&& other) noexcept;
+    RingReader& operator=(RingReader&& other) noexcept;
+    ~RingReader();
+
+    // The next record if there is one (else `empty`). Releases the one before: its view ends, and the writer may pass it.
+    [[nodiscard]] ReadResult<RingRecord> try_read() noexcept {
+        using Found = detail::Consumer<SharedWords>::Found;
+        if (forked()) return tl::unexpected(ReadError::forked);
+        RingRecord record;
+        const Found found = consumer_.next(record);
+        if (found == Found::record) return record;
+        return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
+    }
+    // The same, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
+    [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
+    // Ends the view of the last record now, and tells the writer.
+    void release() noexcept;
+
+    // Whether the record in view is still protected: false once a writer that evicts took the hold away.
+    [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
+    [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
+    [[nodiscard]] bool writer_alive() const noexcept;
+    // Whether the name still leads to this ring.
+    [[nodiscard]] bool is_named() const noexcept;
+    [[nodiscard]] bool is_retired() const noexcept { return consumer_.retired(); }
+
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    [[nodiscard]] std::uint64_t position() const noexcept {
+        return consumer_.position();
+    }  // of the record in view, or the next
+    [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // in all
+
+private:
+    RingReader(std::string name, const ReaderOptions& options, std::unique_ptr<Segment> segment);
+    [[nodiscard]] bool forked() const noexcept { return forked_->load(std::memory_order_relaxed); }
+    [[nodiscard]] SetupResult<void> begin();
+    [[nodiscard]] std::optional<unsigned> take_slot() noexcept;
+    [[nodiscard]] std::optional<ReadError> why_nothing_comes(MonoTime now) noexcept;
+    [[nodiscard]] Nanoseconds nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept;
+    void end() noexcept;
+
+    std::string name_;
+    ReaderOptions options_;
+    std::unique_ptr<Segment> segment_;
+    const std::atomic<bool>* forked_ = nullptr;  // of the segment
+    std::optional<unsigned> slot_;
+    detail::Consumer<SharedWords> consumer_;
+    MonoTime next_look_at_writer_{};
+};
+
+}  // namespace mavloom::shm

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "shm/ring_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "mavloom/base/shown.hpp"
+#include "mavloom/shm/ring_info.hpp"
+
+namespace mavloom::shm {
+
+namespace {
+
+constexpr int most_attempts = 100;  // against others who make, replace or remove the ring meanwhile
+
+tl::unexpected<SetupError> wrong(const std::string& path, std::string_view what) {
+    return setup_error(SetupCode::bad_input, fmt::format("{}: {}", path, what));
+}
+
+Identity identity_of(const Segment& segment) noexcept {
+    Identity identity;
+    std::memcpy(&identity, segment.data(), sizeof identity);
+    return identity;
+}
+
+SetupResult<void> check_identity(const Segment& segment) {
+    const Identity found = identity_of(segment);
+    const auto& path = segment.path();
+    if (found.magic != ring_magic) return wrong(path, "is no ring of Mavloom");
+    if (found.byte_order != byte_order_mark) return wrong(path, "is a ring of another byte order");
+    if (found.major != ring_major)
+        return wrong(path, fmt::format("is a ring of version {}.{}; this program knows {}.{}", found.major, found.minor,
+                                       ring_major, ring_minor));
+    if (!std::has_single_bit(found.capacity) || found.capacity < min_capacity || found.capacity > max_capacity ||
+        found.data_begin != data_offset || found.slots != reader_slots)
+        return wrong(path, "is a damaged ring: its sizes are none");
+    if (segment.size() != data_offset + found.capacity)
+        return wrong(path, fmt::format("is a truncated ring: {} bytes instead of {}", segment.size(),
+                                       data_offset + found.capacity));
+    return {};
+}
+
+std::string names_of(const std::vector<std::string>& rings) {
+    if (rings.empty()) return "there are no rings";
+    std::string text = rings.size() == 1 ? "there is" : "there are";
+    for (std::size_t i = 0; i < rings.size(); ++i) text += (i == 0 ? " " : ", ") + printable(rings[i]);
+    return text;
+}
+
+SetupResult<void> check_options(const RingOptions& options) {
+    if (!std::has_single_bit(options.capacity) || options.capacity < min_capacity || options.capacity > max_capacity)
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("a ring of {} bytes: the capacity is a power of two from 64 KiB to 64 GiB", options.capacity));
+    if ((options.mode & 0600u) != 0600u || options.mode > 0777u)
+        return setup_error(SetupCode::usage,
+                           fmt::format("mode {:04o} of a ring: the owner must be able to read and write, and only "
+                                       "permissions can be given",
+                                       options.mode));
+    return {};
+}
+
+SetupResult<Segment> create_ring(const std::string& path, const RingOptions& options) {
+    Identity identity;
+    identity.capacity = options.capacity;
+    identity.created_ns = unix_time().time_since_epoch().count();
+    identity.creator_pid = static_cast<std::uint32_t>(::getpid());
+    std::array<std::uint8_t, sizeof identity> bytes;
+    std::memcpy(bytes.data(), &identity, sizeof identity);
+    return Segment::create(path, static_cast<std::size_t>(data_offset + options.capacity), options.mode, bytes);
+}
+
+tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
+    const auto pid = memory_of(segment).control->writer_pid.load(std::memory_order_relaxed);
+    return setup_error(SetupCode::in_use, fmt::format("ring {} has a writer already, process {}", name, pid));
+}
+
+}  // namespace
+
+WallTime unix_time() noexcept { return wall_now(); }
+
+RingMemory<SharedWords> memory_of(const Segment& segment) noexcept {
+    std::uint8_t* const base = segment.data();
+    return {reinterpret_cast<RingControl<SharedWords>*>(base),
+            reinterpret_cast<ReaderSlot<SharedWords>*>(base + slots_offset),
+            reinterpret_cast<SharedWords::Word64*>(base + data_offset), segment.size() - data_offset};
+}
+
+SetupResult<Segment> open_ring(std::string_view name, Segment::Access access) {
+    if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
+    auto segment = Segment::open(path_of(name), access, data_offset);
+    if (!segment) {
+        if (segment.error().code == SetupCode::not_found)
+            segment.error().text = fmt::format("there is no ring {}; {}", name, names_of(ring_names()));
+        return segment;
+    }
+    if (auto good = check_identity(*segment); !good) return tl::unexpected(std::move(good.error()));
+    return segment;
+}
+
+void retire(const Segment& segment) noexcept {
+    auto& control = *memory_of(segment).control;
+    control.retired.store(1, std::memory_order_release);  // pairs with Consumer::retired()
+    for (auto* word : {&control.wakes, &control.rooms}) {
+        word->fetch_add(1, std::memory_order_release);
+        SharedWords::wake(*word);
+    }
+}
+
+SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options) {
+    if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        auto present = open_ring(name, Segment::Access::read_write);
+        if (present) {
+            if (!present->try_lock(writer_byte)) {
+                if (!present->is_named()) continue;
+                return has_writer(name, *present);
+            }
+            if (!present->is_named()) continue;
+            const bool retired = memory_of(*present).control->retired.load(std::memory_order_acquire) != 0;
+            if (!retired && memory_of(*present).capacity == options.capacity) return present;
+            // The lock is ours: nobody else replaces it.
+            retire(*present);
+            if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
+        } else if (present.error().code != SetupCode::not_found) {
+            return present;
+        }
+        auto created = create_ring(path_of(name), options);
+        if (created || created.error().code != SetupCode::in_use) return created;
+    }
+    return setup_error(SetupCode::in_use, fmt::format("ring {} is made and removed by others without end", name));
+}
+
+}  // namespace mavloom::shm

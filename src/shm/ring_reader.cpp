@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/shm/ring_reader.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "shm/ring_file.hpp"
+
+namespace mavloom::shm {
+
+static constexpr Nanoseconds look_at_writer = std::chrono::milliseconds(100);
+static constexpr Nanoseconds poll_distance = std::chrono::milliseconds(1);
+static constexpr int spins_per_look = 256;
+
+static void relax() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
+RingReader::RingReader(std::string name, const ReaderOptions& options, std::unique_ptr<Segment> segment)
+    : name_(std::move(name)), options_(options), segment_(std::move(segment)), forked_(&segment_->forked_flag()) {}
+
+RingReader::RingReader(RingReader&& other) noexcept = default;
+RingReader::~RingReader() { end(); }
+
+RingReader& RingReader::operator=(RingReader&& other) noexcept {
+    if (this == &other) return *this;
+    end();
+    name_ = std::move(other.name_);
+    options_ = other.options_;
+    segment_ = std::move(other.segment_);
+    forked_ = other.forked_;
+    slot_ = std::exchange(other.slot_, std::nullopt);
+    consumer_ = std::move(other.consumer_);
+    next_look_at_writer_ = other.next_look_at_writer_;
+    return *this;
+}
+
+SetupResult<RingReader> RingReader::open(std::string_view name, const ReaderOptions& options) {
+    using Access = Segment::Access;
+    if (options.lossless && options.read_only)
+        return setup_error(SetupCode::usage, "a lossless reader holds the writer: it cannot be read-only");
+    auto segment = open_ring(name, options.read_only ? Access::read_only : Access::read_write);
+    if (!segment && segment.error().code == SetupCode::permission && !options.lossless && !options.read_only)
+        if (auto readable = open_ring(name, Access::read_only)) segment = std::move(readable);
+    if (!segment) return tl::unexpected(std::move(segment.error()));
+    RingReader reader(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
+    if (auto begun = reader.begin(); !begun) return tl::unexpected(std::move(begun.error()));
+    return reader;
+}
+
+SetupResult<void> RingReader::begin() {
+    using Start = detail::Consumer<SharedWords>::Start;
+    if (segment_->writable()) slot_ = take_slot();
+    if (!slot_ && options_.lossless)
+        return setup_error(SetupCode::in_use,
+                           fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
+    consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
+    if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) return {};
+    return setup_error(
+        SetupCode::bad_input,
+        fmt::format("{}: is a damaged ring: what stands before its end are no records", segment_->path()));
+}
+
+// Two words of the program's name, for those who ask who reads.
+static std::array<std::uint64_t, 2> program_name() noexcept {
+    std::array<char, 16> name{};
+    const char* const mine = program_invocation_short_name;
+    std::memcpy(name.data(), mine, std::min(name.size(), std::strlen(mine)));
+    std::array<std::uint64_t, 2> words;
+    std::memcpy(words.data(), name.data(), sizeof words);
+    return words;
+}
+
+// The lock is the claim. What the slot's last owner left, killed perhaps, is taken back before anything of ours stands there.
+std::optional<unsigned> RingReader::take_slot() noexcept {
+    const auto ring = memory_of(*segment_);
+    for (unsigned index = 0; index < reader_slots; ++index) {
+        if (!segment_->try_lock(slot_byte(index))) continue;
+        const std::uint64_t bit = std::uint64_t{1} << index;
+        ring.control->holders.fetch_and(~bit, std::memory_order_seq_cst);
+        auto& slot = ring.slots[index];
+        slot.pid.store(static_cast<std::uint32_t>(::getpid()), std::memory_order_relaxed);
+        slot.lossless.store(options_.lossless ? 1 : 0, std::memory_order_relaxed);
+        slot.opened_ns.store(static_cast<std::uint64_t>(unix_time().time_since_epoch().count()),
+                             std::memory_order_relaxed);
+        const auto program = program_name();
+        for (std::size_t i = 0; i < program.size(); ++i) slot.program[i].store(program[i], std::memory_order_relaxed);
+        slot.missed.store(0, std::memory_order_relaxed);
+        ring.control->attached.fetch_or(bit, std::memory_order_release);
+        return index;
+    }
+    return std::nullopt;
+}
+
+ReadResult<RingRecord> RingReader::read(MonoTime deadline) noexcept {
+    MonoTime waiting_since{};
+    for (int spins = 0;; ++spins) {
+        auto record = try_read();
+        if (record || record.error() != ReadError::empty) return record;
+        if (options_.spin && spins % spins_per_look != 0) {
+            relax();
+            continue;
+        }
+        const MonoTime now = mono_now();
+        if (waiting_since == MonoTime{}) waiting_since = now;
+        if (const auto why = why_nothing_comes(now)) {
+            record = try_read();  // what was written before the writer went
+            if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
+            return record;
+        }
+        if (now >= deadline) return record;
+        if (!options_.spin) consumer_.sleep(nap(waiting_since, now, deadline));
+    }
+}
+
+// The first naps are short, for the writer wakes nobody twice within a millisecond; later ones end when the writer is looked at again.
+Nanoseconds RingReader::nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept {
+    const bool is_short = !slot_ || now < waiting_since + poll_distance;
+    return std::min<Nanoseconds>(is_short ? poll_distance : look_at_writer, deadline - now);
+}
+
+std::optional<ReadError> RingReader::why_nothing_comes(MonoTime now) noexcept {
+    if (consumer_.retired()) return ReadError::retired;
+    const bool closed = memory_of(*segment_).control->writer_pid.load(std::memory_order_acquire) == 0;
+    if (!closed && now < next_look_at_writer_) return std::nullopt;
+    next_look_at_writer_ = now + look_at_writer;
+    if (writer_alive()) return std::nullopt;
+    return ReadError::no_writer;
+}
+
+void RingReader::release() noexcept {
+    if (forked()) return;
+    consumer_.release();
+    consumer_.publish();
+}
+
+bool RingReader::writer_alive() const noexcept { return segment_->is_locked(writer_byte); }
+bool RingReader::is_named() const noexcept { return segment_->is_named(); }
+
+// In a child of fork() nothing is touched: the slot is the parent's.
+void RingReader::end() noexcept {
+    if (!segment_) return;
+    if (slot_ && !segment_->forked()) {
+        auto& control = *memory_of(*segment_).control;
+        const std::uint64_t bit = std::uint64_t{1} << *slot_;
+        control.holders.fetch_and(~bit, std::memory_order_release);
+        control.attached.fetch_and(~bit, std::memory_order_relaxed);
+        control.sleepers.fetch_and(~bit, std::memory_order_relaxed);
+        control.rooms.fetch_add(1, std::memory_order_release);
+        if (control.room_wanted.load(std::memory_order_seq_cst) != 0) SharedWords::wake(control.rooms);
+        segment_->unlock(slot_byte(*slot_));
+    }
+    segment_.reset();
+}
+
+}  // namespace mavloom::shm

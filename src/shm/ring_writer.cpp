@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/shm/ring_writer.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "mavloom/shm/ring_info.hpp"
+#include "shm/ring_file.hpp"
+
+namespace mavloom::shm {
+
+// How long the hold of a reader that was killed may keep a waiting writer, at most.
+static constexpr Nanoseconds look_for_dead = std::chrono::milliseconds(10);
+
+RingWriter::RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment)
+    : name_(std::move(name)), options_(options), segment_(std::move(segment)), producer_(memory_of(*segment_)) {}
+
+RingWriter::RingWriter(RingWriter&&) noexcept = default;
+RingWriter::~RingWriter() { end(); }
+
+RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
+    if (this == &other) return *this;
+    end();
+    name_ = std::move(other.name_);
+    options_ = other.options_;
+    segment_ = std::move(other.segment_);
+    producer_ = other.producer_;
+    return *this;
+}
+
+SetupResult<RingWriter> RingWriter::open(std::string_view name, const RingOptions& options) {
+    auto segment = writer_segment(name, options);
+    if (!segment) return tl::unexpected(std::move(segment.error()));
+    RingWriter writer(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
+    if (auto begun = writer.begin(); !begun) {
+        writer.segment_.reset();  // leaves it as it is
+        return tl::unexpected(std::move(begun.error()));
+    }
+    return writer;
+}
+
+SetupResult<void> RingWriter::begin() {
+    if (!producer_.recover())
+        return setup_error(SetupCode::bad_input,
+                           fmt::format("{}: is a damaged ring: what stands before its end are no records; "
+                                       "`mavloom shm remove {}` makes way for a new one",
+                                       segment_->path(), name_));
+    auto& control = *memory_of(*segment_).control;
+    control.writer_pid.store(static_cast<std::uint32_t>(::getpid()), std::memory_order_relaxed);
+    control.when_full.store(static_cast<std::uint32_t>(options_.when_full), std::memory_order_relaxed);
+    control.writer_opened_ns.store(static_cast<std::uint64_t>(unix_time().time_since_epoch().count()),
+                                   std::memory_order_relaxed);
+    control.writers.fetch_add(1, std::memory_order_relaxed);
+    control.room_wanted.store(0, std::memory_order_relaxed);
+    producer_.wake_readers_now();
+    return {};
+}
+
+WriteResult<void> RingWriter::write(ByteView data, const RecordInfo& info, MonoTime deadline) noexcept {
+    if (auto room = make_room(data.size(), deadline); !room) return room;
+    producer_.store_payload(data);
+    producer_.commit(info, data.size());
+    return {};
+}
+
+WriteResult<ByteSpan> RingWriter::claim(std::size_t length, MonoTime deadline) noexcept {
+    if (auto room = make_room(length, deadline); !room) return tl::unexpected(room.error());
+    return ByteSpan(producer_.payload(), length);
+}
+
+WriteResult<void> RingWriter::make_room(std::size_t length, MonoTime deadline) noexcept {
+    using Room = detail::Producer<SharedWords>::Room;
+    if (!segment_) return tl::unexpected(WriteError::removed);
+    if (segment_->forked()) return tl::unexpected(WriteError::forked);
+    if (length > longest()) return tl::unexpected(WriteError::too_long);
+    for (;;) {
+        const Room room = producer_.claim(length);
+        if (room == Room::there) return {};
+        if (room == Room::removed) return tl::unexpected(WriteError::removed);
+        if (auto waited = wait_for_room(length, deadline); !waited) return waited;
+    }
+}
+
+// Success: it is worth another try.
+WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadline) noexcept {
+    const std::uint64_t blockers = producer_.blockers(length);
+    if (blockers == 0) return {};
+    if (options_.when_full == WhenFull::evict) {
+        producer_.drop_holds(blockers);
+        memory_of(*segment_).control->evictions.fetch_add(static_cast<std::uint64_t>(std::popcount(blockers)),
+                                                          std::memory_order_relaxed);
+        return {};
+    }
+    drop_dead(blockers);
+    if (producer_.blockers(length) == 0) return {};
+    if (options_.when_full == WhenFull::drop_newest) {
+        count_dropped();
+        return tl::unexpected(WriteError::full);
+    }
+    const MonoTime now = mono_now();
+    if (now >= deadline) return tl::unexpected(WriteError::full);
+    producer_.wake_sleepers();  // whoever sleeps may be who holds
+    producer_.sleep_for_room(length, std::min<Nanoseconds>(look_for_dead, deadline - now));
+    return {};
+}
+
+// A slot's lock is taken before its hold is given up: no new reader can come into it meanwhile.
+void RingWriter::drop_dead(std::uint64_t slots) noexcept {
+    for (; slots != 0; slots &= slots - 1) {
+        const auto slot = static_cast<unsigned>(std::countr_zero(slots));
+        if (!segment_->try_lock(slot_byte(slot))) continue;
+        auto& control = *memory_of(*segment_).control;
+        producer_.drop_holds(std::uint64_t{1} << slot);
+        control.attached.fetch_and(~(std::uint64_t{1} << slot), std::memory_order_relaxed);
+        control.evictions.fetch_add(1, std::memory_order_relaxed);
+        segment_->unlock(slot_byte(slot));
+    }
+}
+
+void RingWriter::count_dropped() noexcept {
+    if (segment_) memory_of(*segment_).control->dropped.fetch_add(1, std::memory_order_relaxed);
+}
+
+void RingWriter::flush() noexcept {
+    if (segment_ && !segment_->forked()) producer_.wake_readers_now();
+}
+
+std::uint64_t RingWriter::dropped() const noexcept {
+    return segment_ ? memory_of(*segment_).control->dropped.load(std::memory_order_relaxed) : 0;
+}
+
+bool RingWriter::is_removed() const noexcept {
+    return !segment_ || memory_of(*segment_).control->retired.load(std::memory_order_acquire) != 0 ||
+           !segment_->is_named();
+}
+
+SetupResult<void> RingWriter::reopen() {
+    end();
+    auto anew = open(name_, options_);
+    if (!anew) return tl::unexpected(std::move(anew.error()));
+    *this = std::move(*anew);
+    return {};
+}
+
+// In a child of fork() nothing is touched: the ring is the parent's.
+void RingWriter::end() noexcept {
+    if (segment_ && !segment_->forked()) {
+        memory_of(*segment_).control->writer_pid.store(0, std::memory_order_release);
+        segment_->unlock(writer_byte);
+        producer_.wake_readers_now();
+    }
+    segment_.reset();
+}
+
+SetupResult<void> RingWriter::close(Leave leave) {
+    SetupResult<void> removed;
+    if (leave == Leave::nothing && segment_ && !segment_->forked()) {
+        retire(*segment_);
+        removed = segment_->unlink();
+        if (removed) removed = remove_counter_page(name_);
+    }
+    end();
+    return removed;
+}
+
+}  // namespace mavloom::shm

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/shm/detail/words.hpp"
+
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <limits>
+
+namespace mavloom::shm {
+
+// Shared futexes: the word is known by its file, whatever the address it is mapped at. Works on read-only mappings too.
+void SharedWords::sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept {
+    if (longest <= Nanoseconds{}) return;
+    const auto whole = std::chrono::floor<std::chrono::seconds>(longest);
+    const timespec limit{static_cast<time_t>(whole.count()), static_cast<long>((longest - whole).count())};
+    ::syscall(SYS_futex, &word, FUTEX_WAIT, expected, &limit, nullptr, 0);
+}
+
+void SharedWords::wake(Word32& word) noexcept {
+    ::syscall(SYS_futex, &word, FUTEX_WAKE, std::numeric_limits<int>::max(), nullptr, nullptr, 0);
+}
+
+}  // namespace mavloom::shm

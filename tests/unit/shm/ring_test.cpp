@@ -1,0 +1,687 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "mavloom/shm/ring_info.hpp"
+#include "mavloom/shm/ring_reader.hpp"
+#include "mavloom/shm/ring_writer.hpp"
+#include "support/ring_name.hpp"
+#include "support/temp_dir.hpp"
+
+namespace mavloom::shm {
+namespace {
+
+using namespace std::chrono_literals;
+using test::RingName;
+using ::testing::HasSubstr;
+
+constexpr std::uint64_t small = 64 << 10;
+
+ByteView bytes_of(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+std::string text_of(const RingRecord& record) {
+    return {reinterpret_cast<const char*>(record.data.data()), record.data.size()};
+}
+
+RingWriter open_writer(const RingName& name, WhenFull when_full = WhenFull::wait, std::uint64_t capacity = small) {
+    auto writer = RingWriter::open(name.text(), {.capacity = capacity, .when_full = when_full});
+    if (!writer) throw std::runtime_error(writer.error().text);
+    return std::move(*writer);
+}
+
+RingReader open_reader(const RingName& name, const ReaderOptions& options = {}) {
+    auto reader = RingReader::open(name.text(), options);
+    if (!reader) throw std::runtime_error(reader.error().text);
+    return std::move(*reader);
+}
+
+constexpr ReaderOptions lossless{.lossless = true};
+constexpr ReaderOptions lossy_oldest{.from = ReaderOptions::From::oldest};
+constexpr ReaderOptions lossless_oldest{.lossless = true, .from = ReaderOptions::From::oldest};
+constexpr ReaderOptions read_only{.from = ReaderOptions::From::oldest, .read_only = true};
+
+MonoTime soon() { return mono_now() + 60s; }  // ends a hang, judges no speed
+
+void write(RingWriter& writer, std::string_view text, const RecordInfo& info = {}) {
+    const auto written = writer.write(bytes_of(text), info, soon());
+    ASSERT_TRUE(written) << to_text(written.error());
+}
+
+// Fills the ring once and more: `count` records of 1,000 bytes, each with its number.
+void write_many(RingWriter& writer, int count, int first = 0) {
+    for (int i = first; i < first + count; ++i) {
+        std::string text = std::to_string(i);
+        text.resize(1000, '.');
+        write(writer, text);
+    }
+}
+
+// Runs `body` in a forked child and gives its exit status.
+template <class Body>
+int in_child(Body&& body) {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(body());
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+class RingKinds : public ::testing::TestWithParam<ReaderOptions> {};
+INSTANTIATE_TEST_SUITE_P(Ring, RingKinds, ::testing::Values(lossy_oldest, lossless_oldest, read_only));
+
+TEST_P(RingKinds, GivesWhatWasWrittenWithItsTags) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name, GetParam());
+    const RecordInfo info{
+        .time = WallTime{1'700'000'000'000'000'123ns}, .link = LinkId{0xfedcba98}, .kind = 0xabcd, .verdict = 200};
+    write(writer, "hello", info);
+    write(writer, "");
+    write(writer, "12345678");
+
+    const auto first = reader.read(soon());
+    ASSERT_TRUE(first);
+    EXPECT_EQ(text_of(*first), "hello");
+    EXPECT_EQ(first->info.time, info.time);
+    EXPECT_EQ(first->info.link, info.link);
+    EXPECT_EQ(first->info.kind, info.kind);
+    EXPECT_EQ(first->info.verdict, info.verdict);
+    EXPECT_EQ(first->position, 0u);
+    EXPECT_EQ(first->sequence, 0u);
+    EXPECT_EQ(first->missed, 0u);
+    const auto second = reader.read(soon());
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->data.size(), 0u);
+    EXPECT_EQ(second->position, 32u) << "24 bytes of header, 5 of payload, 3 to the next multiple of 8";
+    const auto third = reader.read(soon());
+    ASSERT_TRUE(third);
+    EXPECT_EQ(text_of(*third), "12345678");
+    EXPECT_EQ(third->position, 56u);
+    EXPECT_EQ(reader.try_read().error(), ReadError::empty);
+    EXPECT_EQ(reader.read(mono_now()).error(), ReadError::empty);
+}
+
+TEST_P(RingKinds, GoesRoundManyTimes) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name, GetParam());
+    std::uint64_t expected = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string text = std::to_string(i);
+        text.resize(static_cast<std::size_t>(i * 7919 % 700), 'x');
+        write(writer, text);
+        if (i % 20 != 0) continue;
+        for (auto record = reader.try_read(); record; record = reader.try_read()) {
+            ASSERT_EQ(record->sequence, expected++);
+            ASSERT_EQ(record->data.size(), record->sequence * 7919 % 700);
+            ASSERT_EQ(record->missed, 0u);
+        }
+    }
+    EXPECT_GT(expected, 19'000u);
+}
+
+TEST(Ring, AReaderOfTheNewestSeesOnlyWhatComes) {
+    const RingName name;
+    auto writer = open_writer(name);
+    write_many(writer, 100);
+    auto reader = open_reader(name);
+    write(writer, "new");
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    EXPECT_EQ(text_of(*record), "new");
+    EXPECT_EQ(record->sequence, 100u);
+}
+
+TEST(Ring, TheOldestIsOlderThanTheNewestByNearlyTheCapacity) {
+    const RingName name;
+    auto writer = open_writer(name);
+    write_many(writer, 500);  // of 1,024 bytes each: eight laps
+    auto reader = open_reader(name, lossy_oldest);
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    EXPECT_LE(record->sequence, 500u - 60u);
+    EXPECT_GE(record->sequence, 500u - 64u);
+}
+
+TEST(Ring, ALappedReaderIsToldByHowManyRecords) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    auto reader = open_reader(name, lossy_oldest);
+    write_many(writer, 3);
+    ASSERT_TRUE(reader.read(soon()));
+    write_many(writer, 1000, 3);
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    EXPECT_GT(record->missed, 900u);
+    EXPECT_EQ(record->sequence, 1 + record->missed);
+    EXPECT_EQ(std::stoul(text_of(*record)), record->sequence);
+    EXPECT_EQ(reader.missed(), record->missed);
+    std::uint64_t last = record->sequence;
+    for (auto next = reader.try_read(); next; next = reader.try_read()) {
+        EXPECT_EQ(next->missed, 0u);
+        last = next->sequence;
+    }
+    EXPECT_EQ(last, 1002u);
+}
+
+TEST(Ring, AViewOfALosslessReaderStays) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::drop_newest);
+    auto reader = open_reader(name, lossless);
+    write(writer, "stays");
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    std::string text(1000, 'x');
+    int taken = 0;
+    while (writer.write(bytes_of(text), {})) ++taken;
+    EXPECT_EQ(taken, 63) << "of 1,024 bytes each: 64 KiB less the 32 bytes that are held";
+    EXPECT_TRUE(writer.write(bytes_of(text.substr(0, 968)), {})) << "up to the end of the lap";
+    EXPECT_EQ(writer.write(bytes_of("8 bytes."), {}).error(), WriteError::full);
+    EXPECT_EQ(writer.dropped(), 2u);
+    EXPECT_EQ(text_of(*record), "stays");
+    EXPECT_TRUE(reader.holds());
+    reader.release();
+    EXPECT_TRUE(writer.write(bytes_of("8 bytes."), {})) << "where the record was that took 32 bytes";
+    EXPECT_EQ(writer.write(bytes_of("8 bytes."), {}).error(), WriteError::full);
+}
+
+TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::wait);
+    auto reader = open_reader(name, lossless);
+    std::thread other([&] { write_many(writer, 1000); });
+    for (int i = 0; i < 1000; ++i) {
+        const auto record = reader.read(soon());
+        ASSERT_TRUE(record) << to_text(record.error());
+        ASSERT_EQ(std::stoi(text_of(*record)), i);
+    }
+    other.join();
+    EXPECT_EQ(reader.missed(), 0u);
+}
+
+TEST(Ring, AWaitThatEndsWroteNothingAndTheCallerCountsWhatHeGivesUp) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::wait);
+    auto reader = open_reader(name, lossless);
+    const std::string text(10'000, 'x');
+    while (writer.write(bytes_of(text), {}, mono_now() + 5ms)) continue;
+    const auto records = writer.records();
+    EXPECT_EQ(writer.write(bytes_of(text), {}, mono_now()).error(), WriteError::full);
+    EXPECT_EQ(writer.records(), records);
+    EXPECT_EQ(writer.dropped(), 0u);
+    writer.count_dropped();
+    EXPECT_EQ(ring_status(name.text())->dropped, 1u);
+}
+
+TEST(Ring, EvictingTakesTheHoldAndTheReaderIsToldWhatItMissed) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    auto reader = open_reader(name, lossless);
+    write(writer, "first");
+    ASSERT_TRUE(reader.read(soon()));
+    write_many(writer, 500);
+    EXPECT_FALSE(reader.holds());
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    EXPECT_TRUE(reader.holds());
+    EXPECT_EQ(record->sequence, 1 + record->missed);
+    EXPECT_EQ(std::stoul(text_of(*record)), record->sequence - 1);
+    EXPECT_EQ(ring_status(name.text())->evictions, 1u);
+}
+
+TEST(Ring, ClaimedBytesAreNotSeenUntilTheyAreCommitted) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name);
+    auto claim = writer.claim(100);
+    ASSERT_TRUE(claim);
+    ASSERT_EQ(claim->size(), 100u);
+    std::fill(claim->begin(), claim->end(), std::uint8_t{'c'});
+    EXPECT_EQ(reader.try_read().error(), ReadError::empty);
+    writer.commit({.link = LinkId{9}}, 40);
+    const auto record = reader.try_read();
+    ASSERT_TRUE(record);
+    EXPECT_EQ(text_of(*record), std::string(40, 'c'));
+    EXPECT_EQ(record->info.link, LinkId{9});
+}
+
+TEST(Ring, AClaimThatIsNotCommittedLeavesNothing) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name);
+    ASSERT_TRUE(writer.claim(1000));
+    ASSERT_TRUE(writer.claim(10));
+    write(writer, "kept");
+    const auto record = reader.try_read();
+    ASSERT_TRUE(record);
+    EXPECT_EQ(text_of(*record), "kept");
+    EXPECT_EQ(record->sequence, 0u);
+}
+
+TEST(Ring, TakesRecordsUpToItsLongestAndRefusesLongerOnes) {
+    const RingName name;
+    auto writer = open_writer(name);
+    EXPECT_EQ(writer.longest(), 16'360u) << "a quarter of 64 KiB less the header";
+    auto reader = open_reader(name, lossless);
+    const std::string longest(16'360, 'l');
+    for (int i = 0; i < 10; ++i) {
+        write(writer, longest);
+        const auto record = reader.try_read();
+        ASSERT_TRUE(record);
+        ASSERT_EQ(text_of(*record), longest);
+        reader.release();
+    }
+    EXPECT_EQ(writer.write(bytes_of(longest + "x"), {}).error(), WriteError::too_long);
+    const RingName large;
+    EXPECT_EQ(open_writer(large, WhenFull::wait, 1 << 20).longest(), 65'536u);
+}
+
+TEST(Ring, ASecondWriterIsRefusedWithTheFirstOnesPid) {
+    const RingName name;
+    const auto writer = open_writer(name);
+    const auto second = RingWriter::open(name.text(), {.capacity = small});
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, SetupCode::in_use);
+    EXPECT_THAT(second.error().text, HasSubstr("process " + std::to_string(::getpid())));
+}
+
+TEST(Ring, TheNextWriterCarriesOnInPlace) {
+    const RingName name;
+    {
+        auto writer = open_writer(name);
+        write_many(writer, 100);
+    }
+    auto reader = open_reader(name);
+    EXPECT_FALSE(reader.writer_alive());
+    EXPECT_EQ(reader.read(soon()).error(), ReadError::no_writer);
+    auto writer = open_writer(name);
+    EXPECT_TRUE(reader.writer_alive());
+    write(writer, "again");
+    const auto record = reader.read(soon());
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->sequence, 100u);
+    EXPECT_EQ(ring_status(name.text())->writers, 2u);
+}
+
+TEST(Ring, AWriterOfAnotherCapacityMakesAnotherFile) {
+    const RingName name;
+    {
+        auto writer = open_writer(name);
+        write(writer, "old");
+    }
+    auto reader = open_reader(name, lossless_oldest);
+    auto writer = open_writer(name, WhenFull::wait, 2 * small);
+    write(writer, "new");
+    const auto old = reader.read(soon());
+    ASSERT_TRUE(old);
+    EXPECT_EQ(text_of(*old), "old") << "what it holds is drained first";
+    EXPECT_EQ(reader.read(soon()).error(), ReadError::retired);
+    EXPECT_FALSE(reader.is_named());
+    auto again = open_reader(name, lossless_oldest);
+    EXPECT_EQ(text_of(*again.read(soon())), "new");
+}
+
+TEST(Ring, RemovalInUseIsToldToBothSides) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name, lossless);
+    write(writer, "last");
+    ASSERT_TRUE(remove_ring(name.text()));
+    EXPECT_EQ(text_of(*reader.read(soon())), "last");
+    EXPECT_EQ(reader.read(soon()).error(), ReadError::retired);
+    EXPECT_EQ(writer.write(bytes_of("lost"), {}).error(), WriteError::removed);
+    EXPECT_TRUE(writer.is_removed());
+    ASSERT_TRUE(writer.reopen());
+    write(writer, "anew");
+    EXPECT_EQ(text_of(*open_reader(name, lossless_oldest).read(soon())), "anew");
+    const auto gone = remove_ring("no-" + name.text());
+    ASSERT_FALSE(gone);
+    EXPECT_EQ(gone.error().code, SetupCode::not_found);
+}
+
+TEST(Ring, ANameThatIsTakenAwayByHandIsNoticedByWhoAsks) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name);
+    ::unlink(name.path().c_str());
+    EXPECT_TRUE(writer.is_removed());
+    EXPECT_FALSE(reader.is_named());
+    write(writer, "still");
+    EXPECT_EQ(text_of(*reader.read(soon())), "still");
+}
+
+TEST(Ring, ClosingWithLeaveNothingRemovesIt) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name);
+    ASSERT_TRUE(writer.close(RingWriter::Leave::nothing));
+    EXPECT_NE(::access(name.path().c_str(), F_OK), 0);
+    EXPECT_EQ(reader.read(soon()).error(), ReadError::retired);
+    EXPECT_EQ(writer.write(bytes_of("x"), {}).error(), WriteError::removed);
+}
+
+TEST(Ring, AClosingWriterWakesReadersAtOnce) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name);
+    std::thread other([&] {
+        while (!ring_status(name.text())->readers.at(0).asleep) std::this_thread::yield();
+        static_cast<void>(writer.close());
+    });
+    EXPECT_EQ(reader.read(soon()).error(), ReadError::no_writer);
+    other.join();
+}
+
+TEST(Ring, SixtyFourReadersRegisterAndTheSlotOfOneThatWentIsTakenAgain) {
+    const RingName name;
+    auto writer = open_writer(name);
+    std::vector<RingReader> readers;
+    for (int i = 0; i < 64; ++i) readers.push_back(open_reader(name, lossless));
+    const auto refused = RingReader::open(name.text(), lossless);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, SetupCode::in_use);
+    EXPECT_FALSE(open_reader(name).is_registered()) << "a lossy one reads without a slot";
+    EXPECT_EQ(ring_status(name.text())->readers.size(), 64u);
+    readers.erase(readers.begin() + 30);
+    readers.push_back(open_reader(name, lossless));
+    write(writer, "for all");
+    for (auto& reader : readers) EXPECT_EQ(text_of(*reader.read(soon())), "for all");
+}
+
+TEST(Ring, AReadOnlyReaderTakesNoSlotAndHoldsNobody) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::drop_newest);
+    const auto reader = open_reader(name, read_only);
+    EXPECT_FALSE(reader.is_registered());
+    EXPECT_TRUE(reader.writer_alive());
+    EXPECT_TRUE(ring_status(name.text())->readers.empty());
+    write_many(writer, 1000);
+    EXPECT_EQ(writer.dropped(), 0u);
+    EXPECT_EQ(RingReader::open(name.text(), {.lossless = true, .read_only = true}).error().code, SetupCode::usage);
+}
+
+TEST(Ring, StatusTellsWhoIsAttachedAndHowFarBehind) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    const auto reader = open_reader(name, lossless);
+    write_many(writer, 10);
+    const auto status = ring_status(name.text());
+    ASSERT_TRUE(status);
+    EXPECT_EQ(status->name, name.text());
+    EXPECT_EQ(status->path, name.path());
+    EXPECT_EQ(status->mode, 0600u);
+    EXPECT_EQ(status->capacity, small);
+    EXPECT_TRUE(status->writer_alive);
+    EXPECT_EQ(status->writer_pid, static_cast<std::uint32_t>(::getpid()));
+    EXPECT_EQ(status->when_full, WhenFull::evict);
+    EXPECT_EQ(status->records, 10u);
+    EXPECT_EQ(status->bytes, 10'240u);
+    ASSERT_EQ(status->readers.size(), 1u);
+    EXPECT_EQ(status->readers[0].pid, static_cast<std::uint32_t>(::getpid()));
+    EXPECT_EQ(status->readers[0].program, "shm_test");
+    EXPECT_TRUE(status->readers[0].lossless);
+    EXPECT_TRUE(status->readers[0].holds);
+    EXPECT_EQ(status->readers[0].behind_bytes, 10'240u);
+    EXPECT_EQ(status->readers[0].behind_records, 10u);
+    EXPECT_THAT(ring_names(), ::testing::Contains(name.text()));
+}
+
+TEST(Ring, TheModeCountsAndTheUmaskDoesNot) {
+    const RingName name;
+    const mode_t before = ::umask(077);
+    const auto writer = RingWriter::open(name.text(), {.capacity = small, .mode = 0640});
+    ::umask(before);
+    ASSERT_TRUE(writer);
+    struct stat status {};
+    ASSERT_EQ(::stat(name.path().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777u, 0640u);
+}
+
+TEST(Ring, WrongNamesAndSizesAreUsageErrors) {
+    for (const std::string name : {"", "a/b", "../x", "a b", "a.stat", "\x1b[31m"}) {
+        const auto writer = RingWriter::open(name);
+        ASSERT_FALSE(writer) << name;
+        EXPECT_EQ(writer.error().code, SetupCode::usage);
+        EXPECT_EQ(RingReader::open(name).error().code, SetupCode::usage);
+        EXPECT_EQ(remove_ring(name).error().code, SetupCode::usage);
+    }
+    EXPECT_EQ(RingWriter::open(std::string(65, 'a')).error().code, SetupCode::usage);
+    const RingName name;
+    for (const std::uint64_t capacity :
+         {std::uint64_t{0}, std::uint64_t{1000}, small / 2, small + 1, std::uint64_t{1} << 37})
+        EXPECT_EQ(RingWriter::open(name.text(), {.capacity = capacity}).error().code, SetupCode::usage) << capacity;
+    EXPECT_EQ(RingWriter::open(name.text(), {.mode = 0400}).error().code, SetupCode::usage);
+    EXPECT_NE(::access(name.path().c_str(), F_OK), 0);
+}
+
+TEST(Ring, AnAbsentOneListsThoseThatThereAre) {
+    const RingName name, other;
+    const auto writer = open_writer(other);
+    const auto reader = RingReader::open(name.text());
+    ASSERT_FALSE(reader);
+    EXPECT_EQ(reader.error().code, SetupCode::not_found);
+    EXPECT_THAT(reader.error().text, HasSubstr("there is no ring " + name.text()));
+    EXPECT_THAT(reader.error().text, HasSubstr(other.text()));
+}
+
+// ---- files that are no rings, or no longer
+
+class RingDamage : public ::testing::Test {
+protected:
+    RingDamage() {
+        auto writer = open_writer(name_);
+        write_many(writer, 10);
+    }
+    void put(off_t offset, const std::vector<std::uint8_t>& bytes) const {
+        const int fd = ::open(name_.path().c_str(), O_RDWR);
+        ASSERT_EQ(::pwrite(fd, bytes.data(), bytes.size(), offset), static_cast<ssize_t>(bytes.size()));
+        ::close(fd);
+    }
+    void expect_refused(std::string_view text) const {
+        for (const auto& reader :
+             {RingReader::open(name_.text(), lossy_oldest), RingReader::open(name_.text(), read_only)}) {
+            ASSERT_FALSE(reader);
+            EXPECT_EQ(reader.error().code, SetupCode::bad_input);
+            EXPECT_THAT(reader.error().text, HasSubstr(text));
+        }
+        const auto before = test::content_of(name_.path());
+        const auto writer = RingWriter::open(name_.text(), {.capacity = small});
+        ASSERT_FALSE(writer);
+        EXPECT_EQ(writer.error().code, SetupCode::bad_input);
+        EXPECT_THAT(writer.error().text, HasSubstr(text));
+        EXPECT_EQ(test::content_of(name_.path()), before) << "left as it is";
+    }
+    RingName name_;
+};
+
+TEST_F(RingDamage, AnotherMagicIsNoRing) {
+    put(0, {'X'});
+    expect_refused("is no ring of Mavloom");
+}
+TEST_F(RingDamage, AnotherVersionNamesBoth) {
+    put(8, {2, 0, 7, 0});
+    expect_refused("is a ring of version 2.7; this program knows 1.0");
+}
+TEST_F(RingDamage, AHigherMinorVersionIsRead) {
+    put(10, {9, 0});
+    EXPECT_EQ(std::stoi(text_of(*open_reader(name_, lossy_oldest).try_read())), 0);
+}
+TEST_F(RingDamage, AnotherByteOrderIsNamed) {
+    put(12, {1, 2, 3, 4});
+    expect_refused("another byte order");
+}
+TEST_F(RingDamage, OtherSizesAreDamage) {
+    put(16, {0, 0, 2});
+    expect_refused("truncated");
+    put(16, {0, 0, 3});
+    expect_refused("damaged");
+    put(16, {0, 0, 1});
+    put(24, {1});
+    expect_refused("damaged");
+}
+TEST_F(RingDamage, ATruncatedFileIsNamed) {
+    ASSERT_EQ(::truncate(name_.path().c_str(), 70'000), 0);
+    expect_refused("truncated");
+    ASSERT_EQ(::truncate(name_.path().c_str(), 100), 0);
+    expect_refused("truncated");
+    ASSERT_EQ(::truncate(name_.path().c_str(), 0), 0);
+    expect_refused("truncated");
+}
+TEST_F(RingDamage, AFolderIsNoRing) {
+    const RingName folder;
+    ASSERT_EQ(::mkdir(folder.path().c_str(), 0700), 0);
+    EXPECT_FALSE(RingReader::open(folder.text()));
+    EXPECT_FALSE(RingReader::open(folder.text(), read_only));
+    EXPECT_FALSE(RingWriter::open(folder.text()));
+    ::rmdir(folder.path().c_str());
+}
+TEST_F(RingDamage, ALengthThatCannotBeEndsReadingWithDamaged) {
+    for (const std::vector<std::uint8_t>& length : {std::vector<std::uint8_t>{0xff, 0xff, 0xff, 0x7f},
+                                                    {0xff, 0xff, 0xff, 0xff},
+                                                    {0, 0, 0, 0x80},
+                                                    {0xe9, 0x3f, 0, 0}}) {
+        put(16384 + 1024, length);  // of the second record
+        for (const auto& options : {lossy_oldest, lossless_oldest, read_only}) {
+            auto reader = open_reader(name_, options);
+            EXPECT_TRUE(reader.try_read());
+            EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
+            EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
+        }
+    }
+}
+TEST_F(RingDamage, ARecordOutOfSequenceIsDamage) {
+    put(16384 + 1024 + 12, {9});
+    auto reader = open_reader(name_, lossy_oldest);
+    EXPECT_TRUE(reader.try_read());
+    EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
+}
+TEST_F(RingDamage, PositionsThatCannotBeAreDamage) {
+    put(128, {1});  // a tail that is no multiple of 8
+    EXPECT_FALSE(RingWriter::open(name_.text(), {.capacity = small}));
+    put(128, {0, 0x28, 0, 0, 0, 0, 0, 0x80});  // far beyond the intent
+    expect_refused("damaged");
+}
+
+// ---- processes
+
+TEST(RingProcess, AForkedChildHoldsNothingAndIsTold) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name, lossless);
+    write(writer, "parent's");
+    EXPECT_EQ(in_child([&] {
+                  const bool told = reader.try_read().error() == ReadError::forked &&
+                                    writer.write(bytes_of("x"), {}).error() == WriteError::forked &&
+                                    writer.claim(1).error() == WriteError::forked;
+                  { auto dropped = std::move(reader); }
+                  return told ? 7 : 1;
+              }),
+              7);
+    EXPECT_EQ(ring_status(name.text())->readers.size(), 1u);
+    EXPECT_TRUE(ring_status(name.text())->readers[0].holds);
+    EXPECT_EQ(text_of(*reader.read(soon())), "parent's");
+    write(writer, "and more");
+    EXPECT_EQ(text_of(*reader.read(soon())), "and more");
+}
+
+// A grandchild outlives the child that opened the ring: its lock must not.
+TEST(RingProcess, ALockEndsWithItsOwnerThoughAChildOfHisLives) {
+    const RingName name;
+    int pipe_ends[2], runs[2];
+    ASSERT_EQ(::pipe(pipe_ends), 0);
+    ASSERT_EQ(::pipe(runs), 0);
+    EXPECT_EQ(in_child([&] {
+                  auto writer = open_writer(name);
+                  write(writer, "before");
+                  if (::fork() == 0) {
+                      char byte = 'r';
+                      ::close(pipe_ends[1]);
+                      static_cast<void>(::write(runs[1], &byte, 1));
+                      static_cast<void>(::read(pipe_ends[0], &byte, 1));  // until the test ends
+                      ::_exit(0);
+                  }
+                  char byte;
+                  static_cast<void>(::read(runs[0], &byte, 1));  // until fork() is over on the other side too
+                  ::kill(::getpid(), SIGKILL);
+                  return 0;
+              }),
+              128 + SIGKILL);
+    auto writer = open_writer(name);
+    write(writer, "after");
+    auto reader = open_reader(name, lossless_oldest);
+    EXPECT_EQ(text_of(*reader.read(soon())), "before");
+    EXPECT_EQ(text_of(*reader.read(soon())), "after");
+    for (const int fd : {pipe_ends[0], pipe_ends[1], runs[0], runs[1]}) ::close(fd);
+}
+
+TEST(RingProcess, TheHoldOfAReaderThatWasKilledIsGivenUp) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::wait);
+    EXPECT_EQ(in_child([&] {
+                  auto reader = open_reader(name, lossless);
+                  ::kill(::getpid(), SIGKILL);
+                  return 0;
+              }),
+              128 + SIGKILL);
+    write_many(writer, 500);  // each waits at most a minute
+    EXPECT_EQ(writer.dropped(), 0u);
+    EXPECT_TRUE(ring_status(name.text())->readers.empty());
+}
+
+TEST(RingProcess, AStoppedReaderIsNotTakenForDead) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::drop_newest);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto reader = open_reader(name, lossless);
+        ::raise(SIGSTOP);
+        ::_exit(reader.holds() ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
+    ASSERT_TRUE(WIFSTOPPED(status));
+    const std::string text(1000, 'x');
+    for (int i = 0; i < 1000; ++i) static_cast<void>(writer.write(bytes_of(text), {}));
+    EXPECT_EQ(writer.records(), 64u);
+    EXPECT_EQ(writer.dropped(), 936u);
+    ::kill(child, SIGCONT);
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(RingProcess, ReadersAndWriterOfDifferentProcessesWakeEachOther) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::wait);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        auto reader = open_reader(name, lossless);
+        int expected = 0;
+        for (;;) {
+            const auto record = reader.read(soon());
+            if (!record) ::_exit(record.error() == ReadError::no_writer && expected == 5000 ? 0 : 1);
+            if (std::stoi(text_of(*record)) != expected++) ::_exit(2);
+        }
+    }
+    while (ring_status(name.text())->readers.empty()) std::this_thread::yield();
+    while (!ring_status(name.text())->readers.at(0).holds) std::this_thread::yield();
+    write_many(writer, 5000);
+    ASSERT_TRUE(writer.close());
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+}  // namespace
+}  // namespace mavloom::shm
