@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "columns.hpp"
+
+#include <cstring>
+
+#include "mavloom/message/view.hpp"
+#include "mavloom/message/visit.hpp"
+
+namespace mavloom::python {
+namespace {
+
+constexpr std::uint64_t most_damage = 1 << 20;
+
+const dialect::Field* instance_field(const dialect::Message& message) noexcept {
+    for (const auto& field : message.fields)
+        if (field.instance) return &field;
+    return nullptr;
+}
+
+bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) noexcept {
+    if (frame.id() != query.message->id()) return false;
+    if (query.system && frame.system().value != *query.system) return false;
+    if (query.component && frame.component().value != *query.component) return false;
+    if (instance == nullptr || !query.instance) return true;
+    return message::MessageView(*query.message, frame.payload()).integer(*instance) == *query.instance;
+}
+
+std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {
+    return std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
+}
+
+// `count` values of type T from `offset` of each row on.
+template <class T>
+std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std::size_t count) {
+    auto values = room_for(rows.count() * count * sizeof(T));
+    auto* to = values.get();
+    for (std::size_t i = 0; i < rows.count(); ++i) {
+        const auto* from = rows.row(i) + offset;
+        for (std::size_t k = 0; k < count; ++k, to += sizeof(T), from += sizeof(T)) {
+            const T value = load_le<T>(from);
+            std::memcpy(to, &value, sizeof value);
+        }
+    }
+    return values;
+}
+
+std::unique_ptr<std::uint8_t[]> times_of(const Rows& rows) {
+    auto values = room_for(rows.count() * sizeof(std::int64_t));
+    for (std::size_t i = 0; i < rows.count(); ++i)
+        std::memcpy(values.get() + i * sizeof(std::int64_t), rows.row(i), sizeof(std::int64_t));
+    return values;
+}
+
+}  // namespace
+
+void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
+    if (count_ == blocks_.size() * rows_per_block) blocks_.push_back(room_for(rows_per_block * stride_));
+    auto* row = blocks_.back().get() + count_ % rows_per_block * stride_;
+    std::memcpy(row, &time_ns, sizeof time_ns);
+    row[system_offset] = frame.system().value;
+    row[component_offset] = frame.component().value;
+    const auto payload = frame.payload();
+    const auto length = std::min(payload.size(), payload_length_);
+    if (length != 0) std::memcpy(row + prefix_bytes, payload.data(), length);
+    std::memset(row + prefix_bytes + length, 0, payload_length_ - length);
+    ++count_;
+}
+
+SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::size_t most_records) {
+    using Stop = record::TlogReader::Stop;
+    const auto* instance = instance_field(*query.message);
+    for (std::size_t i = 0; i < most_records; ++i) {
+        const auto record = reader.next(most_damage);
+        if (!record) {
+            if (record.error() == Stop::failed) return tl::unexpected(reader.error());
+            return record.error() != Stop::end;
+        }
+        if (is_wanted(record->frame, query, instance)) rows.add(record->time.time_since_epoch().count(), record->frame);
+    }
+    return true;
+}
+
+Columns columns_of(const dialect::Message& message, const Rows& rows) {
+    Columns columns{rows.count(),
+                    times_of(rows),
+                    gather<std::uint8_t>(rows, Rows::system_offset, 1),
+                    gather<std::uint8_t>(rows, Rows::component_offset, 1),
+                    {}};
+    for (const auto& field : message.fields) {
+        const auto offset = Rows::prefix_bytes + field.offset;
+        columns.fields.push_back(message::visit_type(
+            field.type, [&](auto tag) { return gather<decltype(tag)>(rows, offset, field.count()); }));
+    }
+    return columns;
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string_view.h>
+
+#include "bindings.hpp"
+#include "definitions.hpp"
+#include "mavloom/base/version.hpp"
+#include "message.hpp"
+
+NB_MODULE(_core, module) {
+    using namespace mavloom::python;
+#ifdef NDEBUG
+    nb::set_leak_warnings(false);  // they are for who works on this package
+#endif
+    module.doc() = "The compiled part of mavloom: use the package.";
+    module.def("version", &mavloom::version,
+               "The version of what is compiled: \"0.1.0\", between releases with the commit behind it.");
+    bind_message(module);
+    bind_dialect(module);
+    bind_parser(module);
+    bind_recording(module);
+    bind_columns(module);
+}
