@@ -8,6 +8,7 @@ namespace mavloom::python {
 
 void bind_parser(nanobind::module_& module);
 void bind_recording(nanobind::module_& module);
+void bind_link(nanobind::module_& module);
 void bind_columns(nanobind::module_& module);
 
 }  // namespace mavloom::python

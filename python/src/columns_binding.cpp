@@ -55,13 +55,13 @@ nb::tuple read(const nb::object& path, const std::string& name, std::optional<st
     Rows rows(message);
     for (bool more = true; more; check_signals()) {
         auto read = [&] {
-            const nb::gil_scoped_release release;
+            const WithoutGil outside;
             return read_rows(reader, query, rows, records_between_signals);
         }();
         more = value_or_raise(std::move(read));
     }
     auto columns = [&] {
-        const nb::gil_scoped_release release;
+        const WithoutGil outside;
         return columns_of(message, rows);
     }();
 

@@ -12,6 +12,7 @@
 
 #include "encode.hpp"
 #include "errors.hpp"
+#include "gil.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "message.hpp"
 
@@ -208,7 +209,7 @@ std::shared_ptr<const Definitions> Definitions::builtin() {
 
 std::shared_ptr<const Definitions> Definitions::load(const std::string& path) {
     auto dialect = [&] {
-        const nb::gil_scoped_release release;
+        const WithoutGil outside;
         auto own = dialect::Dialect::load(path);
         return own ? dialect::default_dialect().with(*own) : std::move(own);
     }();

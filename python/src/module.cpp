@@ -20,4 +20,5 @@ NB_MODULE(_core, module) {
     bind_parser(module);
     bind_recording(module);
     bind_columns(module);
+    bind_link(module);
 }

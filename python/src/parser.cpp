@@ -34,7 +34,7 @@ private:
         const auto lock = lock_without_gil(mutex_);
         batch_.clear();
         {
-            const nb::gil_scoped_release release;
+            const WithoutGil outside;
             work([&](const wire::ParseEvent& event) {
                 if (event.kind != wire::ParseEvent::Kind::frame) return;
                 batch_.add({.time_ns = time_ns, .definition = origin_->dialect().find(event.frame.id())}, event.frame);

@@ -91,7 +91,7 @@ private:
     static constexpr std::uint64_t most_damage = 1 << 20;  // bytes, then signals get their turn
 
     [[nodiscard]] SetupResult<record::TlogReader> open() const {
-        const nb::gil_scoped_release release;
+        const WithoutGil outside;
         return record::TlogReader::open(path_, origin_->dialect().wire_table());
     }
 
@@ -125,7 +125,7 @@ private:
         auto& file = reader();
         auto stop = std::optional<record::TlogReader::Stop>();
         {
-            const nb::gil_scoped_release release;
+            const WithoutGil outside;
             const std::size_t wanted = file.is_file() ? batch_frames : 1;
             for (std::size_t read = 0; read < batch_frames && batch_.size() < wanted && !stop; ++read) {
                 const auto record = file.next(most_damage);

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
 """The Python examples of the guides: run as they are written, and taken by mypy --strict (row 25 of docs/guide/python.md)."""
+import contextlib
 import re
 import shutil
+import socket
 import subprocess
 import sys
+import threading
 
 import pytest
 
 from places import ROOT
+from tlogs import frames_of
 
 PAGES = [ROOT / "README.md", *(ROOT / "docs" / "guide" / name for name in ("python.md", "from-pymavlink.md"))]
 
@@ -17,10 +21,36 @@ def script_of(page):
     return "\n".join(re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL))
 
 
+@contextlib.contextmanager
+def vehicle_at(port, flight):
+    """Sends what a recorded vehicle sent, again and again, as fast as it is of use."""
+    frames = [frame for _, frame in frames_of(flight) if frame[5] == 1 and frame[7] in (0, 30) and frame[8:10] == b"\0\0"]
+    kinds = [next(frame for frame in frames if frame[7] == kind) for kind in (0, 30)]
+    stop = threading.Event()
+
+    def send():
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+            while not stop.wait(0.01):
+                for frame in kinds:
+                    sock.sendto(frame, ("127.0.0.1", port))
+    thread = threading.Thread(target=send)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_examples_run(page, flight, tmp_path, child_environment):
     shutil.copy(flight, tmp_path / "flight.tlog")
-    done = subprocess.run([sys.executable, "-W", "error", "-c", script_of(page)], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    script = script_of(page).replace("14550", str(port))
+    with vehicle_at(port, flight):
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
 
 
