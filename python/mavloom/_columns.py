@@ -28,7 +28,7 @@ class Columns:
     name: str
     units: dict[str, str]  # {field: "rad/s"} where there is one
     enums: dict[str, str]  # {field: "MAV_TYPE"} where there is one
-    junk_bytes: int  # of the file: damaged, or cut at its end
+    junk_bytes: int  # that belong to no record: damaged, or cut at the end
 
     def __init__(self, info: MessageInfo, arrays: dict[str, Array], junk_bytes: int) -> None:
         self.name = info.name
@@ -110,7 +110,7 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
 
     `system`, `component` and `instance` (the value of the field that tells several sensors of one message apart, as BATTERY_STATUS.id) keep the rows that
     agree. An unknown name, or `instance` for a message without such a field, is a UsageError (a ValueError); damage in the file is skipped and counted in
-    `junk_bytes`. Peak memory: the rows as they were sent, and the arrays."""
+    `junk_bytes` (checksums of other messages are not looked at while record joins record). Peak memory: the rows as they were sent, and the arrays."""
     definitions = Dialect() if dialect is None else dialect
     info = definitions[name]
     time_ns, systems, components, fields, junk_bytes = read_columns(path, name, system, component, instance, definitions)

@@ -2,6 +2,7 @@
 // One message of a tlog as columns: a contiguous array for each field, filled without an object for each message. Knows nothing of Python.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,14 +29,16 @@ public:
 
     void add(std::int64_t time_ns, const wire::FrameView& frame);
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
-    // The bytes of row `index`: eight of time, system, component, payload.
-    [[nodiscard]] const std::uint8_t* row(std::size_t index) const noexcept {
-        return blocks_[index / rows_per_block].get() + index % rows_per_block * stride_;
+    // Calls take(first, rows, stride) for runs of rows that lie `stride` bytes apart: eight bytes of time, system, component, payload.
+    template <class Take>
+    void each_run(Take take) const {
+        for (std::size_t done = 0; done < count_; done += rows_per_block)
+            take(blocks_[done / rows_per_block].get(), std::min(rows_per_block, count_ - done), stride_);
     }
-    static constexpr std::size_t system_offset = 8, component_offset = 9, prefix_bytes = 10;
+    static constexpr std::size_t time_offset = 0, system_offset = 8, component_offset = 9, prefix_bytes = 10;
 
 private:
-    static constexpr std::size_t rows_per_block = 4096;
+    static constexpr std::size_t rows_per_block = 1024;
 
     std::size_t payload_length_, stride_;
     std::size_t count_ = 0;

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""generate.py FOLDER: writes messages.pyi and enums.pyi, the built-in definitions as type checkers and editors see them."""
+"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and editors see them."""
 import pathlib
 import sys
 
-import mavloom
+sys.path.insert(0, str(pathlib.Path(sys.argv[1]).parent))
+import mavloom  # noqa: E402
 
 HEAD = "# SPDX-License-Identifier: MIT\n# Made by python/stubs/generate.py.\n"
 
