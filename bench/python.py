@@ -84,6 +84,28 @@ def peer_columns(path):
     return columns
 
 
+def numpy_type(field):
+    kinds = {"float": "f4", "double": "f8", "char": f"S{field.count}", "uint8_t_mavlink_version": "u1"}
+    return kinds.get(field.type) or f"{field.type[0]}{vectors.INTEGER_BITS[field.type] // 8}"
+
+
+def our_tables(path):
+    log = mavloom.read(path)
+    return {name: mavloom.columns(path, name) for name in {message.name for message in log}}
+
+
+def peer_tables(path):
+    log, rows = peer_log(path), {}
+    while (message := log.recv_msg()) is not None:
+        rows.setdefault(message.get_type(), []).append(message)
+    tables = {}
+    for name, messages in rows.items():
+        fields = vectors.fields_of(type(messages[0]))
+        tables[name] = {field.name: np.array([getattr(m, f"_{field.name}_raw" if field.is_text else field.name) for m in messages], numpy_type(field))
+                        for field in fields}
+    return tables
+
+
 # ---- the answers
 
 def same(ours, theirs):
@@ -110,6 +132,13 @@ def check_answers(path):
     for name, column in peers.items():
         if mine[name].tobytes() != column.tobytes():
             sys.exit(f"bench python: column {name} differs")
+    ours, theirs = our_tables(path), peer_tables(path)
+    if set(ours) != set(theirs):
+        sys.exit("bench python: other messages")
+    for name, table in theirs.items():
+        for field, column in table.items():
+            if ours[name][field].tobytes() != column.tobytes():
+                sys.exit(f"bench python: column {name}.{field} differs")
     return count
 
 
@@ -135,7 +164,7 @@ def main():
 
     # Ours are so short that each turn takes several.
     pairs = {"objects": (our_objects, peer_objects, 20), "objects, every field read": (our_dicts, peer_dicts, 5),
-             f"columns of {MESSAGE}": (our_columns, peer_columns, 100)}
+             f"columns of {MESSAGE}": (our_columns, peer_columns, 100), "columns of every message": (our_tables, peer_tables, 5)}
     measured = {name: [] for name in pairs}
     for _ in range(options.turns):
         for name, (ours, theirs, times) in pairs.items():

@@ -131,7 +131,7 @@ Consumer::~Consumer() {
 
 Consumer::Taken Consumer::take(FrameBatch& batch, const Filter& filter, std::size_t most) {
     const std::lock_guard lock(channel_->mutex_);
-    if (closed_) return Taken::closed;
+    if (closed()) return Taken::closed;
     FrameRing::Head head;
     wire::FrameView frame;
     while (batch.size() < most && channel_->ring_.next(at_, missed_, head, frame))
@@ -143,7 +143,6 @@ Consumer::Taken Consumer::take(FrameBatch& batch, const Filter& filter, std::siz
                       frame);
     seen_ = at_.frame;
     if (batch.size() != 0) return Taken::some;
-    if (channel_->closed_) return Taken::closed;
     armed_ = true;
     return Taken::none;
 }
@@ -151,8 +150,7 @@ Consumer::Taken Consumer::take(FrameBatch& batch, const Filter& filter, std::siz
 void Consumer::wait(MonoTime deadline) {
     std::unique_lock lock(channel_->mutex_);
     const auto slice = std::min(deadline, mono_now() + longest_wait);
-    channel_->changed_.wait_until(
-        lock, slice, [&] { return closed_ || channel_->closed_ || channel_->ring_.newest().frame != seen_; });
+    channel_->changed_.wait_until(lock, slice, [&] { return closed() || channel_->ring_.newest().frame != seen_; });
 }
 
 void Consumer::tell() noexcept {

@@ -50,7 +50,7 @@ public:
     void on_link_down();
     // Wakes who waits for what came since.
     void publish();
-    // Nothing follows; readers get what is left, then the end.
+    // Nothing follows, and nothing more is read.
     void close();
 
 private:
@@ -70,6 +70,7 @@ private:
     const std::shared_ptr<Origin> origin_;
     const bool verifies_;
     std::atomic<std::size_t> peers_{0};
+    std::atomic<bool> closed_{false};  // set with mutex_ held
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
@@ -79,7 +80,7 @@ private:
     std::uint64_t frames_ = 0;
     Source target_;
     std::vector<Consumer*> consumers_;
-    bool closed_ = false, news_ = false;
+    bool news_ = false;
 };
 
 // One reader of a channel, with its own position.
@@ -99,6 +100,8 @@ public:
     // A descriptor that becomes readable when there is something to take after `none`; made at the first call.
     [[nodiscard]] SetupResult<int> event_fd();
     [[nodiscard]] std::uint64_t missed() const;
+    // It, or its channel.
+    [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }
     void close();
 
     [[nodiscard]] const std::shared_ptr<Channel>& channel() const noexcept { return channel_; }
@@ -115,7 +118,7 @@ private:
     std::uint64_t seen_ = 0;  // frames of the channel that `take` had looked at
     int event_fd_ = -1;
     bool armed_ = false, due_ = false;  // the descriptor is to tell; something came for it
-    bool closed_ = false;
+    std::atomic<bool> closed_{false};   // set with the mutex held
 };
 
 }  // namespace mavloom::python

@@ -118,6 +118,8 @@ private:
 
     // With mutex_ held.
     const FrameBatch::Item* next_item() {
+        ended_ = consumer_->closed();
+        if (ended_) return nullptr;
         if (const auto* item = batch_.next()) return item;
         batch_.clear();
         ended_ = consumer_->take(batch_, {}, batch_frames) == Consumer::Taken::closed;

@@ -9,9 +9,9 @@
 
 NB_MODULE(_core, module) {
     using namespace mavloom::python;
-#ifdef NDEBUG
-    nb::set_leak_warnings(false);  // they are for who works on this package
-#endif
+    nb::set_leak_warnings(false);  // users take them for bugs
+    module.def("set_leak_warnings", &nb::set_leak_warnings, nb::arg("on"),
+               "Whether the interpreter's exit says which objects of this module are left: for tests of this package.");
     module.doc() = "The compiled part of mavloom: use the package.";
     module.def("version", &mavloom::version,
                "The version of what is compiled: \"0.1.0\", between releases with the commit behind it.");

@@ -285,6 +285,27 @@ def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
         assert second.recv(timeout=DEADLINE_S).level == 0.5
 
 
+def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
+    for name, byte in (("ours", "07"), ("other", "08")):
+        (tmp_path / name).write_text(byte * 32)
+        (tmp_path / name).chmod(0o600)
+    with mavloom.connect(f"udpin://127.0.0.1:0?verify={tmp_path}/ours") as link, mavloom.connect("udpin://127.0.0.1:0") as open_link:
+        signer = mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={tmp_path}/ours")
+        assert signer.send("HEARTBEAT", custom_mode=1) == 1
+        message = link.recv(timeout=DEADLINE_S)
+        assert (message.custom_mode, message.signed, message.signature, message.get_signed()) == (1, True, "good", True)
+        signer.close()
+        forger = mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={tmp_path}/other")
+        forger.send("HEARTBEAT", custom_mode=2)
+        until(lambda: link.stats.bad_signature == 1)
+        forger.close()
+        with mavloom.connect(f"udpout://127.0.0.1:{open_link.port}?sign={tmp_path}/other") as signer:
+            signer.send("HEARTBEAT", custom_mode=3)
+            message = open_link.recv(timeout=DEADLINE_S)
+            assert (message.custom_mode, message.signed, message.signature) == (3, True, "unchecked")
+        assert link.recv(timeout=0) is None
+
+
 # ---- asyncio: row 19, example 5
 
 def test_row_19_example_5_many_tasks_on_one_loop(link, vehicle):

@@ -218,6 +218,15 @@ def test_an_exit_with_all_of_it_open_is_silent(flight, child_environment):
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
+def test_no_object_is_left_behind(flight, child_environment):
+    code = (f"import mavloom\nmavloom._core.set_leak_warnings(True)\nlog = mavloom.read({str(flight)!r})\nkept = [next(log) for _ in range(1000)]\n"
+            "kept[0].to_dict(); kept[0].dialect.enum('MAV_TYPE'); mavloom.Parser().feed(kept[0].frame)\n"
+            f"mavloom.columns({str(flight)!r}, 'ATTITUDE')\nlink = mavloom.connect('udpin://127.0.0.1:0'); link.subscribe('ATTITUDE'); link.close()\n"
+            "try: link.recv()\nexcept mavloom.Error as error: pass\ndel log, kept, link\n")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
 def test_json_of_a_message_names_the_link(flight):
     assert json.loads(mavloom.read(flight).recv().to_json())["link"] == f"tlog://{flight}"
 
