@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Dialect, MessageInfo, read_columns
+from ._core import Dialect, MessageInfo, read_columns, read_tables
+from ._types import MessageTypes
 
 if TYPE_CHECKING:
     import pandas
@@ -113,7 +114,21 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
     `junk_bytes` (checksums of other messages are not looked at while record joins record). Peak memory: the rows as they were sent, and the arrays."""
     definitions = Dialect() if dialect is None else dialect
     info = definitions[name]
-    time_ns, systems, components, fields, junk_bytes = read_columns(path, name, system, component, instance, definitions)
+    parts, junk_bytes = read_columns(path, name, system, component, instance, definitions)
+    return _made(info, parts, junk_bytes)
+
+
+def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
+           dialect: Dialect | None = None) -> dict[str, Columns]:
+    """Every message of a tlog as columns, {"ATTITUDE": Columns, ...} by rising id, read in one pass: those that occur, or those that `type` names. As `columns`,
+    but every checksum is looked at. Messages without definition are left out."""
+    definitions = Dialect() if dialect is None else dialect
+    made, junk_bytes = read_tables(path, type, system, component, definitions)
+    return {name: _made(definitions[name], parts, junk_bytes) for name, parts in made.items()}
+
+
+def _made(info: MessageInfo, parts: tuple[Array, Array, Array, dict[str, Array]], junk_bytes: int) -> Columns:
+    time_ns, systems, components, fields = parts
     for field in info.fields:
         if field.type == "char":
             fields[field.name] = fields[field.name].view(f"S{max(field.array_length, 1)}").reshape(-1)

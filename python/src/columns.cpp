@@ -62,18 +62,49 @@ void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     ++count_;
 }
 
-SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::size_t most_records) {
+namespace {
+
+// Calls take(record) for what next() gives.
+template <class Next, class Take>
+SetupResult<bool> read_records(record::TlogReader& reader, std::size_t most_records, Next next, Take take) {
     using Stop = record::TlogReader::Stop;
-    const auto* instance = instance_field(*query.message);
     for (std::size_t i = 0; i < most_records; ++i) {
-        const auto record = reader.next_of(query.message->id(), most_damage);
-        if (!record) {
-            if (record.error() == Stop::failed) return tl::unexpected(reader.error());
-            return record.error() != Stop::end;
+        const auto record = next();
+        if (record) {
+            take(*record);
+            continue;
         }
-        if (is_wanted(record->frame, query, instance)) rows.add(record->time.time_since_epoch().count(), record->frame);
+        if (record.error() == Stop::failed) return tl::unexpected(reader.error());
+        return record.error() != Stop::end;
     }
     return true;
+}
+
+}  // namespace
+
+SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::size_t most_records) {
+    const auto* instance = instance_field(*query.message);
+    return read_records(
+        reader, most_records, [&] { return reader.next_of(query.message->id(), most_damage); },
+        [&](const record::Record& record) {
+            if (is_wanted(record.frame, query, instance))
+                rows.add(record.time.time_since_epoch().count(), record.frame);
+        });
+}
+
+SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const ColumnsQuery& query,
+                              Tables& tables, std::size_t most_records) {
+    return read_records(
+        reader, most_records, [&] { return reader.next(most_damage); },
+        [&](const record::Record& record) {
+            const auto* message = record.info == nullptr ? nullptr : dialect.find(record.frame.id());
+            if (message == nullptr || !is_wanted(record.frame, query, nullptr)) return;
+            const auto place = static_cast<std::size_t>(message - dialect.messages().data());
+            if (!tables.wanted[place]) return;
+            auto& rows = tables.rows[place];
+            if (!rows) rows = std::make_unique<Rows>(*message);
+            rows->add(record.time.time_since_epoch().count(), record.frame);
+        });
 }
 
 Columns columns_of(const dialect::Message& message, const Rows& rows) {

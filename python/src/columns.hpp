@@ -57,6 +57,15 @@ struct Columns {
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
                                           std::size_t most_records);
 
+// The rows of many messages at once, by the message's place in the dialect; null for those that are not wanted or did not occur.
+struct Tables {
+    std::vector<bool> wanted;
+    std::vector<std::unique_ptr<Rows>> rows;
+};
+// As read_rows, with `query` giving system and component; checks every checksum.
+[[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
+                                            const ColumnsQuery& query, Tables& tables, std::size_t most_records);
+
 [[nodiscard]] Columns columns_of(const dialect::Message& message, const Rows& rows);
 
 }  // namespace mavloom::python

@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "bindings.hpp"
@@ -44,47 +45,94 @@ const dialect::Message& message_of(const dialect::Dialect& dialect, const std::s
     return *message;
 }
 
-nb::tuple read(const nb::object& path, const std::string& name, std::optional<std::uint8_t> system,
-               std::optional<std::uint8_t> component, std::optional<std::int64_t> instance, const nb::object& dialect) {
-    const auto definitions = definitions_of(dialect);
-    const auto& message = message_of(definitions->dialect(), name, instance.has_value());
+record::TlogReader open(const nb::object& path, const dialect::Dialect& dialect) {
     const auto file = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));
-    auto reader = value_or_raise(
-        record::TlogReader::open(std::string(file.c_str(), file.size()), definitions->dialect().wire_table()));
-    const ColumnsQuery query{&message, system, component, instance};
-    Rows rows(message);
+    return value_or_raise(record::TlogReader::open(std::string(file.c_str(), file.size()), dialect.wire_table()));
+}
+
+// Runs `read` without the GIL until there is no more, with a look at signals in between.
+template <class Read>
+void read_all(Read read) {
     for (bool more = true; more; check_signals()) {
-        auto read = [&] {
+        auto result = [&] {
             const WithoutGil outside;
-            return read_rows(reader, query, rows, records_between_signals);
+            return read();
         }();
-        more = value_or_raise(std::move(read));
+        more = value_or_raise(std::move(result));
     }
+}
+
+// Times, systems, components, {field: values}.
+nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& message, const Rows& rows) {
     auto columns = [&] {
         const WithoutGil outside;
         return columns_of(message, rows);
     }();
-
-    nb::dict arrays;
-    const auto& names = definitions->names(message).fields;
+    nb::dict fields;
+    const auto& names = definitions.names(message).fields;
     for (std::size_t i = 0; i < names.size(); ++i)
-        arrays[names[i]] = array_of(std::move(columns.fields[i]), columns.rows, message.fields[i]);
+        fields[names[i]] = array_of(std::move(columns.fields[i]), columns.rows, message.fields[i]);
     return nb::make_tuple(array_of<std::int64_t>(std::move(columns.time_ns), columns.rows, 0),
                           array_of<std::uint8_t>(std::move(columns.system), columns.rows, 0),
-                          array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), arrays,
-                          reader.counters().lost_bytes.value());
+                          array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), fields);
+}
+
+nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::optional<std::uint8_t> system,
+                          std::optional<std::uint8_t> component, std::optional<std::int64_t> instance,
+                          const nb::object& dialect) {
+    const auto definitions = definitions_of(dialect);
+    const auto& message = message_of(definitions->dialect(), name, instance.has_value());
+    auto reader = open(path, definitions->dialect());
+    const ColumnsQuery query{&message, system, component, instance};
+    Rows rows(message);
+    read_all([&] { return read_rows(reader, query, rows, records_between_signals); });
+    return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
+}
+
+nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::optional<std::uint8_t> system,
+                         std::optional<std::uint8_t> component, const nb::object& dialect) {
+    const auto definitions = definitions_of(dialect);
+    const auto messages = definitions->dialect().messages();
+    const auto filter = make_filter(definitions->dialect(), type, system, component);
+    Tables tables{std::vector<bool>(messages.size()), {}};
+    tables.rows.resize(messages.size());
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+        tables.wanted[i] = !filter.ids || std::ranges::find(*filter.ids, messages[i].id()) != filter.ids->end();
+        if (filter.ids && tables.wanted[i])
+            tables.rows[i] = std::make_unique<Rows>(messages[i]);  // given by name: also without rows
+    }
+    auto reader = open(path, definitions->dialect());
+    read_all([&] {
+        return read_tables(reader, definitions->dialect(), {nullptr, system, component, {}}, tables,
+                           records_between_signals);
+    });
+    nb::dict made;
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+        if (!tables.rows[i]) continue;
+        made[definitions->names(messages[i]).message] = arrays_of(*definitions, messages[i], *tables.rows[i]);
+        tables.rows[i].reset();  // the arrays have it
+    }
+    return nb::make_tuple(made, reader.counters().lost_bytes.value());
 }
 
 }  // namespace
 
 void bind_columns(nb::module_& module) {
     module.def(
-        "read_columns", &read, nb::arg("path"), nb::arg("name"), nb::arg("system").none(), nb::arg("component").none(),
-        nb::arg("instance").none(), nb::arg("dialect").none(),
-        nb::sig("def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
-                "instance: int | None, "
-                "dialect: Dialect | None) -> tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any], int]"),
-        "Times, systems, components, {field: values}, bytes of damage: what mavloom.columns() is made of.");
+        "read_columns", &read_columns_of, nb::arg("path"), nb::arg("name"), nb::arg("system").none(),
+        nb::arg("component").none(), nb::arg("instance").none(), nb::arg("dialect").none(),
+        nb::sig(
+            "def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
+            "instance: int | None, "
+            "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
+        "((times, systems, components, {field: values}), bytes of damage): what mavloom.columns() is made of.");
+    module.def("read_tables", &read_tables_of, nb::arg("path"), nb::arg("type").none(), nb::arg("system").none(),
+               nb::arg("component").none(), nb::arg("dialect").none(),
+               nb::sig("def read_tables(path: str | os.PathLike[str], type: MessageTypes | None, system: int | None, "
+                       "component: int | None, "
+                       "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
+                       "dict[str, typing.Any]]], int]"),
+               "({message: as read_columns}, bytes of damage): what mavloom.tables() is made of.");
 }
 
 }  // namespace mavloom::python

@@ -43,10 +43,23 @@ def test_example_8_every_message_of_the_flight_is_bit_equal_to_pymavlink(flight,
         message = mav.parse_char(frame)
         rows.setdefault(message.get_type(), []).append((time, message))
     assert len(rows) == 37
+    tables = mavloom.tables(flight)
+    assert set(tables) == set(rows)
     for name, found in rows.items():
         columns = mavloom.columns(flight, name)
         assert len(columns) == len(found) and columns.junk_bytes == 0
-        assert_same(columns, expected_columns(peer, type(found[0][1]), found))
+        expected = expected_columns(peer, type(found[0][1]), found)
+        assert_same(columns, expected)
+        assert_same(tables[name], expected)
+
+
+def test_some_tables(flight):
+    tables = mavloom.tables(flight, ["HEARTBEAT", "GPS_RTCM_DATA"], system=255)
+    assert list(tables) == ["HEARTBEAT", "GPS_RTCM_DATA"]
+    assert set(tables["HEARTBEAT"]["sys"]) == {255} and len(tables["GPS_RTCM_DATA"]) == 0
+    assert list(mavloom.tables(flight, "ATTITUDE")) == ["ATTITUDE"]
+    with pytest.raises(ValueError, match="did you mean 'ATTITUDE'"):
+        mavloom.tables(flight, "ATITUDE")
 
 
 def test_every_message_of_the_dialect_with_extreme_values(peer, tmp_path):
