@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|listen|inside|route ...]
+"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|python|listen|inside|route ...]
 Options that are not known here go to the one benchmark that is named: ./run bench route --quick"""
 import argparse
 import pathlib
@@ -17,6 +17,7 @@ def commands(program, build):
     return {
         "parse": [[folder / "parse_bench", FLIGHT, chunk] for chunk in ("4096", "65536", "256")],
         "decode": [[sys.executable, HERE / "decode.py", "--program", program]],
+        "python": [[sys.executable, HERE / "python.py"]],
         "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
         "inside": [[folder / "inside_bench", FLIGHT, frames] for frames in ("8", "1")],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],

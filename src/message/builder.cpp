@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mavloom/base/suggest.hpp"
+#include "mavloom/message/visit.hpp"
 #include "message/parse.hpp"
-#include "message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

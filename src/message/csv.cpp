@@ -4,9 +4,9 @@
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
+#include "mavloom/message/visit.hpp"
 #include "message/cursor.hpp"
 #include "message/utf8.hpp"
-#include "message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "mavloom/message/visit.hpp"
 #include "message/parse.hpp"
-#include "message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

@@ -7,9 +7,9 @@
 #include <type_traits>
 
 #include "mavloom/message/format.hpp"
+#include "mavloom/message/visit.hpp"
 #include "message/number.hpp"
 #include "message/utf8.hpp"
-#include "message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

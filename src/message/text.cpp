@@ -7,12 +7,12 @@
 
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
+#include "mavloom/message/visit.hpp"
 #include "message/command_params.hpp"
 #include "message/cursor.hpp"
 #include "message/invalid.hpp"
 #include "message/scale.hpp"
 #include "message/utf8.hpp"
-#include "message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

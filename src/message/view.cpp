@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "message/visit.hpp"
+#include "mavloom/message/visit.hpp"
 
 namespace mavloom::message {
 namespace {

@@ -14,10 +14,11 @@ bool has_plausible_time(ByteView bytes) noexcept {
 }
 
 // Whether the checksum is good, or for an id without definition could be with some CRC_EXTRA (1 in 256 of random ones can).
-bool is_possible(const wire::FrameView& frame, const wire::MessageInfo* info) noexcept {
-    const auto before = wire::checksum_before_extra(frame);
-    if (info == nullptr) return wire::crc_extra_between(before, frame.checksum()) >= 0;
-    return wire::crc_update(before, info->crc_extra) == frame.checksum();
+// `readable` bytes are there from the frame's first on.
+bool is_possible(const wire::FrameView& frame, std::size_t readable, const wire::MessageInfo* info) noexcept {
+    if (info == nullptr) return wire::crc_extra_of(frame) >= 0;
+    const auto covered = frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length());
+    return wire::crc_agrees(covered, readable - 1, info->crc_extra, frame.checksum());
 }
 
 // Whether `rest`, all that follows a frame of unknown id, looks like another record: whole, or cut by the end of the file.
@@ -28,7 +29,7 @@ bool continues(ByteView rest, const wire::MessageTable& table) noexcept {
     const auto length = wire::frame_length(rest.subspan(time_length));
     if (length == 0 || time_length + length > rest.size()) return true;
     const auto frame = wire::FrameView::unchecked(rest.subspan(time_length, length));
-    return is_possible(frame, table.find(frame.id()));
+    return is_possible(frame, rest.size() - time_length, table.find(frame.id()));
 }
 
 }  // namespace
@@ -39,13 +40,23 @@ std::size_t record_length(ByteView bytes) noexcept {
     return length == 0 || time_length + length > bytes.size() ? 0 : time_length + length;
 }
 
+std::size_t joined_record_length(ByteView bytes, std::uint64_t before_us, const wire::MessageTable& table) noexcept {
+    constexpr std::uint64_t day_us = 86'400'000'000;
+    const auto length = record_length(bytes);
+    if (length == 0 || load_be64(bytes.data()) - before_us + day_us > 2 * day_us) return 0;
+    const auto frame = wire::FrameView::unchecked(bytes.subspan(time_length, length - time_length));
+    const auto* info = table.find(frame.id());
+    const bool known = info != nullptr && frame.payload_length() <= info->max_length;
+    return known && (frame.incompat_flags() & ~wire::incompat_signed) == 0 ? length : 0;
+}
+
 Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept {
     if (!has_plausible_time(bytes)) return {};
     const auto size = record_length(bytes);
     if (size == 0) return {};
     const auto frame = wire::FrameView::unchecked(bytes.subspan(time_length, size - time_length));
     const auto* info = table.find(frame.id());
-    if (!is_possible(frame, info)) return {};
+    if (!is_possible(frame, bytes.size() - time_length, info)) return {};
     if (info == nullptr && !continues(bytes.subspan(size), table)) return {};
     const bool flagged = (frame.incompat_flags() & ~wire::incompat_signed) != 0;
     return {flagged ? Found::Kind::unknown_flags : Found::Kind::record, size, info};

@@ -28,4 +28,9 @@ struct Found {
 // The length of the record at the front, by its header alone; 0 where `bytes` does not hold it whole.
 [[nodiscard]] std::size_t record_length(ByteView bytes) noexcept;
 
+// The same for a record that another one can be told to follow without looking at its checksum: its time is within a day of `before_us`, its id is
+// known, and its frame has no undefined flag and is not longer than its definition. 0 where it has to be examined.
+[[nodiscard]] std::size_t joined_record_length(ByteView bytes, std::uint64_t before_us,
+                                               const wire::MessageTable& table) noexcept;
+
 }  // namespace mavloom::record

@@ -11,8 +11,19 @@
 
 namespace mavloom::record {
 
+namespace {
+
+wire::FrameView frame_at(ByteView record, std::size_t length) noexcept {
+    return wire::FrameView::unchecked(record.subspan(time_length, length - time_length));
+}
+
+}  // namespace
+
 TlogReader::TlogReader(File file, std::uint64_t size, const wire::MessageTable& table)
-    : file_(std::move(file)), table_(&table), buffer_(std::make_unique<std::uint8_t[]>(buffer_length)), size_(size) {}
+    : file_(std::move(file)),
+      table_(&table),
+      buffer_(std::make_unique_for_overwrite<std::uint8_t[]>(buffer_length)),
+      size_(size) {}
 
 SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, const wire::MessageTable& table,
                                          File::Empty empty) {
@@ -62,6 +73,18 @@ void TlogReader::lose(std::size_t bytes) noexcept {
     begin_ += bytes;
 }
 
+// Hands out the record at the front.
+Record TlogReader::take(std::size_t size, const wire::MessageInfo* info) noexcept {
+    const ByteView bytes = unread().first(size);
+    const std::uint64_t offset = position();
+    begin_ += size;
+    counters_.records.add();
+    counters_.record_bytes.add(size);
+    if (info == nullptr) counters_.unknown_ids.add();
+    return {wall_from_us(load_be64(bytes.data())), wire::FrameView::unchecked(bytes.subspan(time_length)), info, offset,
+            std::exchange(lost_run_, 0)};
+}
+
 Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {
     if (error_) return tl::unexpected(Stop::failed);
     for (const std::uint64_t begin = position(); position() - begin < most_damage;) {
@@ -77,22 +100,52 @@ Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {
             if (at_end_ && end_ - begin_ < min_record_length) lose(end_ - begin_);
             continue;
         }
-        const ByteView bytes = unread().first(found.size);
-        const std::uint64_t offset = position();
-        begin_ += found.size;
-        const std::uint64_t lost = std::exchange(lost_run_, 0);
         if (found.kind == Found::Kind::unknown_flags) [[unlikely]] {
+            begin_ += found.size;
+            lost_run_ = 0;
             counters_.unknown_flags.add();
             counters_.flagged_bytes.add(found.size);
             continue;
         }
-        counters_.records.add();
-        counters_.record_bytes.add(found.size);
-        if (found.info == nullptr) counters_.unknown_ids.add();
-        return Record{wall_from_us(load_be64(bytes.data())), wire::FrameView::unchecked(bytes.subspan(time_length)),
-                      found.info, offset, lost};
+        return take(found.size, found.info);
     }
     return tl::unexpected(Stop::damage);
+}
+
+// Passes over records as far as they join and the buffer reaches. Gives the size of the record at the front where it is an intact one of this id, else 0.
+std::size_t TlogReader::pass_over_to(MessageId id) noexcept {
+    std::uint64_t records = 0;
+    std::size_t at = begin_, found = 0;
+    std::uint64_t time_us = end_ - at < look_ahead ? 0 : load_be64(buffer_.get() + at);
+    while (end_ - at >= look_ahead) {
+        const ByteView bytes{buffer_.get() + at, end_ - at};
+        const auto length = joined_record_length(bytes, time_us, *table_);
+        const bool wanted = length != 0 && frame_at(bytes, length).id() == id;
+        if (length == 0 || (wanted && examine_record(bytes, *table_).kind != Found::Kind::record)) {
+            examine_until_ = base_ + at + 1;
+            return 0;
+        }
+        if (wanted) {
+            found = length;
+            break;
+        }
+        time_us = load_be64(bytes.data());
+        at += length;
+        ++records;
+    }
+    counters_.records.add(records);
+    counters_.record_bytes.add(at - begin_);
+    begin_ = at;
+    return found;
+}
+
+Result<Record, TlogReader::Stop> TlogReader::next_of(MessageId id, std::uint64_t most_damage) {
+    for (;;) {
+        if (lost_run_ == 0 && position() >= examine_until_)
+            if (const auto size = pass_over_to(id)) return take(size, table_->find(id));
+        auto record = next(most_damage);
+        if (!record || record->frame.id() == id) return record;
+    }
 }
 
 SetupResult<void> TlogReader::seek(std::uint64_t offset) {
@@ -101,6 +154,7 @@ SetupResult<void> TlogReader::seek(std::uint64_t offset) {
     begin_ = end_ = 0;
     lost_run_ = 0;
     at_end_ = false;
+    examine_until_ = 0;
     error_.reset();
     return {};
 }

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import subprocess
+import sys
 
 import pytest
 
@@ -83,3 +84,20 @@ def test_every_installed_header_stands_alone(installed, tmp_path):
         "target_link_libraries(headers PRIVATE mavloom::runtime mavloom::message)\n")
     call("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
     call("cmake", "--build", tmp_path / "build", "-j", str(os.cpu_count()))
+
+
+@pytest.mark.long
+@pytest.mark.timeout(1800)
+def test_pip_install_from_the_checkout(tmp_path):
+    """In an environment of its own, with the build tools that pyproject.toml asks for; then the package and its stubs are used from there."""
+    environment = tmp_path / "venv"
+    call(sys.executable, "-m", "venv", environment)
+    python = environment / "bin" / "python"
+    call(python, "-m", "pip", "install", "--no-input", "--disable-pip-version-check", ROOT)
+    flight = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
+    code = (f"import mavloom\nprint(sum(1 for _ in mavloom.read({str(flight)!r})), len(mavloom.columns({str(flight)!r}, 'ATTITUDE')))\n"
+            "import importlib.metadata, pathlib\nassert mavloom.__version__.startswith(importlib.metadata.version('mavloom'))\n"
+            "found = {path.name for path in pathlib.Path(mavloom.__file__).parent.iterdir()}\n"
+            "assert {'py.typed', '_core.pyi', 'messages.pyi', 'enums.pyi'} <= found, found\n")
+    done = subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""})
+    assert (done.returncode, done.stdout) == (0, "40087 5312\n"), done.stderr

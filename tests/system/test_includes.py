@@ -15,7 +15,7 @@ LIBRARIES = {
     "Eigen/": "Eigen", "GeographicLib/": "GeographicLib", "boost/": "Boost", "ncurses": "ncurses", "nats/": "NATS",
     "sys/socket.h": "sockets", "sys/epoll.h": "sockets", "sys/un.h": "sockets", "netinet/": "sockets", "netdb.h": "sockets",
     "readerwriterqueue/": "readerwriterqueue",
-    "arpa/": "sockets", "ifaddrs.h": "sockets", "net/": "sockets", "termios.h": "sockets",
+    "nanobind/": "nanobind", "arpa/": "sockets", "ifaddrs.h": "sockets", "net/": "sockets", "termios.h": "sockets",
 }
 
 # Users of Mavloom's headers have these: the system's own.
@@ -37,7 +37,8 @@ def module_table() -> dict:
 
 def module_of(path: pathlib.PurePath) -> str:
     parts = path.parts
-    return {"include": lambda: parts[2], "src": lambda: parts[1], "apps": lambda: "apps"}[parts[0]]()
+    return {"include": lambda: parts[2], "src": lambda: parts[1], "apps": lambda: "apps",
+            "python": lambda: "python"}[parts[0]]()
 
 
 def complaints_about(path: pathlib.PurePath, text: str, table: dict) -> list:
@@ -68,7 +69,7 @@ def complaints_about(path: pathlib.PurePath, text: str, table: dict) -> list:
 
 
 def sources() -> list:
-    return sorted(path.relative_to(ROOT) for top in ("include", "src", "apps") for pattern in ("*.hpp", "*.cpp", "*.inc")
+    return sorted(path.relative_to(ROOT) for top in ("include", "src", "apps", "python/src") for pattern in ("*.hpp", "*.cpp", "*.inc")
                   for path in (ROOT / top).rglob(pattern))
 
 
@@ -99,6 +100,8 @@ def test_includes_follow_the_module_table():
     ("src/wire/x.cpp", '#include "../base/x.hpp"', "no include climbs out of its folder"),
     ("src/edit/x.cpp", "#include <sys/socket.h>", "`edit` may not include sockets"),
     ("include/mavloom/wire/x.hpp", "#include <sodium.h>", "a public header may not include libsodium"),
+    ("python/src/x.cpp", '#include "wire/crc_tables.hpp"', "private headers of `wire` are its own"),
+    ("src/wire/x.cpp", "#include <nanobind/nanobind.h>", "`wire` may not include nanobind"),
     ("src/novel/x.cpp", "", "module `novel` has no row in docs/design/modules.md"),
 ])
 def test_forbidden_include_is_found(path, line, reason):

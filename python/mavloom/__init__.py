@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""MAVLink telemetry at C++ speed: live links, recordings as messages or as numpy columns, definitions.
+
+    link = mavloom.connect("udpin://0.0.0.0:14550"); print(link.recv(timeout=1.0))
+    for msg in mavloom.read("flight.tlog"): print(msg.time_ns, msg.name, msg.to_dict())
+    att = mavloom.columns("flight.tlog", "ATTITUDE", system=1); print(att["roll"], att.units["roll"])
+"""
+import atexit as _atexit
+
+from . import _errors
+from ._columns import Columns, columns, tables
+from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Recording, RecordingStats, Subscription, stop_all,
+                    version)
+from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
+from ._link import Link, connect
+
+# Errors are shown, and pickled, by the names that users import.
+for _name in ("Error", "UsageError", "InputError", "SystemFailure", "NotFoundError", "PermissionDeniedError", "ClosedError"):
+    getattr(_errors, _name).__module__ = "mavloom"
+
+__version__ = version()
+read = Recording
+_atexit.register(stop_all)
+
+__all__ = [
+    "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
+    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect", "read", "tables",
+]

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+"""Enums of a dialect as Python's."""
+from __future__ import annotations
+
+import collections.abc
+import enum
+from typing import TYPE_CHECKING, Any, Iterator, Mapping
+
+if TYPE_CHECKING:
+    from ._core import Dialect
+
+EnumClass = type[enum.IntEnum] | type[enum.IntFlag]
+# By path and name: dialects made of one file share their classes, so that members compare by identity too.
+_made: dict[tuple[str | None, str], EnumClass] = {}
+
+
+def make(dialect: Dialect, name: str) -> EnumClass:
+    """The class of an enum; made once."""
+    key = (dialect.path, name)
+    if key not in _made:
+        bitmask, entries = dialect.enum_entries(name)
+        base: Any = enum.IntFlag if bitmask else enum.IntEnum
+        _made[key] = base(name, entries, module="mavloom.enums")
+    return _made[key]
+
+
+class Enums(Mapping[str, Mapping[int, "enum.IntEnum | enum.IntFlag"]]):
+    """{"MAV_CMD": {16: <MAV_CMD.MAV_CMD_NAV_WAYPOINT>, ...}, ...}, made as it is read."""
+
+    def __init__(self, dialect: Dialect) -> None:
+        self._dialect = dialect
+
+    def __getitem__(self, name: str) -> Mapping[int, enum.IntEnum | enum.IntFlag]:
+        if name not in self._dialect.enum_names:
+            raise KeyError(name)
+        return {int(member): member for member in make(self._dialect, name).__members__.values()}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._dialect.enum_names)
+
+    def __len__(self) -> int:
+        return len(self._dialect.enum_names)

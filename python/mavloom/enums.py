@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+"""The enums of the built-in definitions: `from mavloom.enums import MAV_TYPE`. Classes are made when they are asked for; enums.pyi shows them to editors."""
+from . import _enums
+from ._core import Dialect
+
+
+def __getattr__(name):
+    dialect = Dialect()
+    if name not in dialect.enum_names:
+        raise AttributeError(f"no enum {name} in the built-in definitions")
+    return _enums.make(dialect, name)
+
+
+def __dir__():
+    return sorted(Dialect().enum_names)

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// What each file adds to the module mavloom._core.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace mavloom::python {
+
+void bind_parser(nanobind::module_& module);
+void bind_recording(nanobind::module_& module);
+void bind_link(nanobind::module_& module);
+void bind_columns(nanobind::module_& module);
+
+}  // namespace mavloom::python

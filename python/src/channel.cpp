@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "channel.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "mavloom/message/view.hpp"
+
+namespace mavloom::python {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto longest_wait = 50ms;  // then signals get their turn
+
+// MAV_TYPEs that are no vehicle, and the autopilot of what has none (MAVLink, minimal.xml).
+constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard controller, gimbal, ADS-B, camera
+constexpr std::uint8_t autopilot_invalid = 8;
+constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // offsets
+
+std::int64_t instance_of(const dialect::Message* definition, const wire::FrameView& frame) noexcept {
+    if (definition == nullptr) return 0;
+    for (const auto& field : definition->fields)
+        if (field.instance) return message::MessageView(*definition, frame.payload()).integer(field);
+    return 0;
+}
+
+}  // namespace
+
+// ---- loop thread
+
+void Channel::on_frame(const runtime::RxFrame& rx, MonoTime now) {
+    const FrameRing::Head head{.time_ns = rx.time.time_since_epoch().count(),
+                               .link = rx.link.value,
+                               .verified = verifies_ && rx.frame.is_signed()};
+    const auto* definition = rx.info == nullptr ? nullptr : origin_->dialect().find(rx.frame.id());
+    const Key key{rx.frame.id().value, rx.frame.source(), instance_of(definition, rx.frame)};
+    const std::lock_guard lock(mutex_);
+    ring_.push(head, rx.frame);
+    ++frames_;
+    news_ = true;
+    remember(key, head, rx.frame, now);
+    if (target_.system.value == 0) look_for_vehicle(rx.frame);
+    for (auto* consumer : consumers_)
+        if (consumer->armed_ && consumer->filter_.takes(rx.frame)) consumer->due_ = true;
+}
+
+void Channel::remember(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now) {
+    auto found = latest_.find(key);
+    if (found == latest_.end()) {
+        if (latest_.size() == most_latest) return;
+        found = latest_.emplace(key, Latest{}).first;
+    }
+    auto& kept = found->second;
+    kept.head = head;
+    kept.arrived = now;
+    kept.number = frames_;
+    const auto bytes = frame.bytes();
+    kept.bytes.assign(bytes.begin(), bytes.end());
+}
+
+void Channel::look_for_vehicle(const wire::FrameView& frame) {
+    if (frame.id() != MessageId{0}) return;
+    const auto payload = frame.payload();
+    const auto byte = [&](std::size_t at) { return at < payload.size() ? payload[at] : std::uint8_t{0}; };
+    if (byte(heartbeat_autopilot) == autopilot_invalid ||
+        std::ranges::find(no_vehicles, byte(heartbeat_type)) != std::end(no_vehicles))
+        return;
+    target_ = frame.source();
+}
+
+void Channel::on_link_up(LinkId link, std::string_view name) {
+    origin_->name_link(link.value, std::string(name));
+    peers_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Channel::on_link_down() { peers_.fetch_sub(1, std::memory_order_relaxed); }
+
+void Channel::publish() {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(news_, false)) return;
+    for (auto* consumer : consumers_)
+        if (std::exchange(consumer->due_, false)) consumer->tell();
+    changed_.notify_all();
+}
+
+void Channel::close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    peers_.store(0, std::memory_order_relaxed);
+    for (auto* consumer : consumers_) consumer->tell();
+    changed_.notify_all();
+}
+
+// ---- any thread
+
+std::optional<Channel::Latest> Channel::latest(const Filter& filter, std::optional<std::int64_t> instance,
+                                               MonoTime not_before) const {
+    const std::lock_guard lock(mutex_);
+    const Latest* newest = nullptr;
+    for (const auto& [key, kept] : latest_) {
+        if (instance && key.instance != *instance) continue;
+        if (kept.arrived < not_before || (newest != nullptr && kept.number < newest->number)) continue;
+        if (filter.takes(wire::FrameView::unchecked(kept.bytes))) newest = &kept;
+    }
+    return newest == nullptr ? std::nullopt : std::optional(*newest);
+}
+
+Source Channel::target() const {
+    const std::lock_guard lock(mutex_);
+    return target_;
+}
+
+Consumer::Consumer(std::shared_ptr<Channel> channel, Filter filter)
+    : channel_(std::move(channel)), filter_(std::move(filter)) {
+    const std::lock_guard lock(channel_->mutex_);
+    at_ = channel_->ring_.newest();
+    channel_->consumers_.push_back(this);
+}
+
+Consumer::~Consumer() {
+    {
+        const std::lock_guard lock(channel_->mutex_);
+        std::erase(channel_->consumers_, this);
+    }
+    if (event_fd_ >= 0) ::close(event_fd_);
+}
+
+Consumer::Taken Consumer::take(FrameBatch& batch, const Filter& filter, std::size_t most) {
+    const std::lock_guard lock(channel_->mutex_);
+    if (closed()) return Taken::closed;
+    FrameRing::Head head;
+    wire::FrameView frame;
+    while (batch.size() < most && channel_->ring_.next(at_, missed_, head, frame))
+        if (filter_.takes(frame) && filter.takes(frame))
+            batch.add({.time_ns = head.time_ns,
+                       .definition = channel_->origin_->dialect().find(frame.id()),
+                       .link = head.link,
+                       .verified = head.verified},
+                      frame);
+    seen_ = at_.frame;
+    if (batch.size() != 0) return Taken::some;
+    armed_ = true;
+    return Taken::none;
+}
+
+void Consumer::wait(MonoTime deadline) {
+    std::unique_lock lock(channel_->mutex_);
+    const auto slice = std::min(deadline, mono_now() + longest_wait);
+    channel_->changed_.wait_until(lock, slice, [&] { return closed() || channel_->ring_.newest().frame != seen_; });
+}
+
+void Consumer::tell() noexcept {
+    armed_ = false;
+    if (event_fd_ < 0) return;
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(event_fd_, &one, sizeof one);  // full means that it is readable
+}
+
+SetupResult<int> Consumer::event_fd() {
+    const std::lock_guard lock(channel_->mutex_);
+    if (event_fd_ < 0) event_fd_ = ::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (event_fd_ < 0) return system_error("eventfd", errno);
+    return event_fd_;
+}
+
+std::uint64_t Consumer::missed() const {
+    const std::lock_guard lock(channel_->mutex_);
+    return missed_ + channel_->ring_.overwritten(at_);
+}
+
+void Consumer::close() {
+    const std::lock_guard lock(channel_->mutex_);
+    closed_ = true;
+    tell();
+    channel_->changed_.notify_all();
+}
+
+}  // namespace mavloom::python

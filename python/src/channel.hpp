@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// What one connect() opened, between the loop thread that fills it and the Python threads that read it. Knows nothing of Python and never waits for the GIL.
+// Every member function may be called from any thread, but those under "loop thread".
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "filter.hpp"
+#include "frame_batch.hpp"
+#include "frame_ring.hpp"
+#include "mavloom/runtime/links.hpp"
+#include "message.hpp"
+
+namespace mavloom::python {
+
+class Consumer;
+
+class Channel {
+public:
+    // A message that was kept because it is the newest of its source, id and instance.
+    struct Latest {
+        FrameRing::Head head;
+        MonoTime arrived{};
+        std::uint64_t number = 0;  // counts all frames: the greatest is the newest
+        std::vector<std::uint8_t> bytes;
+    };
+
+    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, bool verifies)
+        : origin_(std::move(origin)), verifies_(verifies), ring_(buffer_bytes) {}
+
+    [[nodiscard]] const std::shared_ptr<Origin>& origin() const noexcept { return origin_; }
+    [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
+
+    // The newest message that the filter and `instance` take and that is not older than `not_before`.
+    [[nodiscard]] std::optional<Latest> latest(const Filter& filter, std::optional<std::int64_t> instance,
+                                               MonoTime not_before) const;
+    // Source of the first heartbeat of a vehicle; zeros before it.
+    [[nodiscard]] Source target() const;
+
+    // ---- loop thread
+    void on_frame(const runtime::RxFrame& rx, MonoTime now);
+    void on_link_up(LinkId link, std::string_view name);
+    void on_link_down();
+    // Wakes who waits for what came since.
+    void publish();
+    // Nothing follows, and nothing more is read.
+    void close();
+
+private:
+    friend class Consumer;
+
+    struct Key {
+        std::uint32_t id;
+        Source source;
+        std::int64_t instance;
+        friend auto operator<=>(const Key&, const Key&) = default;
+    };
+    static constexpr std::size_t most_latest = 16'384;  // bounds what forged sources and instances can make us remember
+
+    void remember(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now);
+    void look_for_vehicle(const wire::FrameView& frame);
+
+    const std::shared_ptr<Origin> origin_;
+    const bool verifies_;
+    std::atomic<std::size_t> peers_{0};
+    std::atomic<bool> closed_{false};  // set with mutex_ held
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    // All of these are guarded by mutex_.
+    FrameRing ring_;
+    std::map<Key, Latest> latest_;
+    std::uint64_t frames_ = 0;
+    Source target_;
+    std::vector<Consumer*> consumers_;
+    bool news_ = false;
+};
+
+// One reader of a channel, with its own position.
+class Consumer {
+public:
+    // Reads what arrives from now on; a link's own reader is made before anything can.
+    Consumer(std::shared_ptr<Channel> channel, Filter filter);
+    ~Consumer();
+    Consumer(const Consumer&) = delete;
+    Consumer& operator=(const Consumer&) = delete;
+
+    enum class Taken : std::uint8_t { some, none, closed };
+    // Puts up to `most` frames that both filters take into the batch. `none`: when something comes, the descriptor tells.
+    Taken take(FrameBatch& batch, const Filter& filter, std::size_t most);
+    // Waits until something came, the channel or the reader is closed, or the deadline; no longer than a slice, so that signals get their turn.
+    void wait(MonoTime deadline);
+    // A descriptor that becomes readable when there is something to take after `none`; made at the first call.
+    [[nodiscard]] SetupResult<int> event_fd();
+    [[nodiscard]] std::uint64_t missed() const;
+    // It, or its channel.
+    [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }
+    void close();
+
+    [[nodiscard]] const std::shared_ptr<Channel>& channel() const noexcept { return channel_; }
+
+private:
+    friend class Channel;
+    void tell() noexcept;
+
+    const std::shared_ptr<Channel> channel_;
+    const Filter filter_;
+    // Guarded by the channel's mutex.
+    FrameRing::Position at_;
+    std::uint64_t missed_ = 0;
+    std::uint64_t seen_ = 0;  // frames of the channel that `take` had looked at
+    int event_fd_ = -1;
+    bool armed_ = false, due_ = false;  // the descriptor is to tell; something came for it
+    std::atomic<bool> closed_{false};   // set with the mutex held
+};
+
+}  // namespace mavloom::python

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "columns.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "mavloom/message/view.hpp"
+#include "mavloom/message/visit.hpp"
+
+namespace mavloom::python {
+namespace {
+
+constexpr std::uint64_t most_damage = 1 << 20;
+
+const dialect::Field* instance_field(const dialect::Message& message) noexcept {
+    for (const auto& field : message.fields)
+        if (field.instance) return &field;
+    return nullptr;
+}
+
+bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) noexcept {
+    if (query.system && frame.system().value != *query.system) return false;
+    if (query.component && frame.component().value != *query.component) return false;
+    if (instance == nullptr || !query.instance) return true;
+    return message::MessageView(*query.message, frame.payload()).integer(*instance) == *query.instance;
+}
+
+std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {
+    return std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
+}
+
+// `count` values of type T from `offset` of each row on.
+template <class T>
+std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std::size_t count) {
+    auto values = room_for(rows.count() * count * sizeof(T));
+    auto* to = values.get();
+    rows.each_run([&](const std::uint8_t* from, std::size_t many, std::size_t stride) {
+        from += offset;
+        for (std::size_t i = 0; i < many; ++i, from += stride) {
+            for (std::size_t k = 0; k < count; ++k, to += sizeof(T)) {
+                const T value = load_le<T>(from + k * sizeof(T));
+                std::memcpy(to, &value, sizeof value);
+            }
+        }
+    });
+    return values;
+}
+
+}  // namespace
+
+void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
+    if (count_ == blocks_.size() * rows_per_block) blocks_.push_back(room_for(rows_per_block * stride_));
+    auto* row = blocks_.back().get() + count_ % rows_per_block * stride_;
+    store_le(row + time_offset, time_ns);
+    row[system_offset] = frame.system().value;
+    row[component_offset] = frame.component().value;
+    const auto payload = frame.payload();
+    const auto length = std::min(payload.size(), payload_length_);
+    std::copy_n(payload.begin(), length,
+                row + prefix_bytes);  // GCC 12 makes `rep movs` of memcpy here, five times as slow
+    if (length != payload_length_) std::memset(row + prefix_bytes + length, 0, payload_length_ - length);
+    ++count_;
+}
+
+namespace {
+
+// Calls take(record) for what next() gives.
+template <class Next, class Take>
+SetupResult<bool> read_records(record::TlogReader& reader, std::size_t most_records, Next next, Take take) {
+    using Stop = record::TlogReader::Stop;
+    for (std::size_t i = 0; i < most_records; ++i) {
+        const auto record = next();
+        if (record) {
+            take(*record);
+            continue;
+        }
+        if (record.error() == Stop::failed) return tl::unexpected(reader.error());
+        return record.error() != Stop::end;
+    }
+    return true;
+}
+
+}  // namespace
+
+SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::size_t most_records) {
+    const auto* instance = instance_field(*query.message);
+    return read_records(
+        reader, most_records, [&] { return reader.next_of(query.message->id(), most_damage); },
+        [&](const record::Record& record) {
+            if (is_wanted(record.frame, query, instance))
+                rows.add(record.time.time_since_epoch().count(), record.frame);
+        });
+}
+
+SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const ColumnsQuery& query,
+                              Tables& tables, std::size_t most_records) {
+    return read_records(
+        reader, most_records, [&] { return reader.next(most_damage); },
+        [&](const record::Record& record) {
+            const auto* message = record.info == nullptr ? nullptr : dialect.find(record.frame.id());
+            if (message == nullptr || !is_wanted(record.frame, query, nullptr)) return;
+            const auto place = static_cast<std::size_t>(message - dialect.messages().data());
+            if (!tables.wanted[place]) return;
+            auto& rows = tables.rows[place];
+            if (!rows) rows = std::make_unique<Rows>(*message);
+            rows->add(record.time.time_since_epoch().count(), record.frame);
+        });
+}
+
+Columns columns_of(const dialect::Message& message, const Rows& rows) {
+    Columns columns{rows.count(),
+                    gather<std::int64_t>(rows, Rows::time_offset, 1),
+                    gather<std::uint8_t>(rows, Rows::system_offset, 1),
+                    gather<std::uint8_t>(rows, Rows::component_offset, 1),
+                    {}};
+    for (const auto& field : message.fields) {
+        const auto offset = Rows::prefix_bytes + field.offset;
+        columns.fields.push_back(message::visit_type(
+            field.type, [&](auto tag) { return gather<decltype(tag)>(rows, offset, field.count()); }));
+    }
+    return columns;
+}
+
+}  // namespace mavloom::python

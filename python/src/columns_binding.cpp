@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// What mavloom.columns() is made of: numpy arrays that own what C++ filled.
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "bindings.hpp"
+#include "columns.hpp"
+#include "errors.hpp"
+#include "filter.hpp"
+#include "gil.hpp"
+#include "mavloom/message/visit.hpp"
+#include "message.hpp"
+
+namespace mavloom::python {
+namespace {
+
+constexpr std::size_t records_between_signals = 1 << 16;
+
+// `count` 0: one dimension, else two.
+template <class T>
+nb::object array_of(Columns::Values values, std::size_t rows, std::size_t count) {
+    auto* data = values.get();
+    const nb::capsule owner(data, [](void* held) noexcept { delete[] static_cast<std::uint8_t*>(held); });
+    values.release();  // NOLINT(bugprone-unused-return-value): the capsule has it
+    if (count == 0) return nb::cast(nb::ndarray<nb::numpy, T>(data, {rows}, owner));
+    return nb::cast(nb::ndarray<nb::numpy, T>(data, {rows, count}, owner));
+}
+
+// char[] as bytes: the package makes fixed-length strings of them.
+nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Field& field) {
+    return message::visit_type(
+        field.type, [&](auto tag) { return array_of<decltype(tag)>(std::move(values), rows, field.array_length); });
+}
+
+const dialect::Message& message_of(const dialect::Dialect& dialect, const std::string& name, bool with_instance) {
+    const auto* message = value_or_raise(dialect.message(name));
+    const bool has_instance = std::ranges::any_of(message->fields, [](const auto& field) { return field.instance; });
+    if (with_instance && !has_instance) raise_usage(fmt::format("{} has no field that tells instances apart", name));
+    return *message;
+}
+
+record::TlogReader open(const nb::object& path, const dialect::Dialect& dialect) {
+    const auto file = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));
+    return value_or_raise(record::TlogReader::open(std::string(file.c_str(), file.size()), dialect.wire_table()));
+}
+
+// Runs `read` without the GIL until there is no more, with a look at signals in between.
+template <class Read>
+void read_all(Read read) {
+    for (bool more = true; more; check_signals()) {
+        auto result = [&] {
+            const WithoutGil outside;
+            return read();
+        }();
+        more = value_or_raise(std::move(result));
+    }
+}
+
+// Times, systems, components, {field: values}.
+nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& message, const Rows& rows) {
+    auto columns = [&] {
+        const WithoutGil outside;
+        return columns_of(message, rows);
+    }();
+    nb::dict fields;
+    const auto& names = definitions.names(message).fields;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        fields[names[i]] = array_of(std::move(columns.fields[i]), columns.rows, message.fields[i]);
+    return nb::make_tuple(array_of<std::int64_t>(std::move(columns.time_ns), columns.rows, 0),
+                          array_of<std::uint8_t>(std::move(columns.system), columns.rows, 0),
+                          array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), fields);
+}
+
+nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::optional<std::uint8_t> system,
+                          std::optional<std::uint8_t> component, std::optional<std::int64_t> instance,
+                          const nb::object& dialect) {
+    const auto definitions = definitions_of(dialect);
+    const auto& message = message_of(definitions->dialect(), name, instance.has_value());
+    auto reader = open(path, definitions->dialect());
+    const ColumnsQuery query{&message, system, component, instance};
+    Rows rows(message);
+    read_all([&] { return read_rows(reader, query, rows, records_between_signals); });
+    return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
+}
+
+nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::optional<std::uint8_t> system,
+                         std::optional<std::uint8_t> component, const nb::object& dialect) {
+    const auto definitions = definitions_of(dialect);
+    const auto messages = definitions->dialect().messages();
+    const auto filter = make_filter(definitions->dialect(), type, system, component);
+    Tables tables{std::vector<bool>(messages.size()), {}};
+    tables.rows.resize(messages.size());
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+        tables.wanted[i] = !filter.ids || std::ranges::find(*filter.ids, messages[i].id()) != filter.ids->end();
+        if (filter.ids && tables.wanted[i])
+            tables.rows[i] = std::make_unique<Rows>(messages[i]);  // given by name: also without rows
+    }
+    auto reader = open(path, definitions->dialect());
+    read_all([&] {
+        return read_tables(reader, definitions->dialect(), {nullptr, system, component, {}}, tables,
+                           records_between_signals);
+    });
+    nb::dict made;
+    for (std::size_t i = 0; i < messages.size(); ++i) {
+        if (!tables.rows[i]) continue;
+        made[definitions->names(messages[i]).message] = arrays_of(*definitions, messages[i], *tables.rows[i]);
+        tables.rows[i].reset();  // the arrays have it
+    }
+    return nb::make_tuple(made, reader.counters().lost_bytes.value());
+}
+
+}  // namespace
+
+void bind_columns(nb::module_& module) {
+    module.def(
+        "read_columns", &read_columns_of, nb::arg("path"), nb::arg("name"), nb::arg("system").none(),
+        nb::arg("component").none(), nb::arg("instance").none(), nb::arg("dialect").none(),
+        nb::sig(
+            "def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
+            "instance: int | None, "
+            "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
+        "((times, systems, components, {field: values}), bytes of damage): what mavloom.columns() is made of.");
+    module.def("read_tables", &read_tables_of, nb::arg("path"), nb::arg("type").none(), nb::arg("system").none(),
+               nb::arg("component").none(), nb::arg("dialect").none(),
+               nb::sig("def read_tables(path: str | os.PathLike[str], type: MessageTypes | None, system: int | None, "
+                       "component: int | None, "
+                       "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
+                       "dict[str, typing.Any]]], int]"),
+               "({message: as read_columns}, bytes of damage): what mavloom.tables() is made of.");
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// From Python values to payloads and frames. Every value is checked before anything is written: what does not fit raises UsageError with message,
+// field and range. The GIL is held.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "mavloom/message/builder.hpp"
+#include "mavloom/wire/frame_writer.hpp"
+#include "message.hpp"
+
+namespace mavloom::python {
+
+// Sets the fields that are given by name; the others stay.
+void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builder, const nb::kwargs& fields);
+
+// A message by name, with these fields and zeros elsewhere; or a Message, with these fields replaced.
+[[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
+                                            const nb::kwargs& fields);
+
+// The frame of what was built; MAVLink 1 where the message fits there, else UsageError.
+[[nodiscard]] wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header,
+                                    const message::MessageBuilder& builder);
+
+// Makes a Message of one whole frame; raises InputError where the bytes are none.
+[[nodiscard]] nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns);
+
+// A view of any bytes-like object, held as long as this lives.
+class Buffer {
+public:
+    explicit Buffer(const nb::object& object) {
+        if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
+    }
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    ~Buffer() { PyBuffer_Release(&view_); }
+
+    [[nodiscard]] ByteView bytes() const noexcept {
+        return {static_cast<const std::uint8_t*>(view_.buf), static_cast<std::size_t>(view_.len)};
+    }
+
+private:
+    Py_buffer view_{};
+};
+
+}  // namespace mavloom::python

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "errors.hpp"
+
+#include <cerrno>
+
+namespace mavloom::python {
+namespace {
+
+const char* class_of(SetupCode code) noexcept {
+    switch (code) {
+        case SetupCode::usage: return "UsageError";
+        case SetupCode::bad_input: return "InputError";
+        case SetupCode::not_found: return "NotFoundError";
+        case SetupCode::permission: return "PermissionDeniedError";
+        case SetupCode::in_use:
+        case SetupCode::unreachable:
+        case SetupCode::no_space:
+        case SetupCode::system: break;
+    }
+    return "SystemFailure";
+}
+
+// Of errors that were found without a system call.
+int errno_of(SetupCode code) noexcept {
+    if (code == SetupCode::not_found) return ENOENT;
+    return code == SetupCode::permission ? EACCES : 0;
+}
+
+[[noreturn]] void raise_as(const char* class_name, const nb::object& arguments) {
+    const nb::object type = nb::module_::import_("mavloom._errors").attr(class_name);
+    PyErr_SetObject(type.ptr(), arguments.ptr());
+    throw nb::python_error();
+}
+
+// File names may hold any bytes.
+nb::object text_of(const std::string& text) {
+    return nb::steal(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+}  // namespace
+
+void raise(const SetupError& error) {
+    const nb::object text = text_of(error.text);
+    const int number = error.sys_errno != 0 ? error.sys_errno : errno_of(error.code);
+    if (number == 0) raise_as(class_of(error.code), text);
+    raise_as(class_of(error.code), nb::make_tuple(number, text));
+}
+
+void raise_usage(std::string text) { raise(SetupError{SetupCode::usage, 0, std::move(text)}); }
+void raise_input(std::string text) { raise(SetupError{SetupCode::bad_input, 0, std::move(text)}); }
+void raise_closed(std::string text) { raise_as("ClosedError", text_of(text)); }
+
+}  // namespace mavloom::python

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Errors of the library as Python exceptions: the classes of mavloom/_errors.py, with the library's text. The GIL is held.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+#include <utility>
+
+#include "mavloom/base/result.hpp"
+
+namespace mavloom::python {
+
+namespace nb = nanobind;
+
+// mavloom.UsageError, InputError, NotFoundError, PermissionDeniedError or SystemFailure, by the error's code.
+[[noreturn]] void raise(const SetupError& error);
+[[noreturn]] void raise_usage(std::string text);
+[[noreturn]] void raise_input(std::string text);
+[[noreturn]] void raise_closed(std::string text);
+
+template <class T>
+T value_or_raise(SetupResult<T>&& result) {
+    if (!result) raise(result.error());
+    if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+}  // namespace mavloom::python

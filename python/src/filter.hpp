@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Which messages a call asks for: `type=`, `system=`, `component=`. A plain value.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::python {
+
+namespace nb = nanobind;
+
+struct Filter {
+    std::optional<std::vector<MessageId>> ids;  // empty: any
+    std::optional<std::uint8_t> system, component;
+
+    [[nodiscard]] bool takes(const wire::FrameView& frame) const noexcept {
+        return (!system || frame.system().value == *system) && (!component || frame.component().value == *component) &&
+               (!ids || std::ranges::find(*ids, frame.id()) != ids->end());
+    }
+};
+
+// `type` is None, a name, a class of mavloom.messages, or an iterable of those; an unknown name raises UsageError with the nearest.
+[[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,
+                                 std::optional<std::uint8_t> system, std::optional<std::uint8_t> component);
+
+// Raises TypeError unless `condition` is None or callable: pymavlink's text for eval() is not taken.
+void check_condition(const nb::object& condition);
+
+}  // namespace mavloom::python

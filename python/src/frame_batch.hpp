@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Frames that were read without the GIL, to be handed out as objects with it. One owner; memory is kept from batch to batch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::python {
+
+class FrameBatch {
+public:
+    struct Item {
+        std::int64_t time_ns = 0;
+        const dialect::Message* definition = nullptr;
+        std::uint32_t link = 0;
+        std::uint32_t offset = 0;  // in the batch's bytes
+        std::uint16_t size = 0;
+        bool verified = false;
+    };
+
+    void clear() noexcept {
+        bytes_.clear();
+        items_.clear();
+        next_ = 0;
+    }
+    void add(Item item, const wire::FrameView& frame) {
+        item.offset = static_cast<std::uint32_t>(bytes_.size());
+        item.size = static_cast<std::uint16_t>(frame.size());
+        const auto bytes = frame.bytes();
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+        items_.push_back(item);
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
+
+    // The next one, or null behind the last.
+    [[nodiscard]] const Item* next() noexcept { return next_ == items_.size() ? nullptr : &items_[next_++]; }
+    [[nodiscard]] wire::FrameView frame(const Item& item) const noexcept {
+        return wire::FrameView::unchecked({bytes_.data() + item.offset, item.size});
+    }
+
+private:
+    std::vector<std::uint8_t> bytes_;
+    std::vector<Item> items_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace mavloom::python

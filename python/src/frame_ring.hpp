@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The frames of a link in a bounded ring of bytes: one writer that never waits and overwrites the oldest, any number of readers that are told how many they
+// missed. Whole frames only. Not synchronised: its owner's mutex guards it. Allocates once; memory is touched as it is needed.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::python {
+
+class FrameRing {
+public:
+    struct Head {
+        std::int64_t time_ns = 0;
+        std::uint32_t link = 0;
+        std::uint16_t size = 0;  // of the frame; `padding`: nothing follows before the ring's start
+        bool verified = false;
+    };
+    // A reader: the next byte and the number of the next frame. Never wraps.
+    struct Position {
+        std::uint64_t byte = 0, frame = 0;
+    };
+
+    // Rounded up to a power of two, at least 64 KiB.
+    explicit FrameRing(std::size_t capacity_bytes)
+        : capacity_(std::bit_ceil(std::max<std::size_t>(capacity_bytes, 64 * 1024))),
+          memory_(std::make_unique_for_overwrite<std::uint8_t[]>(capacity_)) {}
+
+    void push(Head head, const wire::FrameView& frame) noexcept {
+        head.size = static_cast<std::uint16_t>(frame.size());
+        const std::size_t length = length_of(head.size);
+        const std::size_t to_end = capacity_ - index(head_.byte);
+        const bool wraps = to_end < length;
+        evict(length + (wraps ? to_end : 0));
+        if (wraps) {
+            write({.size = padding}, head_.byte);
+            head_.byte += to_end;
+        }
+        write(head, head_.byte);
+        std::memcpy(memory_.get() + index(head_.byte) + sizeof(Head), frame.bytes().data(), frame.size());
+        head_.byte += length;
+        ++head_.frame;
+    }
+
+    // The next frame of a reader, whose view lives until the next push; false when there is none. Adds to `missed` what was overwritten.
+    bool next(Position& at, std::uint64_t& missed, Head& head, wire::FrameView& frame) const noexcept {
+        missed += catch_up(at);
+        if (at.frame == head_.frame) return false;
+        at.byte = skip_padding(at.byte);
+        head = read(at.byte);
+        frame = wire::FrameView::unchecked({memory_.get() + index(at.byte) + sizeof(Head), head.size});
+        at.byte += length_of(head.size);
+        ++at.frame;
+        return true;
+    }
+    // How many a reader would be told that it missed.
+    [[nodiscard]] std::uint64_t overwritten(const Position& at) const noexcept {
+        return at.frame < tail_.frame ? tail_.frame - at.frame : 0;
+    }
+    [[nodiscard]] Position newest() const noexcept { return head_; }
+
+private:
+    static constexpr std::uint16_t padding = 0xffff;
+
+    [[nodiscard]] static std::size_t length_of(std::uint16_t frame_size) noexcept {
+        return (sizeof(Head) + frame_size + 15) / 16 * 16;
+    }
+    [[nodiscard]] std::size_t index(std::uint64_t byte) const noexcept { return byte & (capacity_ - 1); }
+    void write(const Head& head, std::uint64_t byte) noexcept {
+        std::memcpy(memory_.get() + index(byte), &head, sizeof head);
+    }
+    [[nodiscard]] Head read(std::uint64_t byte) const noexcept {
+        Head head;
+        std::memcpy(&head, memory_.get() + index(byte), sizeof head);
+        return head;
+    }
+    [[nodiscard]] std::uint64_t skip_padding(std::uint64_t byte) const noexcept {
+        return read(byte).size == padding ? byte + capacity_ - index(byte) : byte;
+    }
+    void evict(std::size_t needed) noexcept {
+        while (head_.byte + needed - tail_.byte > capacity_) {
+            tail_.byte = skip_padding(tail_.byte);
+            tail_.byte += length_of(read(tail_.byte).size);
+            ++tail_.frame;
+        }
+    }
+    std::uint64_t catch_up(Position& at) const noexcept {
+        const auto missed = overwritten(at);
+        if (missed != 0) at = tail_;
+        return missed;
+    }
+
+    std::size_t capacity_;
+    std::unique_ptr<std::uint8_t[]> memory_;
+    Position head_, tail_;  // the next to write, the oldest that is there
+};
+
+static_assert(sizeof(FrameRing::Head) == 16);
+
+}  // namespace mavloom::python

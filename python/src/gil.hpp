@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+namespace mavloom::python {
+
+namespace nb = nanobind;
+
+// Runs what follows without the GIL. A thread that wanted it back from an interpreter that has ended would take the process with it: from the
+// interpreter's exit on, all but the exiting thread stay outside for good, as Python 3.14 has it.
+class WithoutGil {
+public:
+    // The exiting thread, without the GIL. Who is on the way back gets there first.
+    static void end() {
+        exiting_ = std::this_thread::get_id();
+        ended_.store(true);
+        while (returning_.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    [[nodiscard]] static bool ended() noexcept { return ended_.load(); }
+
+private:
+    inline static std::atomic<bool> ended_{false};
+    inline static std::atomic<int> returning_{0};
+    inline static std::thread::id exiting_;
+
+    struct Counted {
+        Counted() = default;
+        Counted(const Counted&) = delete;
+        Counted& operator=(const Counted&) = delete;
+        ~Counted() { returning_.fetch_sub(1); }
+    };
+    struct Turnstile {
+        Turnstile() = default;
+        Turnstile(const Turnstile&) = delete;
+        Turnstile& operator=(const Turnstile&) = delete;
+        ~Turnstile() {
+            returning_.fetch_add(1);
+            if (!ended_.load() || std::this_thread::get_id() == exiting_) return;
+            returning_.fetch_sub(1);
+            for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
+        }
+    };
+    // Destroyed from the last on: through the turnstile, the GIL, no longer on the way.
+    Counted counted_;
+    nb::gil_scoped_release release_;
+    Turnstile turnstile_;
+};
+
+// Takes a mutex whose holder may need the GIL: never waits for it with the GIL held.
+[[nodiscard]] inline std::unique_lock<std::mutex> lock_without_gil(std::mutex& mutex) {
+    std::unique_lock lock(mutex, std::try_to_lock);
+    if (!lock.owns_lock()) {
+        const WithoutGil outside;
+        lock.lock();
+    }
+    return lock;
+}
+
+// Runs Python's signal handlers; raises what they raise.
+inline void check_signals() {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// One received frame with what is known of it: class mavloom.Message. A field is decoded when it is read. Immutable; any thread.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "definitions.hpp"
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::python {
+
+// Where messages come from: their definitions, and the names of the links that they arrived on. Any thread.
+class Origin {
+public:
+    explicit Origin(std::shared_ptr<const Definitions> definitions) : definitions_(std::move(definitions)) {}
+
+    [[nodiscard]] const std::shared_ptr<const Definitions>& definitions() const noexcept { return definitions_; }
+    [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
+
+    void name_link(std::uint32_t link, std::string name);
+    // Empty for a link that has no name.
+    [[nodiscard]] std::string link_name(std::uint32_t link) const;
+
+private:
+    static constexpr std::size_t most_names = 65'536;  // links come and go
+
+    std::shared_ptr<const Definitions> definitions_;
+    mutable std::mutex mutex_;
+    std::unordered_map<std::uint32_t, std::string> names_;  // guarded by mutex_
+};
+
+struct Message {
+    std::shared_ptr<const Origin> origin;
+    const dialect::Message* definition = nullptr;  // null: an id without definition
+    std::int64_t time_ns = 0;                      // Unix time
+    std::uint32_t link = 0;
+    std::uint16_t size = 0;
+    bool verified = false;  // its signature was checked and is good
+    std::unique_ptr<const std::uint8_t[]> bytes;
+
+    [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }
+};
+
+// A new Python object with a copy of the frame.
+[[nodiscard]] nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
+                                      std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame,
+                                      bool verified = false);
+
+void bind_message(nb::module_& module);
+
+}  // namespace mavloom::python

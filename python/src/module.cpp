@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string_view.h>
+
+#include "bindings.hpp"
+#include "definitions.hpp"
+#include "mavloom/base/version.hpp"
+#include "message.hpp"
+
+NB_MODULE(_core, module) {
+    using namespace mavloom::python;
+    nb::set_leak_warnings(false);  // users take them for bugs
+    module.def("set_leak_warnings", &nb::set_leak_warnings, nb::arg("on"),
+               "Whether the interpreter's exit says which objects of this module are left: for tests of this package.");
+    module.doc() = "The compiled part of mavloom: use the package.";
+    module.def("version", &mavloom::version,
+               "The version of what is compiled: \"0.1.0\", between releases with the commit behind it.");
+    bind_message(module);
+    bind_dialect(module);
+    bind_parser(module);
+    bind_recording(module);
+    bind_columns(module);
+    bind_link(module);
+}

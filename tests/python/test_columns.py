@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""mavloom.columns() against pymavlink on the recorded flight. "Row N": the wishes listed in docs/guide/python.md."""
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import mavloom
+import pymavlink_vectors as vectors
+from tlogs import frames_of, packer, write
+
+NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4", "uint64_t": "u8", "int64_t": "i8",
+         "float": "f4", "double": "f8", "uint8_t_mavlink_version": "u1"}
+
+
+def expected_columns(peer, message_class, rows):
+    """The same arrays, by pymavlink: rows are (time in µs, its message)."""
+    columns = {"time_ns": np.array([time * 1000 for time, _ in rows], "i8"), "sys": np.array([m.get_srcSystem() for _, m in rows], "u1"),
+               "comp": np.array([m.get_srcComponent() for _, m in rows], "u1")}
+    for field in vectors.fields_of(message_class):
+        if field.is_text:
+            columns[field.name] = np.array([getattr(m, f"_{field.name}_raw") for _, m in rows], f"S{field.count}")
+        else:
+            shape = (len(rows), field.array_length) if field.array_length else (len(rows),)
+            columns[field.name] = np.array([getattr(m, field.name) for _, m in rows], NUMPY[field.type]).reshape(shape)
+    return columns
+
+
+def assert_same(columns, expected):
+    assert columns.keys() == list(expected)
+    for name, values in expected.items():
+        found = columns[name]
+        assert (found.dtype, found.shape) == (values.dtype, values.shape), name
+        assert found.tobytes() == values.tobytes(), name
+        assert found.flags.c_contiguous and found.flags.writeable and found.dtype.isnative, name
+
+
+def test_example_8_every_message_of_the_flight_is_bit_equal_to_pymavlink(flight, peer):
+    mav = peer.MAVLink(None)
+    rows = {}
+    for time, frame in frames_of(flight):
+        message = mav.parse_char(frame)
+        rows.setdefault(message.get_type(), []).append((time, message))
+    assert len(rows) == 37
+    tables = mavloom.tables(flight)
+    assert set(tables) == set(rows)
+    for name, found in rows.items():
+        columns = mavloom.columns(flight, name)
+        assert len(columns) == len(found) and columns.junk_bytes == 0
+        expected = expected_columns(peer, type(found[0][1]), found)
+        assert_same(columns, expected)
+        assert_same(tables[name], expected)
+
+
+def test_some_tables(flight):
+    tables = mavloom.tables(flight, ["HEARTBEAT", "GPS_RTCM_DATA"], system=255)
+    assert list(tables) == ["HEARTBEAT", "GPS_RTCM_DATA"]
+    assert set(tables["HEARTBEAT"]["sys"]) == {255} and len(tables["GPS_RTCM_DATA"]) == 0
+    assert list(mavloom.tables(flight, "ATTITUDE")) == ["ATTITUDE"]
+    with pytest.raises(ValueError, match="did you mean 'ATTITUDE'"):
+        mavloom.tables(flight, "ATITUDE")
+
+
+def test_every_message_of_the_dialect_with_extreme_values(peer, tmp_path):
+    for message_class in peer.mavlink_map.values():
+        sender = packer(peer, 5, 6)
+        made = [vectors.message_of(message_class, vectors.values_of(message_class, case)) for case in ("zero", "maximum", "minimum", "nan", "infinite")]
+        path = write(tmp_path / "x.tlog", [sender.pack(message) for message in made])
+        mav = peer.MAVLink(None)
+        rows = [(time, mav.parse_char(frame)) for time, frame in frames_of(path)]
+        assert_same(mavloom.columns(path, message_class.msgname), expected_columns(peer, message_class, rows))
+
+
+def test_row_9_an_absent_message_gives_empty_arrays_of_the_right_types(flight, peer):
+    for message_class in peer.mavlink_map.values():
+        if message_class.msgname in ("GPS_RTCM_DATA", "STATUSTEXT", "ODOMETRY", "OBSTACLE_DISTANCE"):
+            columns = mavloom.columns(flight, message_class.msgname, system=99)
+            assert len(columns) == 0
+            assert_same(columns, expected_columns(peer, message_class, []))
+
+
+def test_row_9_rows_of_one_instant_are_all_kept(peer, tmp_path):
+    sender = packer(peer)
+    frames = [sender.pack(peer.MAVLink_heartbeat_message(1, 2, 3, i, 5, 3)) for i in range(1000)]
+    path = tmp_path / "x.tlog"
+    path.write_bytes(b"".join((7).to_bytes(8, "big") + frame for frame in frames))
+    columns = mavloom.columns(path, "HEARTBEAT")
+    assert set(columns["time_ns"]) == {7000} and list(columns["custom_mode"]) == list(range(1000))
+
+
+def test_row_9_instances(peer, tmp_path):
+    sender = packer(peer)
+    path = write(tmp_path / "x.tlog", [sender.pack(peer.MAVLink_battery_status_message(i % 3, 2, 3, -4, [i] * 10, 5, 6, 7, -1)) for i in range(30)])
+
+    columns = mavloom.columns(path, "BATTERY_STATUS", instance=1)
+
+    assert columns["voltages"].shape == (10, 10) and list(columns["voltages"][:, 9]) == list(range(1, 30, 3))
+    assert len(mavloom.columns(path, "BATTERY_STATUS", instance=7)) == 0
+    with pytest.raises(ValueError, match="no field that tells instances apart"):
+        mavloom.columns(path, "HEARTBEAT", instance=0)
+
+
+def test_row_3_systems_and_components(flight):
+    assert set(mavloom.columns(flight, "HEARTBEAT")["sys"]) == {1, 255}
+    ground = mavloom.columns(flight, "HEARTBEAT", system=255, component=190)
+    assert set(ground["sys"]) == {255} and set(ground["type"]) == {6}
+    assert len(mavloom.columns(flight, "HEARTBEAT", component=7)) == 0
+
+
+def test_row_29_unknown_names(flight):
+    with pytest.raises(ValueError, match="did you mean 'ATTITUDE'"):
+        mavloom.columns(flight, "ATITUDE")
+    with pytest.raises(KeyError):
+        mavloom.columns(flight, "ATTITUDE")["rol"]
+    with pytest.raises(FileNotFoundError):
+        mavloom.columns(flight / "x", "ATTITUDE")
+
+
+def test_units_and_enum_names(flight):
+    columns = mavloom.columns(flight, "HEARTBEAT")
+    assert columns.enums == {"type": "MAV_TYPE", "autopilot": "MAV_AUTOPILOT", "base_mode": "MAV_MODE_FLAG", "system_status": "MAV_STATE"}
+    attitude = mavloom.columns(flight, "ATTITUDE")
+    assert attitude.units["roll"] == "rad" and attitude.units["time_boot_ms"] == "ms" and "roll" in attitude and list(attitude)[:3] == ["time_ns", "sys", "comp"]
+
+
+def test_damage_is_skipped_and_counted(flight, tmp_path):
+    data = bytearray(flight.read_bytes())
+    data[100_000:100_300] = b"\xaa" * 300
+    (tmp_path / "x.tlog").write_bytes(data)
+    columns = mavloom.columns(tmp_path / "x.tlog", "ATTITUDE")
+    whole = mavloom.columns(flight, "ATTITUDE")
+    assert 300 <= columns.junk_bytes < 300 + 2 * 300
+    assert set(columns["time_ns"]) <= set(whole["time_ns"]) and len(whole) - 10 <= len(columns) <= len(whole)
+
+
+def test_row_8_no_object_for_each_row(flight):
+    mavloom.columns(flight, "ATTITUDE")
+    before = sys.getallocatedblocks()
+    columns = mavloom.columns(flight, "ATTITUDE")
+    assert len(columns) > 4000
+    assert sys.getallocatedblocks() - before < 500
+
+
+def test_arrays_outlive_everything(flight):
+    roll = mavloom.columns(flight, "ATTITUDE")["roll"]
+    expected = roll.copy()
+    for _ in range(50):
+        mavloom.columns(flight, "ATTITUDE")
+    assert (roll == expected).all()
+    roll += 1
+    assert (roll == expected + 1).all()
+
+
+# ---- tables: example 9
+
+def test_example_9_arrow_and_parquet_keep_units_and_enum_names(flight, tmp_path):
+    import pyarrow.parquet
+    columns = mavloom.columns(flight, "HEARTBEAT")
+    pyarrow.parquet.write_table(columns.to_arrow(), tmp_path / "x.parquet")
+
+    table = pyarrow.parquet.read_table(tmp_path / "x.parquet")
+
+    assert table.schema.metadata[b"message"] == b"HEARTBEAT"
+    assert table.schema.field("type").metadata[b"enum"] == b"MAV_TYPE"
+    assert str(table.schema.field("time_ns").type) == "timestamp[ns, tz=UTC]"
+    assert table["custom_mode"].to_numpy().tolist() == columns["custom_mode"].tolist()
+    assert table["time_ns"].cast("int64").to_numpy().tolist() == columns["time_ns"].tolist()
+    attitude = mavloom.columns(flight, "ATTITUDE").to_arrow()
+    assert attitude.schema.field("roll").metadata[b"unit"] == b"rad"
+
+
+def test_arrow_of_text_and_arrays(peer, tmp_path):
+    sender = packer(peer)
+    frames = [sender.pack(peer.MAVLink_statustext_message(6, "höhe".encode())), sender.pack(peer.MAVLink_statustext_message(5, b"\xffA")),
+              sender.pack(peer.MAVLink_battery_status_message(0, 2, 3, -4, list(range(10)), 5, 6, 7, -1))]
+    path = write(tmp_path / "x.tlog", frames)
+    assert mavloom.columns(path, "STATUSTEXT").to_arrow()["text"].to_pylist() == ["höhe", "\ufffdA"]
+    assert mavloom.columns(path, "BATTERY_STATUS").to_arrow()["voltages"].to_pylist() == [list(range(10))]
+    for name in ("STATUSTEXT", "BATTERY_STATUS"):
+        empty = mavloom.columns(path, name, system=99).to_arrow()
+        assert empty.num_rows == 0 and empty.schema == mavloom.columns(path, name).to_arrow().schema
+
+
+def test_example_9_pandas(flight, tmp_path):
+    att = mavloom.columns(flight, "ATTITUDE")
+    df = att.to_pandas()
+    assert str(df.index.dtype) == "datetime64[ns, UTC]" and df.index[0].value == att["time_ns"][0]
+    assert df["roll"].dtype == np.float32 and df["roll"].tolist() == att["roll"].tolist()
+    assert df.attrs["units"]["roll"] == "rad"
+    assert np.isfinite(df["roll"].rolling("1s").mean().iloc[-1])
+    quaternion = mavloom.columns(flight, "ATTITUDE_TARGET").to_pandas()
+    assert [name for name in quaternion if name.startswith("q[")] == ["q[0]", "q[1]", "q[2]", "q[3]"]
+
+
+@pytest.mark.parametrize("method, module, extra", [("to_pandas", "pandas", "mavloom[pandas]"), ("to_arrow", "pyarrow", "mavloom[arrow]")])
+def test_what_is_missing_is_named_with_its_extra(flight, method, module, extra, child_environment):
+    code = f"import sys, mavloom\nsys.modules[{module!r}] = None\nmavloom.columns({str(flight)!r}, 'ATTITUDE').{method}()"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
+    assert done.returncode == 1 and f"pip install '{extra}'" in done.stderr
+
+
+def test_row_27_only_numpy_is_needed(child_environment):
+    code = "import sys, mavloom\nassert not {'pandas', 'pyarrow', 'pymavlink'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True, env=child_environment)

@@ -1,0 +1,478 @@
+# SPDX-License-Identifier: MIT
+"""mavloom.connect() with pymavlink's frames at the far side. "Row N": the wishes listed in docs/guide/python.md."""
+import asyncio
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+import mavloom
+from tlogs import packer
+
+DEADLINE_S = 60
+
+
+def until(condition):
+    """Waits for a condition; the test fails where it never comes true."""
+    end = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.005)
+
+
+class Vehicle:
+    """A UDP socket that speaks with pymavlink's frames."""
+
+    def __init__(self, peer, port=None, system=1, component=1):
+        self.peer, self.sender = peer, packer(peer, system, component)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.settimeout(DEADLINE_S)
+        self.socket.bind(("127.0.0.1", 0))
+        if port is not None:
+            self.socket.connect(("127.0.0.1", port))
+
+    @property
+    def port(self):
+        return self.socket.getsockname()[1]
+
+    def send(self, *messages):
+        self.socket.send(b"".join(self.sender.pack(message) for message in messages))
+
+    def heartbeat(self, kind=2, autopilot=12, number=0):
+        return self.peer.MAVLink_heartbeat_message(kind, autopilot, 0, number, 4, 3)
+
+    def attitude(self, number, roll=0.0):
+        return self.peer.MAVLink_attitude_message(number, roll, 0, 0, 0, 0, 0)
+
+    def receive(self):
+        """All messages of the next datagram, decoded by pymavlink."""
+        return self.peer.MAVLink(None).parse_buffer(self.socket.recv(65536))
+
+
+@pytest.fixture
+def link():
+    with mavloom.connect("udpin://127.0.0.1:0") as opened:
+        yield opened
+
+
+@pytest.fixture
+def vehicle(peer, link):
+    made = Vehicle(peer, link.port)
+    yield made
+    made.socket.close()
+
+
+def test_example_1_iterate(link, vehicle):
+    """1,000 frames in order, nothing lost; the port is free at once."""
+    def send():
+        for i in range(100):
+            vehicle.send(*(vehicle.attitude(10 * i + k) for k in range(10)))
+    threading.Thread(target=send).start()
+    found = []
+    for msg in link:
+        found.append(msg)
+        if len(found) == 1000:
+            break
+    assert [m.time_boot_ms for m in found] == list(range(1000))
+    assert (found[0].get_srcSystem(), found[0].name, found[0].version) == (1, "ATTITUDE", 2)
+    assert abs(found[0].time_ns - time.time_ns()) < 600 * 10**9 and found[0].link_name.startswith(f"{link.name}#127.0.0.1:")
+    stats = link.stats
+    assert (stats.frames_in, stats.lost, stats.missed, stats.crc_error, stats.peers) == (1000, 0, 0, 0, 1)
+    port = link.port
+    link.close()
+    again = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    again.bind(("127.0.0.1", port))
+    again.close()
+
+
+def test_row_2_example_2_old_habits(link, vehicle, peer):
+    """A ground station, a gimbal and a camera beat first: the vehicle is waited for."""
+    for system, kind, autopilot in ((255, 6, 8), (1, 26, 8), (1, 30, 8), (7, 18, 0)):
+        other = Vehicle(peer, link.port, system, 154)
+        other.send(other.heartbeat(kind, autopilot))
+        other.socket.close()
+    until(lambda: link.stats.frames_in == 4)
+    assert (link.target_system, link.target_component) == (0, 0)
+    vehicle.send(vehicle.heartbeat(number=5), vehicle.attitude(7, 0.5))
+
+    beat = link.wait_heartbeat(timeout=DEADLINE_S)
+    m = link.recv_match(type=("ATTITUDE", "VFR_HUD"), blocking=True, timeout=DEADLINE_S)
+
+    assert (beat.custom_mode, m.roll, link.messages["ATTITUDE"].roll, link.target_system, link.target_component) == (5, 0.5, 0.5, 1, 1)
+    assert link.field("ATTITUDE", "time_boot_ms") == 7 and link.field("VFR_HUD", "alt", "none") == "none" and link.time_since("VFR_HUD") == float("inf")
+    assert set(link.messages) == {"HEARTBEAT", "ATTITUDE"} and link.time_since("ATTITUDE") < 600 and link.packet_loss() == 0
+    with pytest.raises(KeyError):
+        link.messages["VFR_HUD"]
+    with pytest.raises(TimeoutError):
+        link.wait_vehicle(timeout=0.01)
+
+
+def test_pymavlinks_spelling_of_an_address():
+    with mavloom.connect("udpin:127.0.0.1:0") as link:
+        assert link.port > 0 and str(link.port) in link.name and str(link.port) in repr(link)
+
+
+def test_row_29_example_3_typing_errors_end_at_once(link):
+    with pytest.raises(ValueError, match="'ATITUDE', did you mean 'ATTITUDE'"):
+        link.recv_match(type="ATITUDE", blocking=True)
+    with pytest.raises(ValueError, match="did you mean 'ATTITUDE'"):
+        link.latest("ATITUDE")
+    with pytest.raises(ValueError, match="did you mean 'ATTITUDE'"):
+        link.subscribe(["HEARTBEAT", "ATITUDE"])
+    with pytest.raises(TypeError, match="callable"):
+        link.recv_match("ATTITUDE.roll > 1", blocking=True)
+    with pytest.raises(ValueError, match="udpin://"):
+        mavloom.connect("udp://:14540")
+    with pytest.raises(ValueError, match="mavloom.read"):
+        mavloom.connect("flight.tlog")
+
+
+def test_row_1_a_time_out_gives_none(link):
+    assert link.recv(timeout=0) is None
+    assert link.recv(timeout=0.05) is None
+    assert link.recv_match(type="ATTITUDE") is None
+    assert link.recv_match(type="ATTITUDE", blocking=True, timeout=0.05) is None
+    with pytest.raises(ValueError):
+        link.recv(timeout=float("nan"))
+
+
+def test_row_1_the_deadline_holds_while_others_arrive(link, vehicle):
+    """pymavlink looks at the clock between messages that match only."""
+    stop = threading.Event()
+
+    def flood():
+        while not stop.is_set():
+            vehicle.send(vehicle.heartbeat())
+    thread = threading.Thread(target=flood)
+    thread.start()
+    try:
+        assert link.recv_match(type="ATTITUDE", blocking=True, timeout=0.3) is None
+    finally:
+        stop.set()
+        thread.join()
+
+
+def test_example_4_send(peer):
+    vehicle = Vehicle(peer)
+    with mavloom.connect(f"udpout://127.0.0.1:{vehicle.port}", source_system=7, source_component=9) as link:
+        assert link.send("STATUSTEXT", severity=6, text="höhe 10°") == 1
+        got, = vehicle.receive()
+        assert (got.get_type(), got.severity, got._text_raw.rstrip(b"\0").decode(), got.get_srcSystem(), got.get_srcComponent(), got.get_seq()) == (
+            "STATUSTEXT", 6, "höhe 10°", 7, 9, 0)
+        with pytest.raises(ValueError, match="0 to 255"):
+            link.send("STATUSTEXT", severity=300)
+        with pytest.raises(ValueError, match="at most 50"):
+            link.send("STATUSTEXT", text="x" * 60)
+        assert link.mav.heartbeat_send(6, 8, 0, 0, 4) == 1
+        got, = vehicle.receive()
+        assert (got.get_type(), got.type, got.autopilot, got.system_status, got.get_seq()) == ("HEARTBEAT", 6, 8, 4, 1)
+        assert link.send(link.mav.named_value_float_encode(1, "name", value=0.5)) == 1
+        got, = vehicle.receive()
+        assert (got.name, got.value, got.get_seq()) == ("name", 0.5, 2)
+        with pytest.raises(AttributeError):
+            link.mav.heartbit_send
+    vehicle.socket.close()
+
+
+def test_row_21_nobody_to_send_to_is_told(link, vehicle):
+    assert link.send("HEARTBEAT") == 0
+    assert (link.stats.no_peer, link.stats.frames_out) == (1, 0)
+    vehicle.send(vehicle.heartbeat())
+    assert link.recv(timeout=DEADLINE_S).name == "HEARTBEAT"
+    assert link.send("HEARTBEAT", type=6) == 1
+    assert vehicle.receive()[0].type == 6
+
+
+def test_row_17_threads_send_without_a_gap(peer):
+    threads, each = 8, 2000
+    server = socket.create_server(("127.0.0.1", 0))
+    with mavloom.connect(f"tcpout://127.0.0.1:{server.getsockname()[1]}?queue_bytes=64M") as link:
+        connection, _ = server.accept()
+        connection.settimeout(DEADLINE_S)
+        until(lambda: link.stats.peers == 1)
+        senders = [threading.Thread(target=lambda: [link.send("HEARTBEAT", custom_mode=i + 1) for i in range(each)]) for _ in range(threads)]
+        for sender in senders:
+            sender.start()
+        parser, found = mavloom.Parser(), []
+        while len(found) < threads * each:
+            found += parser.feed(connection.recv(65536))
+        for sender in senders:
+            sender.join()
+    connection.close()
+    server.close()
+    assert [m.seq for m in found] == [i % 256 for i in range(threads * each)]
+
+
+def test_rows_4_and_5_example_6_a_slow_consumer(peer):
+    """received + missed == sent; the newest value is at hand; what is left is in order."""
+    sent = 5000
+    with mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 16) as link:
+        vehicle = Vehicle(peer, link.port)
+        for i in range(sent):
+            vehicle.send(vehicle.attitude(i + 1))
+            if i % 50 == 49:
+                until(lambda: link.stats.frames_in + link.stats.kernel_drop >= i + 1)
+        vehicle.socket.close()
+
+        assert link.latest("ATTITUDE", system=1).time_boot_ms == sent
+        assert link.stats.missed > 0
+        found = []
+        while (m := link.recv(timeout=0)) is not None:
+            found.append(m.time_boot_ms)
+        assert len(found) + link.stats.missed + link.stats.kernel_drop == sent
+        assert found == list(range(sent - len(found) + 1, sent + 1))
+
+
+def test_row_4_latest_by_source_instance_and_age(link, vehicle, peer):
+    other = Vehicle(peer, link.port, 2, 1)
+    def battery(number, current):
+        return peer.MAVLink_battery_status_message(number, 0, 0, 0, [0] * 10, current, 0, 0, 0)
+    vehicle.send(vehicle.attitude(1), battery(0, 10), battery(1, 11), vehicle.heartbeat())
+    other.send(other.attitude(2), battery(0, 20))
+    other.socket.close()
+    until(lambda: link.stats.frames_in == 6)
+    assert link.latest("ATTITUDE", system=1).time_boot_ms == 1
+    assert link.latest("ATTITUDE", system=2, max_age=600).time_boot_ms == 2
+    assert link.latest("ATTITUDE", system=3) is None
+    assert link.latest("BATTERY_STATUS", system=1, instance=0).current_battery == 10
+    assert link.messages["BATTERY_STATUS[1]"].current_battery == 11
+    until(lambda: link.latest("ATTITUDE", max_age=0) is None)
+    assert link.recv(timeout=0) is not None  # nothing was read away
+
+
+def test_subscriptions_take_nothing_away(link, vehicle):
+    mine, second = link.subscribe("ATTITUDE", system=1), link.subscribe(system=2)
+    vehicle.send(vehicle.heartbeat(), vehicle.attitude(5))
+    assert mine.recv(timeout=DEADLINE_S).time_boot_ms == 5
+    assert second.recv(timeout=0) is None
+    assert [link.recv(timeout=DEADLINE_S).name for _ in range(2)] == ["HEARTBEAT", "ATTITUDE"]
+    mine.close()
+    with pytest.raises(mavloom.ClosedError):
+        mine.recv()
+
+
+def test_row_15_noise_is_counted(link, vehicle):
+    vehicle.socket.send(b"\x55" * 200)
+    vehicle.send(vehicle.heartbeat())
+    assert link.recv(timeout=DEADLINE_S).name == "HEARTBEAT"
+    until(lambda: link.stats.stray_bytes + link.stats.junk_bytes == 200)
+
+
+def test_row_22_duplicates_and_late_frames_are_no_loss(link, vehicle, peer):
+    frames = [vehicle.sender.pack(vehicle.attitude(i)) for i in range(10)]
+    for number in (0, 1, 1, 3, 2, 4, 6, 7, 8, 9):  # one doubled, two swapped, one lost
+        vehicle.socket.send(frames[number])
+    until(lambda: link.stats.frames_in == 10)
+    assert (link.stats.lost, link.stats.duplicate, link.stats.late) == (1, 1, 1)
+
+
+def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
+    dialects = []
+    for number, field in enumerate(('type="uint16_t" name="key_id"', 'type="float" name="level"')):
+        (tmp_path / f"{number}.xml").write_text(
+            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+        dialects.append(mavloom.Dialect(tmp_path / f"{number}.xml"))
+    first, second = (mavloom.connect("udpin://127.0.0.1:0", dialect=dialect) for dialect in dialects)
+    with first, second, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        sock.sendto(dialects[0].encode("SECURE_PAYLOAD", key_id=7), ("127.0.0.1", first.port))
+        sock.sendto(dialects[1].encode("SECURE_PAYLOAD", level=0.5), ("127.0.0.1", second.port))
+        assert first.recv(timeout=DEADLINE_S).key_id == 7
+        assert second.recv(timeout=DEADLINE_S).level == 0.5
+
+
+def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
+    for name, byte in (("ours", "07"), ("other", "08")):
+        (tmp_path / name).write_text(byte * 32)
+        (tmp_path / name).chmod(0o600)
+    with mavloom.connect(f"udpin://127.0.0.1:0?verify={tmp_path}/ours") as link, mavloom.connect("udpin://127.0.0.1:0") as open_link:
+        signer = mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={tmp_path}/ours")
+        assert signer.send("HEARTBEAT", custom_mode=1) == 1
+        message = link.recv(timeout=DEADLINE_S)
+        assert (message.custom_mode, message.signed, message.signature, message.get_signed()) == (1, True, "good", True)
+        signer.close()
+        forger = mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={tmp_path}/other")
+        forger.send("HEARTBEAT", custom_mode=2)
+        until(lambda: link.stats.bad_signature == 1)
+        forger.close()
+        with mavloom.connect(f"udpout://127.0.0.1:{open_link.port}?sign={tmp_path}/other") as signer:
+            signer.send("HEARTBEAT", custom_mode=3)
+            message = open_link.recv(timeout=DEADLINE_S)
+            assert (message.custom_mode, message.signed, message.signature) == (3, True, "unchecked")
+        assert link.recv(timeout=0) is None
+
+
+# ---- asyncio: row 19, example 5
+
+def test_row_19_example_5_many_tasks_on_one_loop(link, vehicle):
+    tasks, count = 200, 50
+
+    async def watch(number):
+        found = []
+        async for msg in link.subscribe("ATTITUDE", system=1):
+            found.append(msg.time_boot_ms)
+            if len(found) == count:
+                return found
+
+    async def run():
+        watchers = [asyncio.create_task(watch(i)) for i in range(tasks)]
+        await asyncio.sleep(0)
+        for i in range(count):
+            vehicle.send(vehicle.heartbeat(), vehicle.attitude(i))
+        return await asyncio.wait_for(asyncio.gather(*watchers), DEADLINE_S)
+
+    before = threading.active_count()
+    assert asyncio.run(run()) == [list(range(count))] * tasks
+    assert threading.active_count() == before  # no executor
+
+
+def test_row_19_cancel_and_close(link, vehicle):
+    async def watch():
+        async for _ in link:
+            pass
+
+    async def run():
+        task = asyncio.create_task(watch())
+        await asyncio.sleep(0.01)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await asyncio.wait_for(task, DEADLINE_S)
+        ended = asyncio.create_task(watch())
+        await asyncio.sleep(0.01)
+        link.close()
+        await asyncio.wait_for(ended, DEADLINE_S)
+    asyncio.run(run())
+
+
+# ---- closing, signals, fork, exit: row 26, example 11
+
+def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
+    ended = []
+
+    def wait():
+        try:
+            link.recv()
+        except mavloom.ClosedError as error:
+            ended.append(error)
+    threads = [threading.Thread(target=wait), threading.Thread(target=lambda: ended.append(list(link)))]
+    for thread in threads:
+        thread.start()
+    time.sleep(0.02)
+    link.close()
+    link.close()
+    for thread in threads:
+        thread.join(DEADLINE_S)
+    assert len(ended) == 2 and [] in ended
+    for call in (link.recv, lambda: link.send("HEARTBEAT"), lambda: link.latest("HEARTBEAT"), link.subscribe):
+        with pytest.raises(mavloom.ClosedError):
+            call()
+    assert link.stats.frames_in == 0
+
+
+def test_a_port_in_use_is_an_os_error(link):
+    with pytest.raises(OSError) as raised:
+        mavloom.connect(f"udpin://127.0.0.1:{link.port}")
+    assert isinstance(raised.value, mavloom.Error) and str(link.port) in str(raised.value)
+
+
+def child(code, environment, **options):
+    return subprocess.Popen([sys.executable, "-c", "import mavloom, os, sys\nlink = mavloom.connect('udpin://127.0.0.1:0')\n" + code],
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, **options)
+
+
+@pytest.mark.parametrize("wait", ["link.recv()", "next(iter(link))", "link.recv_match(type='ATTITUDE', blocking=True)"])
+def test_example_11_ctrl_c_ends_a_wait(wait, child_environment):
+    process = child(f"print('ready', flush=True)\n{wait}", child_environment)
+    try:
+        assert process.stdout.readline() == "ready\n"
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate(timeout=DEADLINE_S)
+        assert "KeyboardInterrupt" in talk
+    finally:
+        process.kill()
+
+
+def test_example_11_an_exit_with_all_of_it_open_is_silent(child_environment):
+    code = ("import threading\nsubscription = link.subscribe('ATTITUDE')\nother = mavloom.connect('udpin://127.0.0.1:0')\ncycle = [link]; cycle.append(cycle)\n"
+            "threading.Thread(target=link.recv, daemon=True).start()\nlink.send('HEARTBEAT')\n")
+    done = child(code, child_environment)
+    out, talk = done.communicate(timeout=DEADLINE_S)
+    assert (done.returncode, out, talk) == (0, "", "")
+
+
+def test_example_11_a_forked_child_is_refused_and_the_parent_untouched(child_environment, peer):
+    code = """
+subscription = link.subscribe()
+pid = os.fork()
+if pid == 0:
+    for call in (link.recv, lambda: link.send("HEARTBEAT"), lambda: link.stats, lambda: link.latest("HEARTBEAT"), subscription.recv):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    link.close()
+    with mavloom.connect("udpin://127.0.0.1:0") as own:
+        assert own.recv(timeout=0) is None
+    del subscription, link
+    sys.exit(0)
+_, status = os.waitpid(pid, 0)
+print(status, link.port, flush=True)
+print(link.recv().name, flush=True)
+"""
+    process = child(code, {**child_environment, "PYTHONWARNINGS": "ignore"})
+    try:
+        status, port = process.stdout.readline().split()
+        assert status == "0", process.communicate(timeout=DEADLINE_S)
+        vehicle = Vehicle(peer, int(port))
+        vehicle.send(vehicle.heartbeat())
+        out, talk = process.communicate(timeout=DEADLINE_S)
+        assert (out, talk, process.returncode) == ("HEARTBEAT\n", "", 0)
+    finally:
+        process.kill()
+
+
+def test_row_20_a_connection_that_breaks_is_made_again(peer):
+    server = socket.create_server(("127.0.0.1", 0))
+    port = server.getsockname()[1]
+    sender = packer(peer)
+    with mavloom.connect(f"tcpout://127.0.0.1:{port}") as link:
+        for number in range(3):
+            connection, _ = server.accept()
+            connection.send(sender.pack(peer.MAVLink_heartbeat_message(2, 12, 0, number, 4, 3)))
+            assert link.recv(timeout=DEADLINE_S).custom_mode == number
+            connection.close()
+        server.close()
+        assert link.recv(timeout=0.05) is None
+
+
+def test_row_6_other_threads_run_while_one_waits(link, vehicle):
+    """With the GIL held in `recv` nothing would ever be sent."""
+    found = []
+    thread = threading.Thread(target=lambda: found.append(link.recv()))
+    thread.start()
+    until(thread.is_alive)
+    vehicle.send(vehicle.heartbeat())
+    thread.join(DEADLINE_S)
+    assert found[0].name == "HEARTBEAT"
+
+
+def test_row_7_the_table_of_newest_values_has_a_bound(link, vehicle, peer):
+    names = 300
+    for i in range(names):
+        vehicle.send(peer.MAVLink_named_value_float_message(i, f"n{i}".encode(), i))
+    until(lambda: link.stats.frames_in == names)
+    assert link.latest("NAMED_VALUE_FLOAT").value == names - 1
+
+
+def test_row_27_descriptors_are_given_back(peer):
+    before = len(os.listdir("/proc/self/fd"))
+    for _ in range(20):
+        with mavloom.connect("udpin://127.0.0.1:0") as link:
+            link.subscribe().event_fd()
+    assert len(os.listdir("/proc/self/fd")) <= before + 1

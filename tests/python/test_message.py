@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: MIT
+"""Dialect and Message against pymavlink, generated from the same definitions. "Row N" is a row of the wish list in docs/guide/python.md."""
+import copy
+import json
+import math
+import pickle
+
+import pytest
+
+import mavloom
+import pymavlink_vectors as vectors
+from mavloom import enums, messages
+from tlogs import packer
+
+
+@pytest.fixture(scope="module")
+def dialect():
+    return mavloom.Dialect()
+
+
+def same(ours, theirs):
+    if isinstance(theirs, list):
+        return isinstance(ours, list) and len(ours) == len(theirs) and all(map(same, ours, theirs))
+    if isinstance(theirs, float) and math.isnan(theirs):
+        return isinstance(ours, float) and math.isnan(ours)
+    return type(ours) is type(theirs) and ours == theirs
+
+
+def expected_text(raw):
+    return raw.rstrip(b"\0").decode("utf-8", "replace")
+
+
+# ---- row 28: every message, both directions, as attributes
+
+@pytest.mark.parametrize("case", vectors.CASES)
+def test_row_28_every_message_is_encoded_and_decoded_as_pymavlink_does(dialect, peer, case):
+    sender = packer(peer, 7, 42)
+    for identifier, message_class in peer.mavlink_map.items():
+        values = vectors.values_of(message_class, case)
+        theirs = sender.pack(vectors.message_of(message_class, values))
+        name = message_class.msgname
+
+        ours = dialect.encode(name, source_system=7, source_component=42, frame_seq=theirs[4], **values)
+        assert ours == theirs, (name, case)
+
+        message = dialect.decode(theirs)
+        assert (message.name, message.id, message.sys, message.comp) == (name, identifier, 7, 42)
+        for field in vectors.fields_of(message_class):
+            value = expected_text(values[field.name]) if field.is_text else values[field.name]
+            assert same(message[field.name], value), (name, field.name, case)
+            if not hasattr(mavloom.Message, field.name):
+                assert same(getattr(message, field.name), value), (name, field.name, case)
+
+
+def test_row_10_mavlink_1_is_decoded_and_encoded_too(dialect, peer_v1):
+    sender = packer(peer_v1)
+    for message_class in peer_v1.mavlink_map.values():
+        values = vectors.values_of(message_class, "typical")
+        theirs = sender.pack(vectors.message_of(message_class, values))
+
+        message = dialect.decode(theirs)
+        assert message.version == 1
+        assert dialect.encode(message) == theirs
+        assert dialect.encode(message_class.msgname, source_system=1, source_component=1, frame_seq=theirs[2], frame_version=1,
+                              **values) == theirs
+    with pytest.raises(ValueError, match="MAVLink 1 ends at 255"):
+        dialect.encode("ODOMETRY", frame_version=1)
+
+
+def test_fields_that_attributes_hide_are_items(dialect):
+    hidden = {field.name for name in dialect.message_names for field in dialect[name].fields if hasattr(mavloom.Message, field.name)}
+    assert hidden == {"frame", "id", "name", "seq", "version"}
+
+    message = dialect.message("MISSION_ITEM_INT", seq=500, frame="MAV_FRAME_GLOBAL_INT")
+    assert (message.seq, message["seq"], message["frame"], "seq" in message) == (0, 500, 5, True)
+
+
+# ---- row 12: text
+
+@pytest.mark.parametrize("given, shown", [("höhe 10°", "höhe 10°"), (b"\xff\xfeA", "\ufffd\ufffdA"), ("", ""), ("a\0b", "a\0b"), ("x" * 50, "x" * 50)])
+def test_row_12_text_in_and_out(dialect, given, shown):
+    message = dialect.decode(dialect.encode("STATUSTEXT", severity=6, text=given))
+
+    assert message.text == shown
+    assert message.raw("text") == (given.encode() if isinstance(given, str) else given).ljust(50, b"\0")
+    assert dialect.encode(message) == message.frame
+
+
+def test_row_12_text_that_is_too_long_is_refused(dialect):
+    with pytest.raises(ValueError, match=r"STATUSTEXT\.text: text of 60 bytes, at most 50 fit"):
+        dialect.encode("STATUSTEXT", text="x" * 60)
+    with pytest.raises(ValueError, match=r"STATUSTEXT\.text: text of 51 bytes"):
+        dialect.encode("STATUSTEXT", text="x" * 49 + "ö")
+
+
+# ---- row 14: values
+
+def test_row_14_arrays_from_any_sequence_or_buffer(dialect):
+    import array
+
+    import numpy
+    values = [0.5, -1.25, 3.0, 4.5]
+    frames = {dialect.encode("ATTITUDE_TARGET", q=q) for q in (values, tuple(values), numpy.array(values), numpy.float32(values), array.array("d", values))}
+    assert len(frames) == 1
+    assert dialect.decode(frames.pop()).q == values
+    data = bytes(range(110))
+    assert {tuple(dialect.decode(dialect.encode("GPS_INJECT_DATA", data=d)).data) for d in (data, bytearray(data), numpy.frombuffer(data, "u1"))} == {
+        tuple(data)}
+
+
+@pytest.mark.parametrize("name, fields, text", [
+    ("STATUSTEXT", {"severity": 300}, r"STATUSTEXT\.severity: 300 is out of range, 0 to 255"),
+    ("STATUSTEXT", {"severity": -1}, r"STATUSTEXT\.severity: -1 is out of range, 0 to 255"),
+    ("ATTITUDE", {"time_boot_ms": 2**70}, r"ATTITUDE\.time_boot_ms: 1180591620717411303424 is out of range"),
+    ("ATTITUDE", {"time_boot_ms": 1.5}, r"ATTITUDE\.time_boot_ms: 1\.5 is not a whole number"),
+    ("ATTITUDE", {"roll": 1e300}, r"ATTITUDE\.roll: 1e\+300 is out of range of a 32-bit float"),
+    ("ATTITUDE", {"roll": "much"}, r"ATTITUDE\.roll: a number is wanted, not text"),
+    ("ATTITUDE", {"roll": None}, r"ATTITUDE\.roll: a number is wanted, not None"),
+    ("ATTITUDE", {"rol": 1}, r"did you mean 'roll'"),
+    ("ATTITUDE_TARGET", {"q": [1, 2, 3]}, r"ATTITUDE_TARGET\.q: 4 elements are wanted, not 3"),
+    ("ATTITUDE_TARGET", {"q": 1}, r"ATTITUDE_TARGET\.q: a sequence of 4 numbers is wanted, not 1"),
+    ("HEARTBEAT", {"type": "MAV_TYPE_QUADROTO"}, r"did you mean 'MAV_TYPE_QUADROTOR'"),
+    ("STATUSTEXT", {"text": 5}, r"STATUSTEXT\.text: str or bytes are wanted, not 5"),
+])
+def test_row_14_what_does_not_fit_is_a_value_error_with_names(dialect, name, fields, text):
+    with pytest.raises(ValueError, match=text) as raised:
+        dialect.encode(name, **fields)
+    assert isinstance(raised.value, mavloom.UsageError) and isinstance(raised.value, mavloom.Error)
+
+
+def test_names_of_enum_entries_are_values(dialect):
+    message = dialect.message("HEARTBEAT", type="MAV_TYPE_QUADROTOR", base_mode="MAV_MODE_FLAG_SAFETY_ARMED|MAV_MODE_FLAG_GUIDED_ENABLED",
+                              autopilot=enums.MAV_AUTOPILOT.MAV_AUTOPILOT_PX4)
+    assert (message.type, message.base_mode, message.autopilot) == (2, 136, 12)
+
+
+# ---- row 29: names
+
+def test_row_29_unknown_names_end_at_once_with_the_nearest(dialect):
+    with pytest.raises(ValueError, match="'ATITUDE', did you mean 'ATTITUDE'"):
+        dialect["ATITUDE"]
+    with pytest.raises(ValueError, match="'ATITUDE', did you mean 'ATTITUDE'"):
+        dialect.encode("ATITUDE")
+    with pytest.raises(ValueError, match="did you mean 'MAV_TYPE'"):
+        dialect.enum("MAV_TIPE")
+    message = dialect.message("ATTITUDE")
+    with pytest.raises(AttributeError, match="did you mean 'roll'"):
+        message.rol
+    with pytest.raises(ValueError, match="did you mean 'roll'"):
+        message["rol"]
+    assert not hasattr(message, "__array__")
+    assert getattr(message, "".join(["ro", "ll"])) == 0.0
+
+
+# ---- row 16: ids without definition
+
+def test_row_16_unknown_id_keeps_its_header_and_bytes(dialect, tmp_path):
+    xml = tmp_path / "mine.xml"
+    xml.write_text('<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message></messages></mavlink>')
+    frame = mavloom.Dialect(xml).encode("MINE", a=513, source_system=9, source_component=8, frame_seq=7)
+
+    message = dialect.decode(frame)
+
+    assert (message.name, message.get_type(), message.id, message.sys, message.comp, message.seq) == (None, "UNKNOWN_61000", 61000, 9, 8, 7)
+    assert (message.frame, message.get_payload(), message.to_dict()) == (frame, b"\x01\x02", {"mavpackettype": "UNKNOWN_61000"})
+    assert json.loads(message.to_json())["payload_hex"] == "0102"
+    with pytest.raises(AttributeError):
+        message.a
+    with pytest.raises(ValueError, match="has no definition"):
+        message["a"]
+
+
+# ---- row 11: dialects side by side
+
+def test_row_11_two_dialects_in_one_process(tmp_path):
+    made = []
+    for number, field in enumerate(('type="uint16_t" name="key_id"', 'type="float" name="level"')):
+        (tmp_path / f"{number}.xml").write_text(
+            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+        made.append(mavloom.Dialect(tmp_path / f"{number}.xml"))
+    first, second = made
+
+    raw = first.encode("SECURE_PAYLOAD", key_id=7)
+    assert first.decode(raw).key_id == 7
+    with pytest.raises(ValueError, match="SECURE_PAYLOAD: wrong checksum"):
+        second.decode(raw)
+    assert second.decode(second.encode("SECURE_PAYLOAD", level=0.5)).level == 0.5
+    assert mavloom.Dialect().decode(raw).name is None
+    assert "ATTITUDE" in first and 30 in first and 61000 in first and 61000 not in mavloom.Dialect()
+
+
+def test_error_in_a_definition_names_file_and_line(tmp_path):
+    (tmp_path / "bad.xml").write_text('<mavlink>\n<messages>\n<message id="x" name="MINE"/></messages></mavlink>')
+    with pytest.raises(mavloom.InputError, match=r"bad\.xml:3"):
+        mavloom.Dialect(tmp_path / "bad.xml")
+    with pytest.raises(FileNotFoundError) as raised:
+        mavloom.Dialect(tmp_path / "absent.xml")
+    assert isinstance(raised.value, mavloom.Error) and raised.value.errno == 2
+
+
+@pytest.mark.parametrize("cut", [0, 1, 5, 8, 20, 39])
+def test_bytes_that_are_no_frame_are_refused(dialect, cut):
+    frame = dialect.encode("ATTITUDE", roll=1, yawspeed=2)
+    with pytest.raises(mavloom.InputError):
+        dialect.decode(frame[:cut])
+    with pytest.raises(mavloom.InputError):
+        dialect.decode(bytes([*frame[:cut], frame[cut] ^ 0x55, *frame[cut + 1:]]))
+    assert dialect.decode(memoryview(bytearray(frame))).roll == 1
+
+
+# ---- row 25: enums and editors
+
+def test_row_25_enums_are_int_enums_and_flags(dialect):
+    import enum
+    assert issubclass(enums.MAV_TYPE, enum.IntEnum) and enums.MAV_TYPE.MAV_TYPE_QUADROTOR == 2
+    assert issubclass(enums.MAV_MODE_FLAG, enum.IntFlag) and enums.MAV_MODE_FLAG(136).value == 136
+    assert dialect.enum("MAV_TYPE") is enums.MAV_TYPE
+    assert dialect.enums["MAV_CMD"][16].name == "MAV_CMD_NAV_WAYPOINT"
+    with pytest.raises(AttributeError):
+        enums.MAV_TIPE
+    for name in dialect.enum_names:
+        assert len(dialect.enum(name).__members__) > 0, name
+
+
+def test_row_25_a_class_for_each_message(dialect):
+    message = dialect.message("ATTITUDE", roll=0.5)
+    assert isinstance(message, messages.ATTITUDE) and not isinstance(message, messages.HEARTBEAT)
+    assert "ATTITUDE" in dir(messages)
+
+
+# ---- habits
+
+def test_pymavlinks_names_give_what_pymavlink_gives(dialect, peer):
+    sender = packer(peer, 3, 4)
+    sender.mav.seq = 250
+    frame = sender.pack(peer.MAVLink_battery_status_message(1, 2, 3, -4, list(range(10)), 5, 6, 7, -1))
+    theirs = peer.MAVLink(None).parse_char(frame)
+
+    ours = dialect.decode(frame, time_ns=1_500_000_000_000_000_000)
+
+    for method in ("get_type", "get_msgId", "get_srcSystem", "get_srcComponent", "get_seq", "get_fieldnames", "get_signed", "to_dict"):
+        assert getattr(ours, method)() == getattr(theirs, method)(), method
+    assert ours.get_msgbuf() == bytes(theirs.get_msgbuf()) == frame
+    for name in ("mlen", "seq", "srcSystem", "srcComponent", "msgId", "incompat_flags", "compat_flags"):
+        assert getattr(ours.get_header(), name) == getattr(theirs.get_header(), name), name
+    assert ours.fieldunits_by_name == theirs.fieldunits_by_name
+    assert ours.fieldenums_by_name == theirs.fieldenums_by_name
+    assert str(ours) == str(theirs)
+    assert (ours._timestamp, ours._link) == (1.5e9, 0)
+    assert ours.get_payload() == frame[10:10 + frame[1]]
+
+
+def test_messages_are_values(dialect):
+    message = dialect.message("ATTITUDE", roll=float("nan"))
+    for other in (copy.copy(message), copy.deepcopy(message), pickle.loads(pickle.dumps(message)), dialect.decode(message.frame)):
+        assert other == message and hash(other) == hash(message) and other.name == "ATTITUDE"
+    assert message != dialect.message("ATTITUDE", roll=1) and message != "ATTITUDE"
+    assert len({message, dialect.decode(message.frame)}) == 1
+    with pytest.raises(AttributeError):
+        message.name = "x"
+    with pytest.raises(TypeError):
+        mavloom.Message()
+    with pytest.raises(TypeError):
+        mavloom.Message.__new__(mavloom.Message).name
+
+
+def test_pickled_messages_keep_time_link_and_dialect(tmp_path):
+    (tmp_path / "mine.xml").write_text(
+        '<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message></messages></mavlink>')
+    mine = mavloom.Dialect(tmp_path / "mine.xml")
+    message = pickle.loads(pickle.dumps(mine.decode(mine.encode("MINE", a=3), time_ns=5)))
+    assert (message.a, message.time_ns, message.dialect.path) == (3, 5, str(tmp_path / "mine.xml"))
+
+
+# ---- row 13: JSON
+
+def strict(line):
+    def refuse(token):
+        raise AssertionError(f"{token} is no JSON")
+    return json.loads(line, parse_constant=refuse)
+
+
+def test_row_13_a_strict_parser_reads_every_message(dialect, peer):
+    for message_class in peer.mavlink_map.values():
+        for case in ("nan", "infinite", "tiny", "maximum"):
+            message = dialect.message(message_class.msgname, **vectors.values_of(message_class, case))
+            assert strict(message.to_json())["name"] == message_class.msgname
+
+
+# ---- chunks of a stream: rows 15 and 6
+
+@pytest.mark.parametrize("chunk", [1, 7, 300, 4096])
+def test_row_15_damage_is_counted_and_never_raised(dialect, peer, chunk):
+    sender = packer(peer)
+    frames = [sender.pack(peer.MAVLink_attitude_message(i, i, 0, 0, 0, 0, 0)) for i in range(300)]
+    stream = bytearray().join(frame + b"junk" * (i % 3) for i, frame in enumerate(frames))
+    at = stream.index(frames[100])
+    stream[at + 15] ^= 1
+
+    parser = mavloom.Parser()
+    found = [m for i in range(0, len(stream), chunk) for m in parser.feed(stream[i:i + chunk], time_ns=i)] + parser.finish()
+
+    assert [m.time_boot_ms for m in found] == [i for i in range(300) if i != 100]
+    assert (parser.frames, parser.junk_bytes) == (299, len(stream) - sum(map(len, frames)) + len(frames[100]))
+    assert parser.crc_error >= 1
+
+
+def test_an_uninitialised_object_raises():
+    with pytest.raises(TypeError):
+        next(mavloom.Recording.__new__(mavloom.Recording))

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""The Python examples of the guides: run as they are written, and taken by mypy --strict (row 25 of docs/guide/python.md)."""
+import contextlib
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+
+import pytest
+
+from places import ROOT
+from tlogs import frames_of
+
+PAGES = [ROOT / "README.md", *(ROOT / "docs" / "guide" / name for name in ("python.md", "from-pymavlink.md"))]
+
+
+def script_of(page):
+    """All blocks of a page, one behind the other."""
+    return "\n".join(re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL))
+
+
+@contextlib.contextmanager
+def vehicle_at(port, flight):
+    """Sends what a recorded vehicle sent, again and again, as fast as it is of use."""
+    frames = [frame for _, frame in frames_of(flight) if frame[5] == 1 and frame[7] in (0, 30) and frame[8:10] == b"\0\0"]
+    kinds = [next(frame for frame in frames if frame[7] == kind) for kind in (0, 30)]
+    stop = threading.Event()
+
+    def send():
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+            while not stop.wait(0.01):
+                for frame in kinds:
+                    sock.sendto(frame, ("127.0.0.1", port))
+    thread = threading.Thread(target=send)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_examples_run(page, flight, tmp_path, child_environment):
+    shutil.copy(flight, tmp_path / "flight.tlog")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    script = script_of(page).replace("14550", str(port))
+    with vehicle_at(port, flight):
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+
+
+@pytest.mark.timeout(300)
+def test_row_25_mypy_strict_takes_every_example(tmp_path, child_environment):
+    files = []
+    for page in PAGES:
+        files.append(tmp_path / f"{page.stem.replace('-', '_')}.py")
+        files[-1].write_text(script_of(page))
+    (tmp_path / "wrong.py").write_text("from mavloom import messages\ndef f(m: messages.ATTITUDE) -> int:\n    return m.roll\n")
+    (tmp_path / "mypy.ini").write_text("[mypy]\nstrict = True\n[mypy-pandas.*,pyarrow.*]\nignore_missing_imports = True\n")
+    command = [sys.executable, "-m", "mypy", "--config-file", tmp_path / "mypy.ini", "--cache-dir", tmp_path / "cache"]
+    environment = {**child_environment, "MYPYPATH": child_environment["PYTHONPATH"]}
+
+    done = subprocess.run([*command, *files], env=environment, capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    package = subprocess.run([*command, "-p", "mavloom"], env=environment, capture_output=True, text=True, cwd=tmp_path)
+    assert package.returncode == 0, package.stdout + package.stderr
+    wrong = subprocess.run([*command, "wrong.py"], env=environment, capture_output=True, text=True, cwd=tmp_path)
+    assert 'Incompatible return value type (got "float", expected "int")' in wrong.stdout
