@@ -349,6 +349,7 @@ def test_a_writer_killed_at_random_instants(tool, start, rng, ring):
 
 
 @pytest.mark.long
+@pytest.mark.timeout(600)
 def test_a_writer_killed_at_a_thousand_random_instants(tool, start, rng, ring):
     kill_rounds(tool, start, rng, ring, 1000)
 
@@ -403,6 +404,7 @@ def test_lapped_readers_are_told_by_how_many(start, ring):
 
 
 @pytest.mark.long
+@pytest.mark.timeout(4000)
 def test_lapped_readers_over_a_thousand_million_records(start, ring):
     writer = start("write", ring, "0", "evict")
     writer.wait_output("ready")
@@ -436,6 +438,7 @@ def test_readers_come_and_go(run, start, rng, ring):
 
 
 @pytest.mark.long
+@pytest.mark.timeout(600)
 def test_64_readers_come_and_go(run, start, rng, ring):
     come_and_go(run, start, rng, ring, 400, 64)
 

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -52,7 +53,17 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // The same, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
+    // Of a lossless reader (else `empty`): as many records as there are, up to `out.size()` and about an eighth of the ring, in place and all in view until
+    // the next call. How many; `empty` when there are none.
+    [[nodiscard]] ReadResult<std::size_t> try_read_batch(std::span<RingRecord> out) noexcept {
+        using Found = detail::Consumer<SharedWords>::Found;
+        if (forked()) return tl::unexpected(ReadError::forked);
+        std::size_t count = 0;
+        const Found found = consumer_.lossless() ? consumer_.next_batch(out, count) : Found::empty;
+        if (found == Found::record) return count;
+        return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
+    }
+    // The next record, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
     // Ends the view of the last record now, and tells the writer.
     void release() noexcept;

@@ -196,6 +196,46 @@ TEST(Ring, AViewOfALosslessReaderStays) {
     EXPECT_EQ(writer.write(bytes_of("8 bytes."), {}).error(), WriteError::full);
 }
 
+TEST(Ring, ABatchStaysInViewUntilTheNextCall) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::drop_newest);
+    auto reader = open_reader(name, lossless);
+    std::vector<RingRecord> batch(5);
+    EXPECT_EQ(reader.try_read_batch(batch).error(), ReadError::empty);
+    write_many(writer, 63);
+    ASSERT_EQ(reader.try_read_batch(batch), 5u);
+    EXPECT_FALSE(writer.write(bytes_of(std::string(1100, 'x')), {}));
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+        EXPECT_EQ(std::stoul(text_of(batch[i])), i);
+        EXPECT_EQ(batch[i].sequence, i);
+    }
+    std::vector<RingRecord> large(100);
+    ASSERT_EQ(reader.try_read_batch(large), 8u) << "of 1,024 bytes each: an eighth of the ring";
+    EXPECT_EQ(std::stoul(text_of(large[0])), 5u);
+    EXPECT_TRUE(writer.write(bytes_of(std::string(1100, 'x')), {})) << "the first five are released";
+    EXPECT_EQ(std::stoul(text_of(large[7])), 12u);
+    EXPECT_EQ(std::stoul(text_of(*reader.try_read())), 13u);
+    std::size_t rest = 0;
+    for (auto more = reader.try_read_batch(large); more; more = reader.try_read_batch(large)) rest += *more;
+    EXPECT_EQ(rest, 50u) << "of 64";
+    EXPECT_EQ(open_reader(name).try_read_batch(large).error(), ReadError::empty);
+}
+
+TEST(Ring, ABatchThatIsEvictedIsNotHeldAnyLonger) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    auto reader = open_reader(name, lossless);
+    write_many(writer, 5);
+    std::vector<RingRecord> batch(100);
+    ASSERT_EQ(reader.try_read_batch(batch), 5u);
+    EXPECT_TRUE(reader.holds());
+    write_many(writer, 200, 5);
+    EXPECT_FALSE(reader.holds());
+    ASSERT_TRUE(reader.try_read_batch(batch));
+    EXPECT_EQ(batch[0].sequence, 5 + batch[0].missed);
+    EXPECT_EQ(std::stoul(text_of(batch[0])), batch[0].sequence);
+}
+
 TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);
