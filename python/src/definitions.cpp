@@ -96,11 +96,17 @@ void bind_infos(nb::module_& module) {
 
 // ---- class Dialect
 
+std::uint32_t id_of(const nb::object& id) {
+    const auto value = PyLong_AsUnsignedLongMask(id.ptr());
+    if (PyErr_Occurred() != nullptr) throw nb::python_error();
+    return static_cast<std::uint32_t>(value);
+}
+
 MessageInfo find(const PyDialect& dialect, const nb::object& name_or_id) {
     const auto& definitions = dialect.definitions->dialect();
     if (PyUnicode_Check(name_or_id.ptr()))
         return {dialect.definitions, value_or_raise(definitions.message(nb::cast<std::string>(name_or_id)))};
-    const auto id = nb::cast<std::uint32_t>(name_or_id);
+    const auto id = id_of(name_or_id);
     if (const auto* found = definitions.find(MessageId{id})) return {dialect.definitions, found};
     raise_usage(fmt::format("no message has id {}", id));
 }
@@ -108,7 +114,7 @@ MessageInfo find(const PyDialect& dialect, const nb::object& name_or_id) {
 bool contains(const PyDialect& dialect, const nb::object& name_or_id) {
     const auto& definitions = dialect.definitions->dialect();
     if (PyUnicode_Check(name_or_id.ptr())) return definitions.find(nb::cast<std::string>(name_or_id)) != nullptr;
-    return definitions.find(MessageId{nb::cast<std::uint32_t>(name_or_id)}) != nullptr;
+    return definitions.find(MessageId{id_of(name_or_id)}) != nullptr;
 }
 
 nb::list message_names(const PyDialect& dialect) {
@@ -218,7 +224,11 @@ std::shared_ptr<const Definitions> Definitions::load(const std::string& path) {
 
 std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect) {
     if (dialect.is_none()) return Definitions::builtin();
-    return nb::cast<const PyDialect&>(dialect).definitions;
+    if (!nb::isinstance<PyDialect>(dialect)) {
+        PyErr_Format(PyExc_TypeError, "dialect= takes a mavloom.Dialect, not %R", dialect.ptr());
+        throw nb::python_error();
+    }
+    return nb::inst_ptr<PyDialect>(dialect)->definitions;
 }
 
 void bind_dialect(nb::module_& module) {

@@ -21,14 +21,20 @@ namespace {
 
 using OptionalByte = std::optional<std::uint8_t>;
 
+constexpr auto for_ever = Nanoseconds{std::chrono::hours{24 * 365}};
+
+// Seconds as users give them; 0 for less, `for_ever` at most.
+Nanoseconds duration_of(const char* what, const nb::object& given) {
+    const double seconds = PyFloat_AsDouble(given.ptr());
+    if (PyErr_Occurred() != nullptr) throw nb::python_error();
+    if (std::isnan(seconds)) raise_usage(fmt::format("{}: NaN is no time", what));
+    if (seconds >= std::chrono::duration<double>(for_ever).count()) return for_ever;
+    return std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
+}
+
 // When a wait ends: None waits for ever.
 MonoTime deadline_after(const nb::object& timeout) {
-    if (timeout.is_none()) return MonoTime::max();
-    const auto seconds = nb::cast<double>(timeout);
-    constexpr double for_ever = 1e9;
-    if (std::isnan(seconds)) raise_usage("timeout: NaN is no time");
-    if (seconds >= for_ever) return MonoTime::max();
-    return mono_now() + std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
+    return timeout.is_none() ? MonoTime::max() : mono_now() + duration_of("timeout", timeout);
 }
 
 // Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.
@@ -234,10 +240,7 @@ public:
                       std::optional<std::int64_t> instance, const nb::object& max_age) {
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
-        auto not_before = MonoTime::min();
-        if (!max_age.is_none())
-            not_before = mono_now() - std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(
-                                          std::clamp(nb::cast<double>(max_age), 0.0, 1e9)));
+        const auto not_before = max_age.is_none() ? MonoTime::min() : mono_now() - duration_of("max_age", max_age);
         const auto found = channel_->latest(filter, instance, not_before);
         if (!found) return nb::none();
         const auto frame = wire::FrameView::unchecked(found->bytes);

@@ -139,6 +139,11 @@ def test_row_1_a_time_out_gives_none(link):
     assert link.recv_match(type="ATTITUDE", blocking=True, timeout=0.05) is None
     with pytest.raises(ValueError):
         link.recv(timeout=float("nan"))
+    with pytest.raises(TypeError):
+        link.recv(timeout="1")
+    with pytest.raises(ValueError):
+        link.latest("ATTITUDE", max_age=float("nan"))
+    assert link.latest("ATTITUDE", max_age=float("inf")) is None
 
 
 def test_row_1_the_deadline_holds_while_others_arrive(link, vehicle):

@@ -305,6 +305,13 @@ def test_row_15_damage_is_counted_and_never_raised(dialect, peer, chunk):
     assert parser.crc_error >= 1
 
 
+def test_arguments_of_another_type_are_type_errors(dialect):
+    for call in (lambda: mavloom.Parser("mine.xml"), lambda: mavloom.Parser(5), lambda: dialect[3.5], lambda: dialect.encode(5), lambda: dialect.decode("text"),
+                 lambda: dialect.encode("ATTITUDE", source_system="x"), lambda: mavloom.Dialect(5), lambda: mavloom.read(5)):
+        with pytest.raises(TypeError):
+            call()
+
+
 def test_an_uninitialised_object_raises():
     with pytest.raises(TypeError):
         next(mavloom.Recording.__new__(mavloom.Recording))
