@@ -73,24 +73,31 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
 
 // ---- endpoints -------------------------------------------------------------------------------------------------------
 
-// The keys that its files hold now; nothing for one that cannot be read.
-static std::vector<std::optional<wire::SigningKey>> keys_of(const Endpoint& endpoint) {
-    std::vector<std::optional<wire::SigningKey>> keys;
-    for (const auto* file : {&endpoint.options.sign_key_file, &endpoint.options.verify_key_file}) {
-        const auto key = wire::SigningKey::load(*file);
-        keys.push_back(key ? std::optional(*key) : std::nullopt);
+// What the files of `sign` and `verify` hold now; nothing for one that cannot be read.
+static auto keys_of(const Endpoint& endpoint) {
+    std::array<std::optional<wire::SigningKey>, 2> keys;
+    const std::array files{&endpoint.options.sign_key_file, &endpoint.options.verify_key_file};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (files[i]->empty()) continue;
+        if (const auto key = wire::SigningKey::load(*files[i])) keys[i] = *key;
     }
     return keys;
+}
+
+bool Router::OpenedEndpoint::has_other_keys() const {
+    const auto now = keys_of(endpoint);
+    return (now[0] && now[0] != keys[0]) || (now[1] && now[1] != keys[1]);
 }
 
 SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (endpoint.scheme == Scheme::tlog) return add_recording(endpoint);
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
+    auto keys = keys_of(endpoint);  // before they are used: at worst a later reload finds others
     const auto id = links_->add(endpoint);
     if (!id) return tl::unexpected(id.error());
     endpoints_.push_back(
-        std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy), keys_of(endpoint)}));
+        std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy), std::move(keys)}));
     endpoints_.back()->verifies = !endpoint.options.verify_key_file.empty();
     any_signs_ = any_signs_ || !endpoint.options.sign_key_file.empty();
     if (by_id_.size() <= id->value) by_id_.resize(id->value + 1);
@@ -191,7 +198,7 @@ void Router::become(const std::vector<Endpoint>& endpoints) {
     std::vector<Endpoint> gone;
     const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
     for (const auto& e : endpoints_)
-        if (!stays(e->endpoint) || keys_of(e->endpoint) != e->keys) gone.push_back(e->endpoint);
+        if (!stays(e->endpoint) || e->has_other_keys()) gone.push_back(e->endpoint);
     for (const auto& e : recordings_)
         if (!stays(e)) gone.push_back(e);
     for (const auto& endpoint : gone) {

@@ -12,8 +12,8 @@ namespace mavloom::runtime {
 static constexpr std::chrono::milliseconds pipe_look{5};
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
-// A drain ends after some turns without a frame, for one full of junk has none either, and the system may still be handing over what was sent;
-// and where frames keep coming, after more turns than empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn.
+// A drain ends after some turns without a frame, for one full of junk has none either; and where frames keep coming, after more turns than empty a
+// receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
 static constexpr int last_empty_turns = 16, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
 
@@ -156,7 +156,8 @@ std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t m
 void Sources::drain(LinkHandler& handler, const std::function<void()>& after_turn) {
     int empty_turns = 0;
     for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns; ++turns) {
-        empty_turns = turn(handler, mono_now() + empty_turn, 0) == 0 ? empty_turns + 1 : 0;
+        const MonoTime until = turns < last_empty_turns ? mono_now() + empty_turn : MonoTime{};
+        empty_turns = turn(handler, until, 0) == 0 ? empty_turns + 1 : 0;
         after_turn();
     }
 }

@@ -82,16 +82,18 @@ static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& fil
     std::array<char, 1024> text;
     const ssize_t size = ::read(fd, text.data(), text.size());
     if (size < 0) return cannot_open(file, errno);
+    const bool whole = static_cast<std::size_t>(size) < text.size();
     const auto key = parse_hex({text.data(), static_cast<std::size_t>(size)});
     sodium_memzero(text.data(), text.size());
-    if (!key)
+    if (!key || !whole)
         return setup_error(SetupCode::bad_input,
                            fmt::format("{}: expected 64 hexadecimal digits, a key of 32 bytes", file.string()));
     return SigningKey(*key);
 }
 
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
-    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for the writer of a pipe
+    const int fd = ::open(file.c_str(),
+                          O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);  // does not wait for the writer of a pipe
     if (fd < 0) return cannot_open(file, errno);
     auto key = read_key(fd, file);
     ::close(fd);

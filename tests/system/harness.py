@@ -161,7 +161,8 @@ class Running:
         if self.alive:
             self.process.kill()
         self.process.wait()
-        self._join()
+        for reader in self._readers:
+            reader.join(timeout=5)
         for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
             if pipe:
                 pipe.close()

@@ -526,16 +526,29 @@ def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable):
     assert sut.router.process.stderr.count("air: added") == 1
 
 
-@pytest.mark.parametrize("make", [lambda path: None, lambda path: os.mkfifo(path, 0o600), lambda path: path.touch(0o644)],
+@pytest.mark.parametrize("make, said", [(lambda path: None, "No such file"), (lambda path: os.mkfifo(path, 0o600), "is no regular file"),
+                                        (lambda path: (path.touch(), path.chmod(0o644)), "can be read by others")],
                          ids=["missing", "fifo", "readable"])
-def test_reload_with_a_bad_key_changes_nothing(reloadable, tmp_path, make):
+def test_reload_with_a_bad_key_changes_nothing(reloadable, tmp_path, make, said):
     sut = reloadable()
     key = tmp_path / "bad.key"
     make(key)
     sut.write(air=f"verify={key}")
     sut.reload(says="nothing was changed")
 
-    assert re.search(rf"router.toml:2: verify: .*{key}", sut.router.process.stderr)
+    assert re.search(rf"router.toml:2: verify: .*{key}.*{said}", sut.router.process.stderr)
+    sut.passes()
+
+
+def test_an_endpoint_of_the_command_line_stays_although_its_key_went(reloadable, tmp_path):
+    key = tmp_path / "air.key"
+    key.write_text("11" * 32)
+    key.chmod(0o600)
+    sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=signed&verify={key}"])
+    key.unlink()
+    sut.reload()
+
+    assert "signed" in [e["endpoint"] for e in sut.router.stats("endpoint")]
     sut.passes()
 
 

@@ -6,6 +6,7 @@
 // Explainer is set. DESIGN.md sections 3 and 4, docs/guide/route.md.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <deque>
 #include <functional>
@@ -85,9 +86,12 @@ private:
         EndpointId id;
         Endpoint endpoint;
         route::LinkPolicy policy;
-        std::vector<std::optional<wire::SigningKey>> keys;  // of its files, as they were then
+        std::array<std::optional<wire::SigningKey>, 2> keys{};  // of its files, as they were then
         bool verifies = false;
         std::size_t may_tell = most_told, not_told = 0;  // lines about its links
+
+        // One that cannot be read now counts as the same.
+        [[nodiscard]] bool has_other_keys() const;
     };
     struct HeartbeatLink {
         LinkId link;
