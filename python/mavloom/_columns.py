@@ -2,6 +2,7 @@
 """One message of a recording as numpy arrays."""
 from __future__ import annotations
 
+import functools
 import os
 from typing import TYPE_CHECKING, Any, Iterator
 
@@ -27,16 +28,23 @@ class Columns:
     """
 
     name: str
-    units: dict[str, str]  # {field: "rad/s"} where there is one
-    enums: dict[str, str]  # {field: "MAV_TYPE"} where there is one
-    junk_bytes: int  # that belong to no record: damaged, or cut at the end
+    junk_bytes: int  # of the file that belong to no record: damaged, or cut at the end
 
     def __init__(self, info: MessageInfo, arrays: dict[str, Array], junk_bytes: int) -> None:
         self.name = info.name
-        self.units = {field.name: field.units for field in info.fields if field.units}
-        self.enums = {field.name: field.enum for field in info.fields if field.enum}
         self.junk_bytes = junk_bytes
+        self._info = info
         self._arrays = arrays
+
+    @functools.cached_property
+    def units(self) -> dict[str, str]:
+        """{field: "rad/s"} where there is one."""
+        return {field.name: field.units for field in self._info.fields if field.units}
+
+    @functools.cached_property
+    def enums(self) -> dict[str, str]:
+        """{field: "MAV_TYPE"} where there is one."""
+        return {field.name: field.enum for field in self._info.fields if field.enum}
 
     def __getitem__(self, column: str) -> Array:
         """Raises KeyError for a column that the message does not have."""
@@ -129,7 +137,4 @@ def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, sy
 
 def _made(info: MessageInfo, parts: tuple[Array, Array, Array, dict[str, Array]], junk_bytes: int) -> Columns:
     time_ns, systems, components, fields = parts
-    for field in info.fields:
-        if field.type == "char":
-            fields[field.name] = fields[field.name].view(f"S{max(field.array_length, 1)}").reshape(-1)
     return Columns(info, {"time_ns": time_ns, "sys": systems, "comp": components, **fields}, junk_bytes)

@@ -51,7 +51,10 @@ void Channel::on_frame(const runtime::RxFrame& rx, MonoTime now) {
 void Channel::remember(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now) {
     auto found = latest_.find(key);
     if (found == latest_.end()) {
-        if (latest_.size() == most_latest) return;
+        if (latest_.size() == most_latest) {
+            ++not_kept_;
+            return;
+        }
         found = latest_.emplace(key, Latest{}).first;
     }
     auto& kept = found->second;
@@ -107,6 +110,11 @@ std::optional<Channel::Latest> Channel::latest(const Filter& filter, std::option
         if (filter.takes(wire::FrameView::unchecked(kept.bytes))) newest = &kept;
     }
     return newest == nullptr ? std::nullopt : std::optional(*newest);
+}
+
+std::uint64_t Channel::not_kept() const {
+    const std::lock_guard lock(mutex_);
+    return not_kept_;
 }
 
 Source Channel::target() const {

@@ -43,6 +43,8 @@ public:
                                                MonoTime not_before) const;
     // Source of the first heartbeat of a vehicle; zeros before it.
     [[nodiscard]] Source target() const;
+    // Frames that `latest` does not know: its table was full.
+    [[nodiscard]] std::uint64_t not_kept() const;
 
     // ---- loop thread
     void on_frame(const runtime::RxFrame& rx, MonoTime now);
@@ -77,7 +79,7 @@ private:
     // All of these are guarded by mutex_.
     FrameRing ring_;
     std::map<Key, Latest> latest_;
-    std::uint64_t frames_ = 0;
+    std::uint64_t frames_ = 0, not_kept_ = 0;
     Source target_;
     std::vector<Consumer*> consumers_;
     bool news_ = false;

@@ -97,12 +97,11 @@ SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect
     return read_records(
         reader, most_records, [&] { return reader.next(most_damage); },
         [&](const record::Record& record) {
-            const auto* message = record.info == nullptr ? nullptr : dialect.find(record.frame.id());
-            if (message == nullptr || !is_wanted(record.frame, query, nullptr)) return;
-            const auto place = static_cast<std::size_t>(message - dialect.messages().data());
+            if (record.info == nullptr || !is_wanted(record.frame, query, nullptr)) return;
+            const auto place = static_cast<std::size_t>(record.info - dialect.wire_table().messages().data());
             if (!tables.wanted[place]) return;
             auto& rows = tables.rows[place];
-            if (!rows) rows = std::make_unique<Rows>(*message);
+            if (!rows) rows = std::make_unique<Rows>(*dialect.find(record.frame.id()));
             rows->add(record.time.time_since_epoch().count(), record.frame);
         });
 }

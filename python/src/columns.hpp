@@ -57,7 +57,7 @@ struct Columns {
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
                                           std::size_t most_records);
 
-// The rows of many messages at once, by the message's place in the dialect; null for those that are not wanted or did not occur.
+// The rows of many messages at once, by the message's place in the dialect's wire table; null for those that are not wanted or did not occur.
 struct Tables {
     std::vector<bool> wanted;
     std::vector<std::unique_ptr<Rows>> rows;

@@ -32,10 +32,12 @@ nb::object array_of(Columns::Values values, std::size_t rows, std::size_t count)
     return nb::cast(nb::ndarray<nb::numpy, T>(data, {rows, count}, owner));
 }
 
-// char[] as bytes: the package makes fixed-length strings of them.
+// Text of fixed length becomes numpy's type for it.
 nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Field& field) {
-    return message::visit_type(
+    const nb::object array = message::visit_type(
         field.type, [&](auto tag) { return array_of<decltype(tag)>(std::move(values), rows, field.array_length); });
+    if (field.type != dialect::FieldType::char8) return array;
+    return array.attr("view")(fmt::format("S{}", field.count())).attr("reshape")(-1);
 }
 
 const dialect::Message& message_of(const dialect::Dialect& dialect, const std::string& name, bool with_instance) {
@@ -92,24 +94,24 @@ nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::
 nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::optional<std::uint8_t> system,
                          std::optional<std::uint8_t> component, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
-    const auto messages = definitions->dialect().messages();
-    const auto filter = make_filter(definitions->dialect(), type, system, component);
-    Tables tables{std::vector<bool>(messages.size()), {}};
-    tables.rows.resize(messages.size());
-    for (std::size_t i = 0; i < messages.size(); ++i) {
-        tables.wanted[i] = !filter.ids || std::ranges::find(*filter.ids, messages[i].id()) != filter.ids->end();
-        if (filter.ids && tables.wanted[i])
-            tables.rows[i] = std::make_unique<Rows>(messages[i]);  // given by name: also without rows
+    const auto& known = definitions->dialect();
+    const auto infos = known.wire_table().messages();
+    const auto filter = make_filter(known, type, system, component);
+    Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Rows>>(infos.size())};
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        const bool named = filter.ids && std::ranges::find(*filter.ids, infos[i].id) != filter.ids->end();
+        tables.wanted[i] = !filter.ids || named;
+        if (named) tables.rows[i] = std::make_unique<Rows>(*known.find(infos[i].id));  // also where none occurs
     }
-    auto reader = open(path, definitions->dialect());
+    auto reader = open(path, known);
     read_all([&] {
-        return read_tables(reader, definitions->dialect(), {nullptr, system, component, {}}, tables,
-                           records_between_signals);
+        return read_tables(reader, known, {nullptr, system, component, {}}, tables, records_between_signals);
     });
     nb::dict made;
-    for (std::size_t i = 0; i < messages.size(); ++i) {
+    for (std::size_t i = 0; i < infos.size(); ++i) {
         if (!tables.rows[i]) continue;
-        made[definitions->names(messages[i]).message] = arrays_of(*definitions, messages[i], *tables.rows[i]);
+        const auto& message = *known.find(infos[i].id);
+        made[definitions->names(message).message] = arrays_of(*definitions, message, *tables.rows[i]);
         tables.rows[i].reset();  // the arrays have it
     }
     return nb::make_tuple(made, reader.counters().lost_bytes.value());

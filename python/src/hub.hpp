@@ -22,7 +22,7 @@ namespace mavloom::python {
 struct LinkStats {
     runtime::LinkCounters links;
     runtime::EndpointCounters endpoint;
-    std::uint64_t missed = 0, no_peer = 0, peers = 0;
+    std::uint64_t missed = 0, not_kept = 0, no_peer = 0, peers = 0;
 };
 
 class Hub : private runtime::LinkHandler {

@@ -260,6 +260,7 @@ public:
         const std::lock_guard lock(mutex_);
         auto stats = hub_ ? hub_->stats(opened_.endpoint) : last_;
         stats.no_peer = no_peer_;
+        stats.not_kept = channel_->not_kept();
         stats.missed = nb::inst_ptr<Subscription>(reader_)->missed();
         return stats;
     }
@@ -317,6 +318,8 @@ void bind_stats(nb::module_& module) {
         .def_prop_ro("bytes_out", of_links<&L::bytes_out>())
         .def_ro("missed", &LinkStats::missed,
                 "Frames that the link's own reader was too slow for: overwritten in the buffer.")
+        .def_ro("not_kept", &LinkStats::not_kept,
+                "Messages that `latest` does not know: it keeps 16,384 of different source, id and instance.")
         .def_ro("no_peer", &LinkStats::no_peer, "Messages that `send` had nobody for.")
         .def_prop_ro("lost", of_links<&L::lost>(),
                      "Lost on the way here, by sequence numbers; late and doubled frames are no loss.")

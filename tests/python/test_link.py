@@ -467,12 +467,17 @@ def test_row_6_other_threads_run_while_one_waits(link, vehicle):
     assert found[0].name == "HEARTBEAT"
 
 
-def test_row_7_the_table_of_newest_values_has_a_bound(link, vehicle, peer):
-    names = 300
-    for i in range(names):
-        vehicle.send(peer.MAVLink_named_value_float_message(i, f"n{i}".encode(), i))
-    until(lambda: link.stats.frames_in == names)
-    assert link.latest("NAMED_VALUE_FLOAT").value == names - 1
+def test_row_7_the_table_of_newest_values_has_a_limit_and_a_counter(link):
+    kept, sources = 16_384, 16_500
+    dialect = mavloom.Dialect()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        for i in range(sources):
+            sock.sendto(dialect.encode("HEARTBEAT", custom_mode=i, source_system=1 + i // 250, source_component=1 + i % 250), ("127.0.0.1", link.port))
+            if i % 100 == 99:
+                until(lambda: link.stats.frames_in + link.stats.kernel_drop >= i + 1)
+    assert link.stats.kernel_drop + link.stats.not_kept == sources - kept
+    assert link.latest("HEARTBEAT", system=1, component=1).custom_mode == 0
+    assert link.latest("HEARTBEAT", system=1 + (sources - 1) // 250, component=1 + (sources - 1) % 250) is None
 
 
 def test_row_27_descriptors_are_given_back(peer):

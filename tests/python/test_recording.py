@@ -135,7 +135,7 @@ def test_row_11_another_dialect(tmp_path, peer):
     assert log.stats.unknown_ids == 5
 
 
-def test_times_are_the_recorded_ones(tmp_path):
+def test_row_24_times_are_the_recorded_ones(tmp_path):
     path = write(tmp_path / "x.tlog", [mavloom.Dialect().encode("HEARTBEAT")] * 3)
     assert [m.time_ns for m in mavloom.read(path)] == [(FIRST_TIME_US + 1000 * i) * 1000 for i in range(3)]
     message = mavloom.read(path).recv()
