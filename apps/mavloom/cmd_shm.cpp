@@ -315,7 +315,7 @@ public:
             if (!record && idle(record.error())) record = follower_.read(std::min(end_, mono_now() + look_at_signals));
             if (record) take(*record);
             else if (record.error() == shm::ReadError::damaged) return finish(Exit::bad_input);
-            else if (mono_now() >= end_) going_ = false;
+            if (mono_now() >= end_) going_ = false;
         }
         return finish(Exit::done);
     }
@@ -325,7 +325,7 @@ private:
     bool idle(shm::ReadError why) {
         if (output_.flush() != Output::State::open || why == shm::ReadError::damaged) return going_ = false;
         if (why != shm::ReadError::no_writer) return true;
-        if (options_.drain && follower_.is_open()) return going_ = false;
+        if (options_.drain && follower_.opened() != 0) return going_ = false;
         const auto* const error = follower_.error();
         if (error != nullptr && error->code != SetupCode::not_found) return going_ = false;
         if (error != nullptr && !std::exchange(told_, true)) say(common_, error->text + "; waiting for it");

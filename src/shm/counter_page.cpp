@@ -204,9 +204,11 @@ Counter* CounterPage::add(std::string_view label, CounterType type, std::optiona
 }
 
 void CounterPage::remove(Counter* counter) noexcept {
+    if (counter == nullptr) return;
     CounterSlot* const slots = counters_in(*segment_);
     const auto distance = reinterpret_cast<std::uint8_t*>(counter) - reinterpret_cast<std::uint8_t*>(slots);
     const auto index = static_cast<std::uint32_t>(static_cast<std::size_t>(distance) / sizeof(CounterSlot));
+    if (slots[index].type.load(std::memory_order_relaxed) == 0) return;  // removed already
     change(slots[index], [](CounterSlot& slot) { slot.type.store(0, std::memory_order_release); });
     free_counters_.push_back(index);
 }

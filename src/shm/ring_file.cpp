@@ -64,6 +64,14 @@ SetupResult<void> check_options(const RingOptions& options) {
     return {};
 }
 
+// Who owns the file can shorten it, which ends whoever writes to it.
+SetupResult<void> check_owner(const Segment& segment) {
+    const auto owner = segment.status().owner;
+    if (owner == 0 || owner == ::geteuid()) return {};
+    return setup_error(SetupCode::permission, fmt::format("{} belongs to {}; remove it or choose another name",
+                                                          segment.path(), user_name(owner)));
+}
+
 SetupResult<Segment> create_ring(const std::string& path, const RingOptions& options) {
     Identity identity;
     identity.capacity = options.capacity;
@@ -116,6 +124,7 @@ SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& op
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         auto present = open_ring(name, Segment::Access::read_write);
         if (present) {
+            if (auto trusted = check_owner(*present); !trusted) return tl::unexpected(std::move(trusted.error()));
             if (!present->try_lock(writer_byte)) {
                 if (!present->is_named()) continue;
                 return has_writer(name, *present);
@@ -123,9 +132,9 @@ SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& op
             if (!present->is_named()) continue;
             const bool retired = memory_of(*present).control->retired.load(std::memory_order_acquire) != 0;
             if (!retired && memory_of(*present).capacity == options.capacity) return present;
-            // The lock is ours: nobody else replaces it.
-            retire(*present);
+            // The lock is ours: nobody else replaces it. Retired last: who is woken must not find it by its name again.
             if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
+            retire(*present);
         } else if (present.error().code != SetupCode::not_found) {
             return present;
         }

@@ -22,7 +22,7 @@ inline constexpr std::size_t writer_byte = 0;  // whose lock the writer holds; s
 // The ring to write to, its writer lock held: the one that is there, or a new one.
 [[nodiscard]] SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options);
 
-// Marks it and wakes all who sleep there: who reads it drains it and opens its name again.
+// Marks it and wakes all who sleep there: who reads it drains it and opens its name again, which must not lead here any longer.
 void retire(const Segment& segment) noexcept;
 
 [[nodiscard]] WallTime unix_time() noexcept;

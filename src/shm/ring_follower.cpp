@@ -35,8 +35,8 @@ ReadResult<RingRecord> RingFollower::read(MonoTime deadline) {
         if (try_open()) {
             auto record = reader_->read(deadline);
             if (record || record.error() == ReadError::empty || record.error() == ReadError::forked) return record;
-            // Another ring may stand there now, or soon.
-            if (reader_->is_retired() || !reader_->is_named()) {
+            // Another ring may stand there now, or soon. A retired one that still bears the name is kept, or it would be read again.
+            if (!reader_->is_named()) {
                 drop();
                 continue;
             }

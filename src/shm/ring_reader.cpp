@@ -16,7 +16,7 @@ namespace mavloom::shm {
 
 static constexpr Nanoseconds look_at_writer = std::chrono::milliseconds(100);
 static constexpr Nanoseconds poll_distance = std::chrono::milliseconds(1);
-static constexpr int spins_per_look = 256;
+static constexpr unsigned spins_per_look = 256;
 
 static void relax() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
@@ -103,8 +103,14 @@ std::optional<unsigned> RingReader::take_slot() noexcept {
 }
 
 ReadResult<RingRecord> RingReader::read(MonoTime deadline) noexcept {
+    auto record = wait(deadline);
+    if (!forked()) consumer_.awake();
+    return record;
+}
+
+ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
     MonoTime waiting_since{};
-    for (int spins = 0;; ++spins) {
+    for (unsigned spins = 0;; ++spins) {
         auto record = try_read();
         if (record || record.error() != ReadError::empty) return record;
         if (options_.spin && spins % spins_per_look != 0) {

@@ -159,9 +159,10 @@ void RingWriter::end() noexcept {
 SetupResult<void> RingWriter::close(Leave leave) {
     SetupResult<void> removed;
     if (leave == Leave::nothing && segment_ && !segment_->forked()) {
-        retire(*segment_);
+        const bool named = segment_->is_named();  // else the counter page is of whoever has the name now
         removed = segment_->unlink();
-        if (removed) removed = remove_counter_page(name_);
+        if (removed) retire(*segment_);
+        if (removed && named) removed = remove_counter_page(name_);
     }
     end();
     return removed;

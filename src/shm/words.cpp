@@ -5,17 +5,18 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <ctime>
 #include <limits>
 
 namespace mavloom::shm {
 
 // Shared futexes: the word is known by its file, whatever the address it is mapped at. Works on read-only mappings too.
-void SharedWords::sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept {
-    if (longest <= Nanoseconds{}) return;
+bool SharedWords::sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept {
+    if (longest <= Nanoseconds{}) return true;
     const auto whole = std::chrono::floor<std::chrono::seconds>(longest);
     const timespec limit{static_cast<time_t>(whole.count()), static_cast<long>((longest - whole).count())};
-    ::syscall(SYS_futex, &word, FUTEX_WAIT, expected, &limit, nullptr, 0);
+    return ::syscall(SYS_futex, &word, FUTEX_WAIT, expected, &limit, nullptr, 0) != 0 && errno == ETIMEDOUT;
 }
 
 void SharedWords::wake(Word32& word) noexcept {

@@ -188,6 +188,16 @@ public:
         actors_[current_].asleep_on = word;
         fibers_[current_].leave(scheduler_, false);
     }
+    // Until `wake` of the same word, or for a while: true. By then every store is out of its buffer.
+    bool nap(const void* word) {
+        actors_[current_].naps = true;
+        sleep(word);
+        const bool over = std::exchange(actors_[current_].naps, false) && actors_[current_].asleep_on != nullptr;
+        actors_[current_].asleep_on = nullptr;
+        if (over)
+            for (Actor& actor : actors_) flush(actor);
+        return over;
+    }
     void wake(const void* word) {
         for (Actor& actor : actors_)
             if (actor.asleep_on == word) actor.asleep_on = nullptr;
@@ -216,7 +226,8 @@ private:
         int steps = 0;
         bool done = false;
         const void* asleep_on = nullptr;
-        [[nodiscard]] bool runnable() const { return !done && asleep_on == nullptr; }
+        bool naps = false;
+        [[nodiscard]] bool runnable() const { return !done && (asleep_on == nullptr || naps); }
     };
     struct Choice {
         int taken, of;

@@ -163,6 +163,25 @@ def test_a_reader_goes_on_when_the_ring_is_removed_and_comes_back(run, spawn, ri
 
 
 @short
+def test_a_time_ends_while_there_are_records(run, ring):
+    assert run("shm", "write", ring, "--capacity", "8M", input="x\n" * 200_000).status == 0
+    done = run("shm", "read", ring, "--data", "--from", "oldest", "--for", "1ms")
+    assert done.status == 0 and len(done.lines) < 200_000
+
+
+@short
+def test_a_drain_ends_when_the_ring_is_removed(run, spawn, ring):
+    writer = spawn("shm", "write", ring, "--capacity", "64k", stdin=subprocess.PIPE)
+    writer.process.stdin.write(b"one\n")
+    writer.process.stdin.flush()
+    harness.wait_for(lambda: path_of(ring).exists() and stat_of(run, ring)["records"] == 1, what="the record")
+    reader = spawn("shm", "read", ring, "--data", "--from", "oldest", "--drain")
+    reader.wait_output("^one$", stream="out")
+    assert run("shm", "remove", "--force", ring).status == 0
+    assert reader.wait().status == 0
+
+
+@short
 def test_a_lapped_reader_ends_with_status_4(run, start, spawn, ring):
     writer = start("write", ring, "0", "evict")
     writer.wait_output("ready")
@@ -177,7 +196,7 @@ def test_a_lapped_reader_ends_with_status_4(run, start, spawn, ring):
 @short
 def test_remove_spares_a_ring_in_use_unless_forced(run, spawn, ring):
     writer = spawn("shm", "write", ring, "--capacity", "64k", stdin=subprocess.PIPE)
-    harness.wait_for(path_of(ring).exists, what="the ring")
+    harness.wait_for(lambda: path_of(ring).exists() and stat_of(run, ring)["writer_pid"] == writer.pid, what="the writer")
     done = run("shm", "remove", ring)
     assert done.status == 1 and f"ring {ring} is in use, written by process {writer.pid}; --force removes it all the same" in done.stderr
     assert run("shm", "remove", "--force", ring).status == 0

@@ -47,7 +47,7 @@ public:
     // A new word, 0, valid until it is removed or the page goes; null when the page is full.
     [[nodiscard]] Counter* add(std::string_view label, CounterType type = CounterType::counter,
                                std::optional<LinkId> link = {}) noexcept;
-    // Its word may then stand for another.
+    // Its word may then stand for another. Null, or what is removed already: nothing happens.
     void remove(Counter* counter) noexcept;
 
     // False when the page is full. A link that is there already gets the new name.

@@ -68,7 +68,8 @@ public:
     // Ends the view of the last record now, and tells the writer.
     void release() noexcept;
 
-    // Whether the record in view is still protected: false once a writer that evicts took the hold away.
+    // Whether what was read of the view is what was written: false once a writer that evicts took the hold away. Copy (or use), then ask: the answer is
+    // about what was read before the call, and a read-modify-write of a shared word.
     [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
     [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
     [[nodiscard]] bool writer_alive() const noexcept;
@@ -87,6 +88,7 @@ private:
     [[nodiscard]] bool forked() const noexcept { return forked_->load(std::memory_order_relaxed); }
     [[nodiscard]] SetupResult<void> begin();
     [[nodiscard]] std::optional<unsigned> take_slot() noexcept;
+    [[nodiscard]] ReadResult<RingRecord> wait(MonoTime deadline) noexcept;
     [[nodiscard]] std::optional<ReadError> why_nothing_comes(MonoTime now) noexcept;
     [[nodiscard]] Nanoseconds nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept;
     void end() noexcept;

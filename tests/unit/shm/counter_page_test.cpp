@@ -35,6 +35,17 @@ CounterSnapshot read(const RingName& name) {
     return *snapshot;
 }
 
+TEST(CounterPage, RemovingNothingOrTwiceIsHarmless) {
+    const RingName name;
+    auto page = create(name, {.counters = 2});
+    page.remove(nullptr);
+    Counter* const counter = page.add("a");
+    page.remove(counter);
+    page.remove(counter);
+    EXPECT_NE(page.add("b"), page.add("c"));
+    EXPECT_EQ(page.add("d"), nullptr);
+}
+
 TEST(CounterPage, GivesLabelsTypesLinksAndValues) {
     const RingName name;
     auto page = create(name);

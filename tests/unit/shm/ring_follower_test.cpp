@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/shm/ring_follower.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -105,6 +106,26 @@ TEST_P(RingFollowing, SurvivesANameTakenAwayByHand) {
     auto writer = open_writer(name_);
     write(writer, "two");
     EXPECT_EQ(read(follower_), "two");
+}
+
+TEST_P(RingFollowing, ReadsARetiredRingThatKeepsItsNameOnce) {
+    {
+        auto writer = open_writer(name_);
+        write(writer, "one");
+        write(writer, "two");
+    }
+    const int fd = ::open(name_.path().c_str(), O_RDWR);
+    const std::uint32_t retired = 1;
+    ASSERT_EQ(::pwrite(fd, &retired, sizeof retired, 396), static_cast<ssize_t>(sizeof retired));
+    ::close(fd);
+    EXPECT_EQ(read(follower_), "one");
+    EXPECT_EQ(read(follower_), "two");
+    EXPECT_EQ(follower_.read(mono_now() + 50ms).error(), ReadError::no_writer);
+    EXPECT_EQ(follower_.opened(), 1u);
+    auto writer = open_writer(name_);
+    write(writer, "three");
+    EXPECT_EQ(read(follower_), "three");
+    EXPECT_EQ(follower_.opened(), 2u);
 }
 
 TEST_P(RingFollowing, SaysWhyWhatStandsThereCannotBeRead) {

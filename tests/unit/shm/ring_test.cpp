@@ -239,14 +239,15 @@ TEST(Ring, ABatchThatIsEvictedIsNotHeldAnyLonger) {
 TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);
-    auto reader = open_reader(name, lossless);
-    std::thread other([&] { write_many(writer, 1000); });
+    std::jthread other;
+    auto reader = open_reader(
+        name, lossless);  // ends before the thread is joined: a test that fails does not hold the writer
+    other = std::jthread([&] { write_many(writer, 1000); });
     for (int i = 0; i < 1000; ++i) {
         const auto record = reader.read(soon());
         ASSERT_TRUE(record) << to_text(record.error());
         ASSERT_EQ(std::stoi(text_of(*record)), i);
     }
-    other.join();
     EXPECT_EQ(reader.missed(), 0u);
 }
 
@@ -488,6 +489,30 @@ TEST(Ring, TheModeCountsAndTheUmaskDoesNot) {
     EXPECT_EQ(status.st_mode & 07777u, 0640u);
 }
 
+TEST(Ring, AWriterRefusesAFileOfAnotherUser) {
+    if (::geteuid() != 0) GTEST_SKIP() << "giving files away needs root";
+    const RingName name;
+    open_writer(name);
+    ASSERT_EQ(::chown(name.path().c_str(), 65534, 65534), 0);
+    const auto writer = RingWriter::open(name.text(), {.capacity = small});
+    ASSERT_FALSE(writer);
+    EXPECT_EQ(writer.error().code, SetupCode::permission);
+    EXPECT_THAT(writer.error().text, HasSubstr("; remove it or choose another name"));
+    EXPECT_TRUE(RingReader::open(name.text()));
+}
+
+TEST(Ring, ClosingSparesTheCounterPageOfWhoHasTheNameNow) {
+    const RingName name;
+    auto writer = open_writer(name);
+    ::unlink(name.path().c_str());
+    const auto next = open_writer(name);
+    const std::string page = name.path() + ".stat";
+    test::write_file(page, bytes_of("page"));
+    ASSERT_TRUE(writer.close(RingWriter::Leave::nothing));
+    EXPECT_EQ(::unlink(page.c_str()), 0);
+    EXPECT_FALSE(next.is_removed());
+}
+
 TEST(Ring, WrongNamesAndSizesAreUsageErrors) {
     for (const std::string name : {"", "a/b", "../x", "a b", "a.stat", "\x1b[31m"}) {
         const auto writer = RingWriter::open(name);
@@ -598,6 +623,18 @@ TEST_F(RingDamage, ALengthThatCannotBeEndsReadingWithDamaged) {
             EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
             EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
         }
+    }
+}
+TEST_F(RingDamage, WhatCannotBeCountedThroughIsRefusedAtOnce) {
+    {
+        auto writer = open_writer(name_);
+        write(writer, "short");
+    }
+    put(16384 + 10 * 1024, {0xff, 0xff, 0xff, 0x7f});  // behind the newest mark
+    for (const auto& options : {ReaderOptions{}, lossless}) {
+        const auto reader = RingReader::open(name_.text(), options);
+        ASSERT_FALSE(reader);
+        EXPECT_EQ(reader.error().code, SetupCode::bad_input);
     }
 }
 TEST_F(RingDamage, ARecordOutOfSequenceIsDamage) {

@@ -32,10 +32,14 @@ public:
     // To the next record that will be written, or to the oldest one that is there. False: the ring is damaged. A lossless reader holds from here on.
     [[nodiscard]] bool start(Start where) noexcept {
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
+            const std::uint64_t intent = ring_.control->intent.load(std::memory_order_acquire);
             const std::uint64_t tail = ring_.control->tail.load(std::memory_order_acquire);  // pairs with commit()
             auto at = where == Start::oldest ? find_mark(ring_, 0) : newest_mark(ring_);
             if (at && where == Start::newest) at = walk(ring_, *at, tail);
-            if (!at) continue;  // overtaken, or damaged: after so many attempts the latter
+            if (!at) {  // overtaken, or damaged: the latter where the writer did not move on, or after so many attempts
+                if (ring_.control->intent.load(std::memory_order_acquire) == intent) return false;
+                continue;
+            }
             go_to(*at);
             if (!lossless_ || hold()) {
                 publish();
@@ -51,7 +55,7 @@ public:
         release();
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             if (position_ == tail_ && !look_for_more()) return Found::empty;
-            if (lossless_ && !holds()) {
+            if (lossless_ && !has_hold()) {
                 if (in_batch_) return Found::empty;  // what was given out is unprotected now, and holds() must say so
                 if (!hold()) {
                     if (!skip_ahead()) return Found::damaged;
@@ -121,20 +125,32 @@ public:
     }
 
     // Sleeps until something is committed, the writer goes, or `longest` is over; a reader without a slot for all of it.
+    //
+    // The writer may overlook a bit that was just set (commit() looks at `sleepers` before others see its `tail`, Producer::wake_readers() wakes nobody
+    // twice in a while). So sleeps are short until one ran to its end with the bit set; it stays set until awake().
     void sleep(Nanoseconds longest) noexcept {
         auto& control = *ring_.control;
         const std::uint32_t seen = control.wakes.load(
             std::memory_order_acquire);  // pairs with Producer::wake_readers_now()
-        if (slot_) control.sleepers.fetch_or(bit(), std::memory_order_seq_cst);
-        if (control.tail.load(std::memory_order_seq_cst) == tail_ && !retired())
-            Words::sleep(control.wakes, seen, longest);
-        if (slot_) control.sleepers.fetch_and(~bit(), std::memory_order_relaxed);
+        if (slot_) {
+            asleep_ = true;
+            if ((control.sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) == 0) is_known_ = false;
+            if (!is_known_) longest = std::min(longest, wake_distance);
+        }
+        if (control.tail.load(std::memory_order_seq_cst) == tail_ && !retired() &&
+            Words::sleep(control.wakes, seen, longest))
+            is_known_ = true;
     }
 
-    // Whether the view of the last record is still what was written: false once a writer that evicts has taken this reader's hold.
+    // After the last sleep() of a wait: the writer need not wake this reader.
+    void awake() noexcept {
+        if (std::exchange(asleep_, false)) ring_.control->sleepers.fetch_and(~bit(), std::memory_order_relaxed);
+    }
+
+    // Whether what was read of the view of the last record is what was written: false once a writer that evicts has taken this reader's hold.
     [[nodiscard]] bool holds() const noexcept {
-        // Acquire: pairs with Producer::drop_holds(). Bytes of a later lap are seen only by who sees the bit gone.
-        return (ring_.control->holders.load(std::memory_order_acquire) & bit()) != 0;
+        // A read-modify-write, whose release keeps the caller's plain loads before it: a load could be ahead of them, on ARM.
+        return (ring_.control->holders.fetch_or(0, std::memory_order_acq_rel) & bit()) != 0;
     }
 
     [[nodiscard]] bool retired() const noexcept { return ring_.control->retired.load(std::memory_order_acquire) != 0; }
@@ -177,9 +193,14 @@ private:
         return false;
     }
 
+    // Enough behind loads that acquire. Acquire: pairs with Producer::drop_holds(). Bytes of a later lap are seen only by who sees the bit gone.
+    [[nodiscard]] bool has_hold() const noexcept {
+        return (ring_.control->holders.load(std::memory_order_acquire) & bit()) != 0;
+    }
+
     // After all that was read of the record: its loads acquired, so that this one is not ahead of them.
     [[nodiscard]] bool overtaken() const noexcept {
-        if (lossless_) return !holds();
+        if (lossless_) return !has_hold();
         return ring_.control->intent.load(std::memory_order_acquire) > position_ + ring_.capacity;
     }
 
@@ -215,6 +236,8 @@ private:
     RingMemory<Words> ring_;
     std::optional<unsigned> slot_;
     bool lossless_ = false;
+    bool asleep_ = false;          // its bit in `sleepers` may be set
+    bool is_known_ = false;        // to the writer: has been set for `wake_distance`
     bool in_hand_ = false;         // the record at position_ was given out
     bool in_batch_ = false;        // and those before it are still in view
     std::uint64_t position_ = 0;   // of the record in hand, or of the next

@@ -17,8 +17,6 @@
 
 namespace mavloom::shm::detail {
 
-inline constexpr Nanoseconds wake_distance = std::chrono::milliseconds(1);
-
 template <class Words>
 class Producer {
 public:
@@ -125,7 +123,8 @@ public:
         control.room_wanted.store(0, std::memory_order_relaxed);
     }
 
-    // Wakes all who sleep, at most once in `wake_distance`: nobody's sleep is longer than that before he looks again (Consumer::sleep()).
+    // Wakes all who sleep, at most once in `wake_distance`: whose bit is set now has set it since the last time, and sleeps no longer than that at first
+    // (Consumer::sleep()). Nor need commit() order its load of `sleepers` behind its store of `tail`: who is overlooked looks again himself.
     void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;

@@ -9,6 +9,9 @@
 
 namespace mavloom::shm::detail {
 
+// The writer wakes readers at most once in this time.
+inline constexpr Nanoseconds wake_distance = std::chrono::milliseconds(1);
+
 struct Header {
     RecordState state;
     std::uint32_t link = 0;

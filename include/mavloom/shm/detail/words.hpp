@@ -16,8 +16,8 @@ struct SharedWords {
     static_assert(Word32::is_always_lock_free && Word64::is_always_lock_free, "a lock would not be shared");
     static_assert(sizeof(Word32) == 4 && sizeof(Word64) == 8);
 
-    // Sleeps while `word` is `expected`, at most `longest`; may return early.
-    static void sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept;
+    // Sleeps while `word` is `expected`, at most `longest`; may return early. Whether that time is over.
+    static bool sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept;
     // Wakes everybody who sleeps on `word`.
     static void wake(Word32& word) noexcept;
     [[nodiscard]] static MonoTime now() noexcept { return mono_now(); }
