@@ -7,7 +7,7 @@
 """
 import atexit as _atexit
 
-from . import _errors
+from . import _errors, enums, messages
 from ._columns import Columns, columns, tables
 from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Recording, RecordingStats, Subscription, stop_all,
                     version)
@@ -24,5 +24,5 @@ _atexit.register(stop_all)
 
 __all__ = [
     "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
-    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect", "read", "tables",
+    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "tables",
 ]

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "encode.hpp"
 #include "errors.hpp"
@@ -96,25 +97,27 @@ void bind_infos(nb::module_& module) {
 
 // ---- class Dialect
 
-std::uint32_t id_of(const nb::object& id) {
-    const auto value = PyLong_AsUnsignedLongMask(id.ptr());
+// Null where no message has this id.
+const dialect::Message* find_by_id(const dialect::Dialect& dialect, const nb::object& id) {
+    int overflow = 0;
+    const auto value = PyLong_AsLongLongAndOverflow(id.ptr(), &overflow);
     if (PyErr_Occurred() != nullptr) throw nb::python_error();
-    return static_cast<std::uint32_t>(value);
+    if (overflow != 0 || !std::in_range<std::uint32_t>(value)) return nullptr;
+    return dialect.find(MessageId{static_cast<std::uint32_t>(value)});
 }
 
 MessageInfo find(const PyDialect& dialect, const nb::object& name_or_id) {
     const auto& definitions = dialect.definitions->dialect();
     if (PyUnicode_Check(name_or_id.ptr()))
         return {dialect.definitions, value_or_raise(definitions.message(nb::cast<std::string>(name_or_id)))};
-    const auto id = id_of(name_or_id);
-    if (const auto* found = definitions.find(MessageId{id})) return {dialect.definitions, found};
-    raise_usage(fmt::format("no message has id {}", id));
+    if (const auto* found = find_by_id(definitions, name_or_id)) return {dialect.definitions, found};
+    raise_usage(fmt::format("no message has id {}", nb::str(name_or_id).c_str()));
 }
 
 bool contains(const PyDialect& dialect, const nb::object& name_or_id) {
     const auto& definitions = dialect.definitions->dialect();
     if (PyUnicode_Check(name_or_id.ptr())) return definitions.find(nb::cast<std::string>(name_or_id)) != nullptr;
-    return definitions.find(MessageId{id_of(name_or_id)}) != nullptr;
+    return find_by_id(definitions, name_or_id) != nullptr;
 }
 
 nb::list message_names(const PyDialect& dialect) {

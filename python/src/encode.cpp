@@ -23,6 +23,12 @@ bool is_real(const Field& field) noexcept {
     raise_usage(fmt::format("{}.{}: {}", builder.definition().name, field.name, why));
 }
 
+// Other errors (KeyboardInterrupt, what the value itself raises) go on as they are.
+void clear_type_error() {
+    if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw nb::python_error();
+    PyErr_Clear();
+}
+
 // `number` is an int.
 void set_int(MessageBuilder& builder, const Field& field, const nb::object& number, std::size_t index) {
     int overflow = 0;
@@ -49,7 +55,7 @@ void set_number(MessageBuilder& builder, const Field& field, const nb::handle& v
     }
     const double real = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() != nullptr) {
-        PyErr_Clear();
+        clear_type_error();
         refuse(builder, field, fmt::format("a number is wanted, not {}", nb::repr(value).c_str()));
     }
     value_or_raise(builder.set_number(field, real, index));
@@ -74,7 +80,7 @@ void set_text(MessageBuilder& builder, const Field& field, const nb::object& val
 void set_array(MessageBuilder& builder, const Field& field, const nb::object& values) {
     const nb::object list = nb::steal(PySequence_Fast(values.ptr(), ""));
     if (!list.is_valid()) {
-        PyErr_Clear();
+        clear_type_error();
         refuse(builder, field,
                fmt::format("a sequence of {} numbers is wanted, not {}", field.count(), nb::repr(values).c_str()));
     }

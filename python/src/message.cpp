@@ -280,11 +280,13 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
              "The fields' names in the order of the definition.")
         .def("get_msgbuf", from_frame<frame_bytes>(), "As `frame`.")
         .def("get_payload", from_frame<payload_bytes>(), "The payload as it was sent: MAVLink 2 cuts zeros at its end.")
-        .def("get_signed", from_frame<is_signed>(), "As `signed`.")
+        .def(
+            "get_signed", [](const Message& m) { return m.verified; },
+            "Whether the signature was verified; `signed` says whether there is one.")
         .def("get_header", &header_of, "The header's values under pymavlink's names.")
         .def_prop_ro(
-            "_timestamp", [](const Message& m) { return static_cast<double>(m.time_ns) * 1e-9; },
-            "`time_ns` in seconds.")
+            "_timestamp", [](const Message& m) { return static_cast<double>(m.time_ns / 1000) * 1e-6; },
+            "`time_ns` in seconds, of whole microseconds.")
         .def_prop_ro(
             "_link", [](const Message& m) { return m.link; }, "As `link`.")
         .def_prop_ro(

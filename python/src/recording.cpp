@@ -35,10 +35,7 @@ public:
     }
 
     // A new reference, or null at the end.
-    PyObject* next() {
-        const auto lock = lock_without_gil(mutex_);
-        return next_of({}).release().ptr();
-    }
+    PyObject* next() { return next_of({}).release().ptr(); }
 
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
                           const nb::object& /*timeout*/, std::optional<std::uint8_t> system,
@@ -46,10 +43,7 @@ public:
         check_condition(condition);
         const auto filter = make_filter(origin_->dialect(), type, system, component);
         for (;;) {
-            nb::object message = [&] {
-                const auto lock = lock_without_gil(mutex_);
-                return next_of(filter);
-            }();
+            nb::object message = next_of(filter);
             if (!message.is_valid()) return nb::none();
             if (condition.is_none() || nb::cast<bool>(nb::bool_(condition(message)))) return message;
         }
@@ -106,15 +100,18 @@ private:
                   c.unknown_flags.value(), c.lost_bytes.value(),   c.damaged_places.value()};
     }
 
-    // Invalid at the end.
+    // Invalid at the end. Signal handlers, which may use the recording, run without the lock.
     nb::object next_of(const Filter& filter) {
-        for (reader();; fill()) {
+        for (;; check_signals()) {
+            const auto lock = lock_without_gil(mutex_);
+            reader();
             while (const auto* item = batch_.next()) {
                 ++delivered_;
                 const auto frame = batch_.frame(*item);
                 if (filter.takes(frame)) return make_message(origin_, item->definition, item->time_ns, 0, frame);
             }
             if (ended_) return {};
+            fill();
         }
     }
 
@@ -136,7 +133,6 @@ private:
         using Stop = record::TlogReader::Stop;
         ended_ = stop == Stop::end;
         if (stop == Stop::failed && batch_.size() == 0) raise(file.error());
-        check_signals();
     }
 
     void add(const record::Record& record) {

@@ -4,6 +4,8 @@ import copy
 import json
 import math
 import pickle
+import subprocess
+import sys
 
 import pytest
 
@@ -134,7 +136,33 @@ def test_names_of_enum_entries_are_values(dialect):
     assert (message.type, message.base_mode, message.autopilot) == (2, 136, 12)
 
 
+@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError, ZeroDivisionError])
+def test_errors_of_a_value_itself_are_passed_on(dialect, error):
+    class Value:
+        def __float__(self):
+            raise error
+
+        def __iter__(self):
+            raise error
+    with pytest.raises(error):
+        dialect.encode("ATTITUDE", roll=Value())
+    with pytest.raises(error):
+        dialect.encode("ATTITUDE_TARGET", q=Value())
+
+
 # ---- row 29: names
+
+@pytest.mark.parametrize("number", [2**32 + 30, -1, 2**70, 2**32 - 1])
+def test_a_number_that_no_message_has(dialect, number):
+    assert dialect[30].name == "ATTITUDE" and number not in dialect
+    with pytest.raises(ValueError, match=f"no message has id {number}"):
+        dialect[number]
+
+
+def test_enums_and_messages_are_there_after_import(child_environment):
+    code = "import mavloom\nmavloom.enums.MAV_TYPE, mavloom.messages.ATTITUDE"
+    subprocess.run([sys.executable, "-c", code], check=True, env=child_environment)
+
 
 def test_row_29_unknown_names_end_at_once_with_the_nearest(dialect):
     with pytest.raises(ValueError, match="'ATITUDE', did you mean 'ATTITUDE'"):

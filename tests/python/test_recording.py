@@ -31,7 +31,7 @@ def test_every_message_and_value_is_pymavlinks(flight, peer):
     log = mavloom.read(flight)
     for (time_us, frame), ours in zip(frames_of(flight), log, strict=True):
         theirs = mav.parse_char(frame)
-        assert ours.time_ns == time_us * 1000
+        assert ours.time_ns == time_us * 1000 and ours._timestamp == time_us * 1e-6
         assert (ours.name, ours.sys, ours.comp, ours.seq, ours.frame) == (
             theirs.get_type(), theirs.get_srcSystem(), theirs.get_srcComponent(), theirs.get_seq(), frame)
         for name, value in theirs.to_dict().items():
@@ -167,7 +167,7 @@ def test_row_17_threads_share_a_recording(flight):
 
     def work():
         found.append(sum(1 for _ in log))
-    threads = [threading.Thread(target=work) for _ in range(4)]
+    threads = [threading.Thread(target=work, daemon=True) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -182,7 +182,7 @@ def test_row_6_the_gil_is_free_while_a_pipe_is_empty(tmp_path):
     frames = [mavloom.Dialect().encode("HEARTBEAT", custom_mode=i) for i in range(3)]
     with open(os.open(path, os.O_RDWR), "wb", buffering=0) as pipe:
         log, found = mavloom.read(path), []
-        thread = threading.Thread(target=lambda: [found.append(log.recv()) for _ in frames])
+        thread = threading.Thread(target=lambda: [found.append(log.recv()) for _ in frames], daemon=True)
         thread.start()
         for i, frame in enumerate(frames):
             pipe.write(record(frame, i))
@@ -209,6 +209,16 @@ def test_ctrl_c_ends_a_wait(tmp_path, child_environment):
         finally:
             child.kill()
             child.communicate()
+
+
+def test_a_signal_handler_may_close_it(tmp_path, child_environment):
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    code = (f"import mavloom, signal\nlog = mavloom.read({str(path)!r})\nsignal.signal(signal.SIGALRM, lambda *_: log.close())\n"
+            "signal.setitimer(signal.ITIMER_REAL, 0.1, 0.1)\ntry: next(log)\nexcept mavloom.ClosedError: print('closed')")
+    with open(os.open(path, os.O_RDWR), "wb", buffering=0):
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "closed\n", "")
 
 
 def test_an_exit_with_all_of_it_open_is_silent(flight, child_environment):
