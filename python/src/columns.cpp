@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
 
 namespace mavloom::python {
@@ -12,17 +11,11 @@ namespace {
 
 constexpr std::uint64_t most_damage = 1 << 20;
 
-const dialect::Field* instance_field(const dialect::Message& message) noexcept {
-    for (const auto& field : message.fields)
-        if (field.instance) return &field;
-    return nullptr;
-}
-
-bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) noexcept {
+bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) {
     if (query.system && frame.system().value != *query.system) return false;
     if (query.component && frame.component().value != *query.component) return false;
     if (instance == nullptr || !query.instance) return true;
-    return message::MessageView(*query.message, frame.payload()).integer(*instance) == *query.instance;
+    return instance_of(*query.message, *instance, frame) == *query.instance;
 }
 
 std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "filter.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/record/tlog_reader.hpp"
@@ -18,7 +19,7 @@ namespace mavloom::python {
 struct ColumnsQuery {
     const dialect::Message* message = nullptr;
     std::optional<std::uint8_t> system, component;
-    std::optional<std::int64_t> instance;  // value of the field that is marked as the instance
+    std::optional<Instance> instance;  // value of the field that is marked as the instance
 };
 
 // The rows of a query: receive time, source and the payload in its full length, one behind the other in blocks. Grows without moving what is there.

@@ -5,6 +5,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 
 #include <algorithm>
 #include <optional>
@@ -42,8 +43,8 @@ nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Fie
 
 const dialect::Message& message_of(const dialect::Dialect& dialect, const std::string& name, bool with_instance) {
     const auto* message = value_or_raise(dialect.message(name));
-    const bool has_instance = std::ranges::any_of(message->fields, [](const auto& field) { return field.instance; });
-    if (with_instance && !has_instance) raise_usage(fmt::format("{} has no field that tells instances apart", name));
+    if (with_instance && instance_field(*message) == nullptr)
+        raise_usage(fmt::format("{} has no field that tells instances apart", name));
     return *message;
 }
 
@@ -80,12 +81,12 @@ nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& mess
 }
 
 nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::optional<std::uint8_t> system,
-                          std::optional<std::uint8_t> component, std::optional<std::int64_t> instance,
+                          std::optional<std::uint8_t> component, std::optional<Instance> instance,
                           const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = message_of(definitions->dialect(), name, instance.has_value());
     auto reader = open(path, definitions->dialect());
-    const ColumnsQuery query{&message, system, component, instance};
+    const ColumnsQuery query{&message, system, component, std::move(instance)};
     Rows rows(message);
     read_all([&] { return read_rows(reader, query, rows, records_between_signals); });
     return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
@@ -125,7 +126,7 @@ void bind_columns(nb::module_& module) {
         nb::arg("component").none(), nb::arg("instance").none(), nb::arg("dialect").none(),
         nb::sig(
             "def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
-            "instance: int | None, "
+            "instance: int | str | None, "
             "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
         "((times, systems, components, {field: values}), bytes of damage): what mavloom.columns() is made of.");
     module.def("read_tables", &read_tables_of, nb::arg("path"), nb::arg("type").none(), nb::arg("system").none(),

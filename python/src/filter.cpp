@@ -6,6 +6,7 @@
 #include <string>
 
 #include "errors.hpp"
+#include "mavloom/message/view.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -20,6 +21,18 @@ MessageId id_of(const dialect::Dialect& dialect, const nb::handle& type) {
 }
 
 }  // namespace
+
+const dialect::Field* instance_field(const dialect::Message& message) noexcept {
+    for (const auto& field : message.fields)
+        if (field.instance) return &field;
+    return nullptr;
+}
+
+Instance instance_of(const dialect::Message& message, const dialect::Field& field, const wire::FrameView& frame) {
+    const message::MessageView view(message, frame.payload());
+    if (field.type == dialect::FieldType::char8) return std::string(view.text(field));
+    return view.integer(field);
+}
 
 Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, std::optional<std::uint8_t> system,
                    std::optional<std::uint8_t> component) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "mavloom/dialect/dialect.hpp"
@@ -25,6 +27,14 @@ struct Filter {
                (!ids || std::ranges::find(*ids, frame.id()) != ids->end());
     }
 };
+
+// Value of the field that tells several sensors of one message apart: a number, or text without the NULs at its end.
+using Instance = std::variant<std::int64_t, std::string>;
+
+// That field; null where there is none.
+[[nodiscard]] const dialect::Field* instance_field(const dialect::Message& message) noexcept;
+[[nodiscard]] Instance instance_of(const dialect::Message& message, const dialect::Field& field,
+                                   const wire::FrameView& frame);
 
 // `type` is None, a name, a class of mavloom.messages, or an iterable of those; an unknown name raises UsageError with the nearest.
 [[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,

@@ -101,6 +101,15 @@ def test_row_9_instances(peer, tmp_path):
         mavloom.columns(path, "HEARTBEAT", instance=0)
 
 
+def test_row_9_instances_that_are_text(peer, tmp_path):
+    sender = packer(peer)
+    names = (b"n000", b"n001", b"0123456789")
+    path = write(tmp_path / "x.tlog", [sender.pack(peer.MAVLink_named_value_float_message(i, names[i % 3], 0.0)) for i in range(9)])
+    for number, name in enumerate(names):
+        assert list(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=name.decode())["time_boot_ms"]) == [number, number + 3, number + 6]
+    assert len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance="n00")) == len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)) == 0
+
+
 def test_row_3_systems_and_components(flight):
     assert set(mavloom.columns(flight, "HEARTBEAT")["sys"]) == {1, 255}
     ground = mavloom.columns(flight, "HEARTBEAT", system=255, component=190)
