@@ -23,6 +23,11 @@ public:
         while (returning_.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     [[nodiscard]] static bool ended() noexcept { return ended_.load(); }
+    // In a forked child: the threads that were on the way stayed in the parent.
+    static void forked() noexcept {
+        returning_.store(0);
+        ended_.store(false);
+    }
 
 private:
     inline static std::atomic<bool> ended_{false};

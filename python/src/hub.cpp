@@ -5,6 +5,8 @@
 
 #include <csignal>
 
+#include "gil.hpp"
+
 namespace mavloom::python {
 namespace {
 
@@ -20,12 +22,6 @@ std::vector<std::weak_ptr<Hub>>& registry() {
 
 std::atomic<std::uint64_t> fork_count{0};
 
-void count_forks() {
-    static const int registered = ::pthread_atfork(nullptr, nullptr,
-                                                   [] { fork_count.fetch_add(1, std::memory_order_relaxed); });
-    static_cast<void>(registered);
-}
-
 // Signals are for the threads of the interpreter: this one blocks them all.
 template <class Run>
 std::thread start_without_signals(Run run) {
@@ -39,13 +35,21 @@ std::thread start_without_signals(Run run) {
 
 }  // namespace
 
+void Hub::watch_forks() {
+    static const int registered = ::pthread_atfork([] { registry_mutex.lock(); }, [] { registry_mutex.unlock(); },
+                                                   [] {
+                                                       registry().clear();  // the parent's hubs are left alone
+                                                       registry_mutex.unlock();
+                                                       fork_count.fetch_add(1, std::memory_order_relaxed);
+                                                       WithoutGil::forked();
+                                                   });
+    static_cast<void>(registered);
+}
+
 std::uint64_t Hub::forks() noexcept { return fork_count.load(std::memory_order_relaxed); }
 
 SetupResult<std::shared_ptr<Hub>> Hub::get(const std::shared_ptr<const Definitions>& definitions) {
-    count_forks();
-    static std::uint64_t registry_forks = 0;
     const std::lock_guard lock(registry_mutex);
-    if (std::exchange(registry_forks, forks()) != forks()) registry().clear();  // the parent's
     std::erase_if(registry(), [](const auto& hub) { return hub.expired(); });
     for (const auto& known : registry())
         if (auto hub = known.lock(); hub && hub->definitions_ == definitions && !hub->stopping_) return hub;
@@ -76,8 +80,7 @@ Hub::~Hub() { stop(); }
 void Hub::stop() {
     stopping_.store(true, std::memory_order_relaxed);
     links_->wake();
-    static std::mutex joining;  // two threads may stop one hub
-    const std::lock_guard lock(joining);
+    const std::lock_guard lock(joining_);
     if (thread_.joinable()) thread_.join();
 }
 

@@ -31,6 +31,8 @@ public:
     [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get(const std::shared_ptr<const Definitions>& definitions);
     // Ends every loop thread and closes their channels: at the interpreter's exit.
     static void stop_all();
+    // Once, before anything else: a forked child begins with nothing open.
+    static void watch_forks();
     // How often this process was forked off: what was opened before must not be used.
     [[nodiscard]] static std::uint64_t forks() noexcept;
 
@@ -84,6 +86,7 @@ private:
     bool ended_ = false;
 
     std::atomic<bool> stopping_{false};
+    std::mutex joining_;  // two threads may stop one hub
     std::thread thread_;
 };
 

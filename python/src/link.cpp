@@ -269,7 +269,10 @@ public:
     [[nodiscard]] PyDialect dialect() const { return {origin_->definitions()}; }
     [[nodiscard]] const std::string& name() const noexcept { return opened_.name; }
     [[nodiscard]] int port() const noexcept { return opened_.port; }
-    [[nodiscard]] Source target() const { return channel_->target(); }
+    [[nodiscard]] Source target() const {
+        fork_.check();
+        return channel_->target();
+    }
 
 private:
     void check() {
@@ -349,6 +352,7 @@ constexpr const char* match_signature =
 }  // namespace
 
 void bind_link(nb::module_& module) {
+    Hub::watch_forks();
     bind_stats(module);
     nb::class_<Subscription>(module, "Subscription", nb::type_slots(subscription_slots), nb::is_final(),
                              "Messages of a link from the moment it was made, for one reader: iterate, `async for` "

@@ -442,6 +442,46 @@ print(link.recv().name, flush=True)
         process.kill()
 
 
+FLOOD = """
+import socket, threading, time
+def work(target):
+    threading.Thread(target=target, daemon=True).start()
+def flood():
+    sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    while True:
+        sock.sendto(mavloom.Dialect().encode("HEARTBEAT"), ("127.0.0.1", link.port))
+def iterate():
+    for _ in link.subscribe():
+        pass
+def read():
+    while True:
+        for _ in mavloom.read(FLIGHT):
+            pass
+"""
+
+
+@pytest.mark.parametrize("threads", ["", "work(flood); work(iterate); link.recv()", "work(read)"])
+def test_example_11_a_forked_child_ends(threads, child_environment, flight):
+    """Without a link of its own, whatever the parent's threads were at."""
+    code = f"FLIGHT = {str(flight)!r}{FLOOD}{threads}" + """
+for _ in range(30):
+    pid = os.fork()
+    if pid == 0:
+        sys.exit(0)
+    _, status = os.waitpid(pid, 0)
+    assert status == 0, status
+    time.sleep(0.001)
+"""
+    process = child(code, {**child_environment, "PYTHONWARNINGS": "ignore"}, start_new_session=True)
+    try:
+        out, talk = process.communicate(timeout=DEADLINE_S)
+        assert (process.returncode, out, talk) == (0, "", "")
+    finally:
+        if process.returncode is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+
+
 def test_row_20_a_connection_that_breaks_is_made_again(peer):
     server = socket.create_server(("127.0.0.1", 0))
     port = server.getsockname()[1]
