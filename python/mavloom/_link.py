@@ -2,11 +2,13 @@
 """Live links."""
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import Any
 
 from ._core import Dialect, LinkStats, Message, Port, Subscription
+from ._errors import UsageError
 from ._types import MessageTypes
 
 DEFAULT_BUFFER_BYTES = 16 << 20  # about 250,000 messages
@@ -23,25 +25,32 @@ class Link:
     """One endpoint (docs/guide/endpoints.md) and all its peers: a port that listens, a connection that is made again whenever it breaks, a serial device.
 
     Receiving goes on in a thread of C++, whatever Python does. What was not read yet waits in a buffer of `buffer` bytes; then the oldest is overwritten, and
-    `stats.missed` tells how much. Every method may be called from any thread. Closing (`close()`, `with`, or when the object goes) frees the port at once;
-    later calls raise ClosedError, and iterations end. A process that was forked off must open links of its own.
+    `stats.missed` tells how much. Every method may be called from any thread. Closing (`close()`, `with`, or when the object and all that was made of it, as
+    iterators and subscriptions, are gone) frees the port at once; later calls raise ClosedError, and iterations end. A process that was forked off must open
+    links of its own.
     """
 
     def __init__(self, url: str, *, source_system: int = 255, source_component: int = 190, dialect: Dialect | None = None,
                  buffer: int = DEFAULT_BUFFER_BYTES) -> None:
         """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background."""
+        for what, number in (("source_system", source_system), ("source_component", source_component)):
+            if not 0 <= number <= 255:
+                raise UsageError(f"{what}: {number} is out of range, 0 to 255")
         self._port = Port(url, source_system, source_component, dialect, buffer)
         self._reader: Subscription = self._port.reader
-        self.mav = Sender(self)
+        self.mav = Sender(self._port)
 
     # ---- receiving
 
     def __iter__(self) -> Iterator[Message]:
         """Messages in the order of their arrival, until the link is closed."""
-        return iter(self._reader)
+        for message in self._reader:  # not `yield from`, which would close the reader with the iterator; the frame keeps the link
+            yield message
 
-    def __aiter__(self) -> AsyncIterator[Message]:
-        return self._reader.__aiter__()
+    async def __aiter__(self) -> AsyncIterator[Message]:
+        """As iteration; one task at a time, others `subscribe`."""
+        async for message in self._reader:
+            yield message
 
     def recv(self, timeout: float | None = None) -> Message | None:
         """The next message; None after `timeout` seconds (0 polls, None waits for ever)."""
@@ -54,10 +63,10 @@ class Link:
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
     def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None) -> Subscription:
-        """A reader of its own, from now on: it takes nothing away from others."""
+        """A reader of its own, from now on: it takes nothing away from others, and keeps the link open while it is there."""
         return self._port.subscribe(type, system, component)
 
-    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None, instance: int | None = None,
+    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None, instance: int | str | None = None,
                max_age: float | None = None) -> Message | None:
         """The newest message of this type that arrived; None where there is none, or none in the last `max_age` seconds. Reads nothing away."""
         return self._port.latest(type, system, component, instance, max_age)
@@ -128,7 +137,7 @@ class Link:
 
     @property
     def messages(self) -> Mapping[str, Message]:
-        """The newest messages of the target system: link.messages["ATTITUDE"], link.messages["BATTERY_STATUS[1]"]."""
+        """The newest messages of the target system: link.messages["ATTITUDE"], link.messages["BATTERY_STATUS[1]"], "NAMED_VALUE_FLOAT[name]"."""
         return Latest(self)
 
     def field(self, type: str, field: str, default: Any = None) -> Any:
@@ -154,8 +163,12 @@ class Latest(Mapping[str, Message]):
         self._link = link
 
     def __getitem__(self, key: str) -> Message:
-        name, bracket, instance = key.partition("[")
-        message = self._link.latest(name, system=self._link.target_system or None, instance=int(instance.rstrip("]")) if bracket else None)
+        name, bracket, rest = key.partition("[")
+        instance: int | str | None = rest.rstrip("]") if bracket else None
+        if instance is not None and not any(field.instance and field.type == "char" for field in self._link.dialect[name].fields):
+            with contextlib.suppress(ValueError):
+                instance = int(instance)
+        message = self._link.latest(name, system=self._link.target_system or None, instance=instance)
         if message is None:
             raise KeyError(key)
         return message
@@ -171,18 +184,18 @@ class Latest(Mapping[str, Message]):
 class Sender:
     """link.mav: NAME_send(...) and NAME_encode(...) for every message, with the fields in the order of the definition or by name."""
 
-    def __init__(self, link: Link) -> None:
-        self._link = link
+    def __init__(self, port: Port) -> None:
+        self._port = port  # not the Link, which has this object
 
     def send(self, message: Message) -> int:
-        return self._link.send(message)
+        return self._port.send(message)
 
     def __getattr__(self, call: str) -> Callable[..., Any]:
         name, _, verb = call.rpartition("_")
-        if verb not in ("send", "encode") or name.upper() not in self._link.dialect:
+        if verb not in ("send", "encode") or name.upper() not in self._port.dialect:
             raise AttributeError(f"no message for {call}: NAME_send and NAME_encode, as heartbeat_send")
-        info = self._link.dialect[name.upper()]
-        act: Callable[..., Any] = self._link.send if verb == "send" else self._link.dialect.message
+        info = self._port.dialect[name.upper()]
+        act: Callable[..., Any] = self._port.send if verb == "send" else self._port.dialect.message
 
         def run(*values: Any, **fields: Any) -> Any:
             names = [field.name for field in info.fields]

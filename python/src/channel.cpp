@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "mavloom/message/view.hpp"
-
 namespace mavloom::python {
 namespace {
 
@@ -21,13 +19,6 @@ constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard con
 constexpr std::uint8_t autopilot_invalid = 8;
 constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // offsets
 
-std::int64_t instance_of(const dialect::Message* definition, const wire::FrameView& frame) noexcept {
-    if (definition == nullptr) return 0;
-    for (const auto& field : definition->fields)
-        if (field.instance) return message::MessageView(*definition, frame.payload()).integer(field);
-    return 0;
-}
-
 }  // namespace
 
 // ---- loop thread
@@ -37,7 +28,9 @@ void Channel::on_frame(const runtime::RxFrame& rx, MonoTime now) {
                                .link = rx.link.value,
                                .verified = verifies_ && rx.frame.is_signed()};
     const auto* definition = rx.info == nullptr ? nullptr : origin_->dialect().find(rx.frame.id());
-    const Key key{rx.frame.id().value, rx.frame.source(), instance_of(definition, rx.frame)};
+    const auto* field = definition == nullptr ? nullptr : instance_field(*definition);
+    const Key key{rx.frame.id().value, rx.frame.source(),
+                  field == nullptr ? Instance() : instance_of(*definition, *field, rx.frame)};
     const std::lock_guard lock(mutex_);
     ring_.push(head, rx.frame);
     ++frames_;
@@ -100,7 +93,7 @@ void Channel::close() {
 
 // ---- any thread
 
-std::optional<Channel::Latest> Channel::latest(const Filter& filter, std::optional<std::int64_t> instance,
+std::optional<Channel::Latest> Channel::latest(const Filter& filter, const std::optional<Instance>& instance,
                                                MonoTime not_before) const {
     const std::lock_guard lock(mutex_);
     const Latest* newest = nullptr;
@@ -137,22 +130,26 @@ Consumer::~Consumer() {
     if (event_fd_ >= 0) ::close(event_fd_);
 }
 
-Consumer::Taken Consumer::take(FrameBatch& batch, const Filter& filter, std::size_t most) {
+bool Consumer::take(FrameBatch& batch, std::size_t most) {
     const std::lock_guard lock(channel_->mutex_);
-    if (closed()) return Taken::closed;
+    if (closed()) return false;
     FrameRing::Head head;
     wire::FrameView frame;
-    while (batch.size() < most && channel_->ring_.next(at_, missed_, head, frame))
-        if (filter_.takes(frame) && filter.takes(frame))
+    std::size_t looked_at = 0;
+    while (batch.size() < most && looked_at < most_looked_at && channel_->ring_.next(at_, missed_, head, frame)) {
+        ++looked_at;
+        if (filter_.takes(frame))
             batch.add({.time_ns = head.time_ns,
                        .definition = channel_->origin_->dialect().find(frame.id()),
                        .link = head.link,
                        .verified = head.verified},
                       frame);
+    }
     seen_ = at_.frame;
-    if (batch.size() != 0) return Taken::some;
+    if (batch.size() != 0) return true;
     armed_ = true;
-    return Taken::none;
+    if (seen_ != channel_->ring_.newest().frame) tell();
+    return true;
 }
 
 void Consumer::wait(MonoTime deadline) {
@@ -178,6 +175,16 @@ SetupResult<int> Consumer::event_fd() {
 std::uint64_t Consumer::missed() const {
     const std::lock_guard lock(channel_->mutex_);
     return missed_ + channel_->ring_.overwritten(at_);
+}
+
+std::uint64_t Consumer::newest() const {
+    const std::lock_guard lock(channel_->mutex_);
+    return channel_->ring_.newest().frame;
+}
+
+std::uint64_t Consumer::seen() const {
+    const std::lock_guard lock(channel_->mutex_);
+    return seen_;
 }
 
 void Consumer::close() {

@@ -39,7 +39,7 @@ public:
     [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
 
     // The newest message that the filter and `instance` take and that is not older than `not_before`.
-    [[nodiscard]] std::optional<Latest> latest(const Filter& filter, std::optional<std::int64_t> instance,
+    [[nodiscard]] std::optional<Latest> latest(const Filter& filter, const std::optional<Instance>& instance,
                                                MonoTime not_before) const;
     // Source of the first heartbeat of a vehicle; zeros before it.
     [[nodiscard]] Source target() const;
@@ -61,7 +61,7 @@ private:
     struct Key {
         std::uint32_t id;
         Source source;
-        std::int64_t instance;
+        Instance instance;
         friend auto operator<=>(const Key&, const Key&) = default;
     };
     static constexpr std::size_t most_latest = 16'384;  // bounds what forged sources and instances can make us remember
@@ -94,14 +94,17 @@ public:
     Consumer(const Consumer&) = delete;
     Consumer& operator=(const Consumer&) = delete;
 
-    enum class Taken : std::uint8_t { some, none, closed };
-    // Puts up to `most` frames that both filters take into the batch. `none`: when something comes, the descriptor tells.
-    Taken take(FrameBatch& batch, const Filter& filter, std::size_t most);
+    // Puts up to `most` frames that it takes into the batch; false: closed. Where none was added, `wait` and the descriptor tell when to ask again: at once
+    // where there were so many others that more may follow.
+    bool take(FrameBatch& batch, std::size_t most);
     // Waits until something came, the channel or the reader is closed, or the deadline; no longer than a slice, so that signals get their turn.
     void wait(MonoTime deadline);
     // A descriptor that becomes readable when there is something to take after `none`; made at the first call.
     [[nodiscard]] SetupResult<int> event_fd();
     [[nodiscard]] std::uint64_t missed() const;
+    // Numbers of the frames behind the newest there is, and behind the last that `take` had looked at.
+    [[nodiscard]] std::uint64_t newest() const;
+    [[nodiscard]] std::uint64_t seen() const;
     // It, or its channel.
     [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }
     void close();
@@ -111,6 +114,7 @@ public:
 private:
     friend class Channel;
     void tell() noexcept;
+    static constexpr std::size_t most_looked_at = 4096;  // frames, with the mutex held
 
     const std::shared_ptr<Channel> channel_;
     const Filter filter_;

@@ -34,6 +34,7 @@ public:
         items_.push_back(item);
     }
     [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
+    [[nodiscard]] std::size_t left() const noexcept { return items_.size() - next_; }
 
     // The next one, or null behind the last.
     [[nodiscard]] const Item* next() noexcept { return next_ == items_.size() ? nullptr : &items_[next_++]; }

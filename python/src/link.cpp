@@ -5,6 +5,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/variant.h>
 
 #include <cmath>
 #include <mutex>
@@ -59,20 +60,28 @@ public:
         if (!fork_.is_here()) static_cast<void>(consumer_.release());
     }
 
+    // When a call gives up: at its deadline. One that only polls: when it has looked at what was there as it began, whatever arrives meanwhile.
+    struct Limit {
+        MonoTime deadline;
+        std::optional<std::uint64_t> end;  // of a poll: the frame behind
+    };
+
     // Invalid when nothing came in time, or, with `ended`, when nothing ever will.
-    nb::object next(const Filter& filter, MonoTime deadline, bool& ended) {
+    nb::object next(const Filter& filter, const Limit& limit, bool& ended) {
         for (;;) {
             fork_.check();
             {
                 const auto lock = lock_without_gil(mutex_);
-                while (const auto* item = next_item())
-                    if (const auto frame = batch_.frame(*item); filter.takes(frame)) return message_of(*item);
+                while (const auto* item = next_item()) {
+                    if (filter.takes(batch_.frame(*item))) return message_of(*item);
+                    if (is_over(limit)) return {};
+                }
                 if (ended_) return ended = true, nb::object();
+                if (is_over(limit)) return {};
             }
-            if (mono_now() >= deadline) return {};
             {
                 const WithoutGil outside;
-                consumer_->wait(deadline);
+                consumer_->wait(limit.deadline);
             }
             check_signals();
         }
@@ -80,7 +89,7 @@ public:
 
     PyObject* iterate() {
         bool ended = false;
-        return next({}, MonoTime::max(), ended).release().ptr();
+        return next({}, {MonoTime::max(), {}}, ended).release().ptr();
     }
 
     nb::object recv(const nb::object& timeout) { return or_closed({}, nb::none(), deadline_after(timeout)); }
@@ -92,19 +101,7 @@ public:
         return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
     }
 
-    // For asyncio: all that is there, at most `most`; None when nothing follows. Empty: the descriptor tells when to ask again.
-    nb::object take(std::size_t most) {
-        fork_.check();
-        const auto lock = lock_without_gil(mutex_);
-        nb::list messages;
-        while (messages.size() < most) {
-            const auto* item = next_item();
-            if (item == nullptr) break;
-            messages.append(message_of(*item));
-        }
-        if (messages.size() == 0 && ended_) return nb::none();
-        return messages;
-    }
+    // For asyncio: tells when to ask again after a poll that found nothing.
     int event_fd() {
         fork_.check();
         return value_or_raise(consumer_->event_fd());
@@ -128,7 +125,7 @@ private:
         if (ended_) return nullptr;
         if (const auto* item = batch_.next()) return item;
         batch_.clear();
-        ended_ = consumer_->take(batch_, {}, batch_frames) == Consumer::Taken::closed;
+        ended_ = !consumer_->take(batch_, batch_frames);
         return batch_.next();
     }
     nb::object message_of(const FrameBatch::Item& item) const {
@@ -137,12 +134,23 @@ private:
     }
 
     nb::object or_closed(const Filter& filter, const nb::object& condition, MonoTime deadline) {
+        fork_.check();
+        Limit limit{deadline, {}};
+        if (deadline <= mono_now()) limit.end = consumer_->newest();
         for (bool ended = false;;) {
-            nb::object message = next(filter, deadline, ended);
+            nb::object message = next(filter, limit, ended);
             if (ended) raise_closed("the link is closed");
             if (!message.is_valid()) return nb::none();
             if (condition.is_none() || nb::cast<bool>(nb::bool_(condition(message)))) return message;
+            const auto lock = lock_without_gil(mutex_);
+            if (is_over(limit)) return nb::none();
         }
+    }
+
+    // With mutex_ held.
+    [[nodiscard]] bool is_over(const Limit& limit) const {
+        if (limit.end) return batch_.left() == 0 && consumer_->seen() >= *limit.end;
+        return mono_now() >= limit.deadline;
     }
 
     const BeforeFork fork_;
@@ -237,7 +245,7 @@ public:
     }
 
     nb::object latest(const nb::object& type, OptionalByte system, OptionalByte component,
-                      std::optional<std::int64_t> instance, const nb::object& max_age) {
+                      const std::optional<Instance>& instance, const nb::object& max_age) {
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
         const auto not_before = max_age.is_none() ? MonoTime::min() : mono_now() - duration_of("max_age", max_age);
@@ -369,7 +377,6 @@ void bind_link(nb::module_& module) {
              "The next message of these types for which `condition(message)` is true; what comes before it is passed "
              "over. None when there is none: at once,\n"
              "or with `blocking` after `timeout` seconds.")
-        .def("take", &Subscription::take, nb::sig("def take(self, most: int, /) -> list[Message] | None"))
         .def("event_fd", &Subscription::event_fd)
         .def_prop_ro("missed", &Subscription::missed,
                      "Frames of the link that were overwritten before this reader came to them.")
@@ -389,9 +396,9 @@ void bind_link(nb::module_& module) {
         .def("latest", &Port::latest, nb::arg("type").none(), nb::arg("system").none(), nb::arg("component").none(),
              nb::arg("instance").none(), nb::arg("max_age").none(),
              nb::sig("def latest(self, type: MessageTypes | None, system: int | None, component: int | None, instance: "
-                     "int | None, "
+                     "int | str | None, "
                      "max_age: float | None) -> Message | None"))
-        .def("subscribe", &Port::subscribe, nb::arg("type").none(), nb::arg("system").none(),
+        .def("subscribe", &Port::subscribe, nb::keep_alive<0, 1>(), nb::arg("type").none(), nb::arg("system").none(),
              nb::arg("component").none(),
              nb::sig("def subscribe(self, type: MessageTypes | None, system: int | None, component: int | None) -> "
                      "Subscription"))

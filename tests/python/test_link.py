@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """mavloom.connect() with pymavlink's frames at the far side. "Row N": the wishes listed in docs/guide/python.md."""
 import asyncio
+import contextlib
+import gc
 import os
 import signal
 import socket
@@ -54,6 +56,24 @@ class Vehicle:
         return self.peer.MAVLink(None).parse_buffer(self.socket.recv(65536))
 
 
+@contextlib.contextmanager
+def flood(vehicle):
+    """Heartbeats without end."""
+    stop = threading.Event()
+
+    def send():
+        while not stop.is_set():
+            with contextlib.suppress(ConnectionRefusedError):
+                vehicle.send(vehicle.heartbeat())
+    thread = threading.Thread(target=send, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
+
+
 @pytest.fixture
 def link():
     with mavloom.connect("udpin://127.0.0.1:0") as opened:
@@ -72,7 +92,7 @@ def test_example_1_iterate(link, vehicle):
     def send():
         for i in range(100):
             vehicle.send(*(vehicle.attitude(10 * i + k) for k in range(10)))
-    threading.Thread(target=send).start()
+    threading.Thread(target=send, daemon=True).start()
     found = []
     for msg in link:
         found.append(msg)
@@ -148,18 +168,34 @@ def test_row_1_a_time_out_gives_none(link):
 
 def test_row_1_the_deadline_holds_while_others_arrive(link, vehicle):
     """pymavlink looks at the clock between messages that match only."""
-    stop = threading.Event()
-
-    def flood():
-        while not stop.is_set():
-            vehicle.send(vehicle.heartbeat())
-    thread = threading.Thread(target=flood)
-    thread.start()
-    try:
+    with flood(vehicle):
         assert link.recv_match(type="ATTITUDE", blocking=True, timeout=0.3) is None
-    finally:
-        stop.set()
-        thread.join()
+
+
+def test_row_1_the_deadline_holds_for_a_condition_that_is_slower_than_the_traffic(link, vehicle):
+    def slow(_):
+        time.sleep(0.002)
+    with flood(vehicle):
+        for options in ({"blocking": True, "timeout": 0.3}, {"blocking": True, "timeout": 0}, {}):
+            mine = link.subscribe()
+            assert mine.recv(timeout=DEADLINE_S).name == "HEARTBEAT"
+            assert mine.recv_match(slow, **options) is None
+
+
+def test_row_1_a_poll_looks_at_all_that_is_there(link, vehicle):
+    """Also behind more frames than are taken at once, or looked at under one lock."""
+    count = 6000
+    mine = link.subscribe("ATTITUDE")
+    for number in range(count):
+        vehicle.send(vehicle.heartbeat(number=number))
+        if number % 50 == 49:
+            until(lambda: link.stats.frames_in >= number + 1)
+    vehicle.send(vehicle.attitude(1))
+    until(lambda: link.stats.frames_in == count + 1)
+    assert mine.recv(timeout=0).time_boot_ms == 1
+    assert link.recv_match(lambda m: m.custom_mode == count - 1, type="HEARTBEAT").custom_mode == count - 1
+    assert link.recv_match(type="ATTITUDE").time_boot_ms == 1
+    assert mine.recv(timeout=0) is None and link.recv_match() is None
 
 
 def test_example_4_send(peer):
@@ -200,7 +236,7 @@ def test_row_17_threads_send_without_a_gap(peer):
         connection, _ = server.accept()
         connection.settimeout(DEADLINE_S)
         until(lambda: link.stats.peers == 1)
-        senders = [threading.Thread(target=lambda: [link.send("HEARTBEAT", custom_mode=i + 1) for i in range(each)]) for _ in range(threads)]
+        senders = [threading.Thread(target=lambda: [link.send("HEARTBEAT", custom_mode=i + 1) for i in range(each)], daemon=True) for _ in range(threads)]
         for sender in senders:
             sender.start()
         parser, found = mavloom.Parser(), []
@@ -248,6 +284,17 @@ def test_row_4_latest_by_source_instance_and_age(link, vehicle, peer):
     assert link.messages["BATTERY_STATUS[1]"].current_battery == 11
     until(lambda: link.latest("ATTITUDE", max_age=0) is None)
     assert link.recv(timeout=0) is not None  # nothing was read away
+
+
+def test_row_4_instances_that_are_text(link, vehicle, peer):
+    for name in (b"n000", b"n001", b"7"):
+        vehicle.send(peer.MAVLink_named_value_float_message(1, name, float(int(name[-1:]))))
+    until(lambda: link.stats.frames_in == 3)
+    assert [link.latest("NAMED_VALUE_FLOAT", instance=name).value for name in ("n000", "n001", "7")] == [0, 1, 7]
+    assert (link.messages["NAMED_VALUE_FLOAT[n000]"].value, link.messages["NAMED_VALUE_FLOAT[7]"].value, link.messages["NAMED_VALUE_FLOAT"].value) == (0, 7, 7)
+    for key in ("NAMED_VALUE_FLOAT[n]", "BATTERY_STATUS[x]", "ATTITUDE[1]"):
+        assert key not in link.messages
+    assert link.latest("NAMED_VALUE_FLOAT", instance=7) is None
 
 
 def test_subscriptions_take_nothing_away(link, vehicle):
@@ -307,7 +354,7 @@ def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
         with mavloom.connect(f"udpout://127.0.0.1:{open_link.port}?sign={tmp_path}/other") as signer:
             signer.send("HEARTBEAT", custom_mode=3)
             message = open_link.recv(timeout=DEADLINE_S)
-            assert (message.custom_mode, message.signed, message.signature) == (3, True, "unchecked")
+            assert (message.custom_mode, message.signed, message.signature, message.get_signed()) == (3, True, "unchecked", False)
         assert link.recv(timeout=0) is None
 
 
@@ -328,11 +375,57 @@ def test_row_19_example_5_many_tasks_on_one_loop(link, vehicle):
         await asyncio.sleep(0)
         for i in range(count):
             vehicle.send(vehicle.heartbeat(), vehicle.attitude(i))
-        return await asyncio.wait_for(asyncio.gather(*watchers), DEADLINE_S)
+        found = await asyncio.wait_for(asyncio.gather(*watchers), DEADLINE_S)
+        assert asyncio.get_running_loop()._default_executor is None
+        return found
 
     before = threading.active_count()
     assert asyncio.run(run()) == [list(range(count))] * tasks
-    assert threading.active_count() == before  # no executor
+    assert threading.active_count() == before
+
+
+def test_row_19_a_loop_that_is_left_takes_no_more_than_it_gave(link, vehicle):
+    async def watch(count):
+        found = []
+        async for msg in link:
+            found.append(msg.time_boot_ms)
+            if len(found) == count:
+                return found
+
+    async def run():
+        assert await asyncio.wait_for(watch(10), DEADLINE_S) == list(range(10))
+        assert link.recv(timeout=0).time_boot_ms == 10
+        assert await asyncio.wait_for(watch(89), DEADLINE_S) == list(range(11, 100))
+        vehicle.send(vehicle.attitude(100))
+        assert await asyncio.wait_for(watch(1), DEADLINE_S) == [100]  # the loop before was left while nothing was there
+    vehicle.send(*(vehicle.attitude(i) for i in range(50)))
+    vehicle.send(*(vehicle.attitude(i) for i in range(50, 100)))
+    until(lambda: link.stats.frames_in == 100)
+    asyncio.run(run())
+
+
+def test_row_19_one_task_waits_on_one_reader(link, vehicle):
+    async def first():
+        async for msg in link:
+            return msg
+
+    async def run():
+        task = asyncio.create_task(first())
+        await asyncio.sleep(0.01)
+        with pytest.raises(ValueError, match="subscribe"):
+            await asyncio.wait_for(first(), DEADLINE_S)
+        vehicle.send(vehicle.heartbeat())
+        assert (await asyncio.wait_for(task, DEADLINE_S)).name == "HEARTBEAT"
+    asyncio.run(run())
+
+
+def test_row_19_errors_in_the_loop_are_the_callers(link, vehicle):
+    async def run():
+        async for _ in link:
+            raise mavloom.ClosedError("of the caller")
+    vehicle.send(vehicle.heartbeat())
+    with pytest.raises(mavloom.ClosedError, match="of the caller"):
+        asyncio.run(run())
 
 
 def test_row_19_cancel_and_close(link, vehicle):
@@ -363,7 +456,7 @@ def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
             link.recv()
         except mavloom.ClosedError as error:
             ended.append(error)
-    threads = [threading.Thread(target=wait), threading.Thread(target=lambda: ended.append(list(link)))]
+    threads = [threading.Thread(target=work, daemon=True) for work in (wait, lambda: ended.append(list(link)))]
     for thread in threads:
         thread.start()
     time.sleep(0.02)
@@ -376,6 +469,60 @@ def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
         with pytest.raises(mavloom.ClosedError):
             call()
     assert link.stats.frames_in == 0
+
+
+def is_free(port):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        try:
+            sock.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+        return True
+
+
+def test_row_26_a_link_that_goes_frees_its_port_at_once():
+    gc.disable()
+    try:
+        link = mavloom.connect("udpin://127.0.0.1:0")
+        port = link.port
+        iterator, subscription = iter(link), link.subscribe()
+        assert link.recv(timeout=0) is None
+        del link
+        assert not is_free(port)
+        del iterator
+        assert not is_free(port) and subscription.recv(timeout=0) is None
+        del subscription
+        assert is_free(port)
+    finally:
+        gc.enable()
+
+
+def test_row_26_what_is_iterated_stays_open(peer):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+
+    async def watch():
+        found = 0
+        async for _ in mavloom.connect(f"udpin://127.0.0.1:{port}").subscribe():
+            gc.collect()
+            found += 1
+            if found == 5:
+                return found
+    vehicle = Vehicle(peer, port)
+    with flood(vehicle):
+        for number, _ in enumerate(mavloom.connect(f"udpin://127.0.0.1:{port}")):
+            gc.collect()
+            if number == 5:
+                break
+        assert asyncio.run(asyncio.wait_for(watch(), DEADLINE_S)) == 5
+    vehicle.socket.close()
+
+
+def test_a_source_is_a_byte():
+    for options in ({"source_system": 300}, {"source_component": -1}):
+        with pytest.raises(mavloom.UsageError, match="out of range, 0 to 255"):
+            mavloom.connect("udpin://127.0.0.1:0", **options)
 
 
 def test_a_port_in_use_is_an_os_error(link):
@@ -499,7 +646,7 @@ def test_row_20_a_connection_that_breaks_is_made_again(peer):
 def test_row_6_other_threads_run_while_one_waits(link, vehicle):
     """With the GIL held in `recv` nothing would ever be sent."""
     found = []
-    thread = threading.Thread(target=lambda: found.append(link.recv()))
+    thread = threading.Thread(target=lambda: found.append(link.recv()), daemon=True)
     thread.start()
     until(thread.is_alive)
     vehicle.send(vehicle.heartbeat())
