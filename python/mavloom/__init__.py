@@ -24,5 +24,6 @@ _atexit.register(stop_all)
 
 __all__ = [
     "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
-    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "tables",
+    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect",
+    "enums", "messages", "read", "tables",
 ]

@@ -117,9 +117,10 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
             instance: int | str | None = None, dialect: Dialect | None = None) -> Columns:
     """All messages `name` of a tlog as columns, read in one pass in C++ without an object for each message; the GIL is free meanwhile.
 
-    `system`, `component` and `instance` (the value of the field that tells several sensors of one message apart, as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name) keep the rows that
-    agree. An unknown name, or `instance` for a message without such a field, is a UsageError (a ValueError); damage in the file is skipped and counted in
-    `junk_bytes` (checksums of other messages are not looked at while record joins record). Peak memory: the rows as they were sent, and the arrays."""
+    `system`, `component` and `instance` (the value of the field that tells several sensors of one message apart, as BATTERY_STATUS.id or
+    NAMED_VALUE_FLOAT.name) keep the rows that agree. An unknown name, or `instance` for a message without such a field, is a UsageError (a ValueError);
+    damage in the file is skipped and counted in `junk_bytes` (checksums of other messages are not looked at while record joins record). Peak memory: the
+    rows as they were sent, and the arrays."""
     definitions = Dialect() if dialect is None else dialect
     info = definitions[name]
     parts, junk_bytes = read_columns(path, name, system, component, instance, definitions)
