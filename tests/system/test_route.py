@@ -653,6 +653,8 @@ def test_n4_all_peers_of_a_port_receive(net):
 def test_n5_a_deleted_byte_costs_one_frame(net, kind, deleted):
     sut = net((kind, "udpout"))
     sent = [heartbeat() for _ in range(10)]
+    while sent[5].endswith(b"\xfd"):  # the next frame's start would be taken for the byte that is missing
+        sent = [heartbeat() for _ in range(10)]
     damaged = bytearray(b"".join(sent))
     del damaged[5 * 21 + deleted]
     sut[1].send(bytes(damaged))

@@ -249,6 +249,22 @@ def test_without_a_name_a_second_router_does_without_a_socket(spawn):
     assert first.alive and second.alive
 
 
+@pytest.mark.parametrize("left", [False, True], ids=["nothing there", "left by a killed one"])
+def test_of_routers_that_start_at_once_one_gets_the_socket(spawn, left):
+    killed = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = control_path(killed)
+    killed.process.send(signal.SIGKILL)
+    killed.process.process.wait()
+    if not left:
+        os.unlink(path)
+    starting = [spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", killed.name, env=killed.env) for _ in range(6)]
+    harness.wait_for(lambda: sum(not router.alive for router in starting) == 5, what="five to be refused")
+    refused = [router.wait() for router in starting if not router.alive]
+
+    assert all(done.status == 1 and "is served by a router that runs" in done.stderr for done in refused), refused
+    assert killed._connect_to(path)
+
+
 def test_the_socket_goes_with_its_router_and_a_dead_ones_is_taken(spawn):
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     path = control_path(router)
