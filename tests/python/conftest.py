@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Fixtures of the Python package's tests. The package is the one of the build under test; the program beside it comes from MAVLOOM_PROGRAM or build/release."""
 import os
+import signal
 import sys
 
 import pytest
@@ -10,6 +11,10 @@ from places import PACKAGE, ROOT
 sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "support"), str(ROOT / "tests" / "system")]
 
 import pymavlink_vectors as vectors  # noqa: E402
+
+# A shell that starts the tests in the background has them ignore Ctrl-C, and what they start would inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
