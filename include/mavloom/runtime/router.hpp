@@ -48,8 +48,8 @@ public:
     bool remove(std::string_view label);
     // Other [router] values. Links stay, and so does what was learned and counted.
     void configure(const RouterConfig& config);
-    // The endpoints become these: those that are the same, and the keys in their files, stay as they are. What could not be opened is told and left out; one of the same
-    // name that was there before is opened again.
+    // The endpoints become these: those that are the same, and the keys in their files, stay as they are. What could not be opened is told and
+    // left out; one of the same name that was there before is opened again.
     void become(const std::vector<Endpoint>& endpoints);
 
     // Says something as the router itself does.
