@@ -80,8 +80,8 @@ private:
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
     void drain() {
-        const auto begin = mono_now();
         sources_.drain(*this);
+        const auto begin = mono_now();
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
         sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met

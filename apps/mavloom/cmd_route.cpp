@@ -195,8 +195,10 @@ private:
     void reload() {
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
         std::error_code unknown;
-        if (std::filesystem::is_fifo(options_.config, unknown))
-            return tell(fmt::format("mavloom: {} is a pipe, which is read once; nothing was changed", options_.config));
+        const auto type = std::filesystem::status(options_.config, unknown).type();
+        if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
+            return tell(fmt::format("mavloom: {} is a pipe or a terminal, which is read once; nothing was changed",
+                                    options_.config));
         auto config = read_config(options_.config, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();

@@ -118,6 +118,11 @@ void Links::remove(EndpointId endpoint) {
     impl_->choose_coalescing();
 }
 
+bool Links::has_other_keys(EndpointId endpoint) const {
+    const OpenEndpoint* const found = impl_->find(endpoint);
+    return found != nullptr && found->signature != nullptr && found->signature->has_other_keys();
+}
+
 std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return impl_->core.turn(handler, deadline); }
 
 std::size_t Links::send(LinkId link, wire::FrameView frame) {

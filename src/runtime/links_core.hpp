@@ -77,6 +77,8 @@ public:
 
     // Notes in the keys' files the times that were used so far.
     void keep_times() const;
+    // Whether the files hold other keys now; not so while one of them cannot be read.
+    [[nodiscard]] bool has_other_keys() const;
     [[nodiscard]] bool verifies() const noexcept { return verifier_.has_value(); }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
@@ -90,8 +92,16 @@ public:
                                        WallTime now) noexcept;
 
 private:
+    struct OpenKey {
+        std::string path;
+        wire::SigningKey key;
+        std::shared_ptr<KeyFile> times;
+        [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
+    };
+    [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
+
     KeyStates& states_;
-    std::shared_ptr<KeyFile> verify_file_, sign_file_;
+    std::optional<OpenKey> verify_with_, sign_with_;
     std::optional<wire::Verifier> verifier_;
     std::optional<wire::Signer> signer_;
     const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead

@@ -12,9 +12,10 @@ namespace mavloom::runtime {
 static constexpr std::chrono::milliseconds pipe_look{5};
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
-// A drain ends after some turns without a frame, for one full of junk has none either; and where frames keep coming, after more turns than empty a
-// receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
-static constexpr int last_empty_turns = 16, most_drain_turns = 1400;
+// A drain ends after some turns without a frame (one full of junk has none either). Where frames keep coming it ends after as many turns as empty a
+// stream's receive buffer of 8 MiB, at 128 KiB a turn, that brought nothing which the kernel had received before; and in any case after more turns than
+// empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
+static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
@@ -152,12 +153,43 @@ std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t m
     return frames + play(handler, most_frames);
 }
 
+namespace {
+
+// Hears whether a frame was received before a moment. The time of a stream's frame is that of its reading.
+class EarlyFrames final : public LinkHandler {
+public:
+    EarlyFrames(LinkHandler& handler, WallTime moment) : handler_(handler), moment_(moment) {}
+    [[nodiscard]] bool take() noexcept { return std::exchange(early_, false); }
+
+private:
+    void on_frame(const RxFrame& rx) override {
+        early_ = early_ || rx.time <= moment_;
+        handler_.on_frame(rx);
+    }
+    void on_link_up(LinkId link, EndpointId endpoint, std::string_view name) override {
+        handler_.on_link_up(link, endpoint, name);
+    }
+    void on_link_down(LinkId link, EndpointId endpoint, std::string_view why) override {
+        handler_.on_link_down(link, endpoint, why);
+    }
+    void on_notice(EndpointId endpoint, std::string_view text) override { handler_.on_notice(endpoint, text); }
+
+    LinkHandler& handler_;
+    WallTime moment_;
+    bool early_ = false;
+};
+
+}  // namespace
+
 // Counts turns, not time: on a busy machine time may pass before the first of them.
 void Sources::drain(LinkHandler& handler, const std::function<void()>& after_turn) {
-    int empty_turns = 0;
-    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns; ++turns) {
+    EarlyFrames early(handler, wall_now());
+    int empty_turns = 0, late_turns = 0;
+    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns && late_turns < last_late_turns;
+         ++turns) {
         const MonoTime until = turns < last_empty_turns ? mono_now() + empty_turn : MonoTime{};
-        empty_turns = turn(handler, until, 0) == 0 ? empty_turns + 1 : 0;
+        empty_turns = turn(early, until, 0) == 0 ? empty_turns + 1 : 0;
+        late_turns = early.take() ? 0 : late_turns + 1;
         after_turn();
     }
 }
