@@ -26,6 +26,12 @@ namespace {
 constexpr std::size_t most_sessions = 64;  // of each kind: more are turned away
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
 
+// 0: there is nothing.
+ino_t inode_of(const std::filesystem::path& path) noexcept {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
 tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
     return setup_error(
         SetupCode::in_use,
@@ -40,7 +46,7 @@ public:
     NameLock(const NameLock&) = delete;
     NameLock& operator=(const NameLock&) = delete;
     ~NameLock() {
-        if (fd_) ::unlink(path_.c_str());
+        if (fd_ && is_named(fd_.get())) ::unlink(path_.c_str());
     }
 
     [[nodiscard]] SetupResult<void> take(const std::filesystem::path& socket) {
@@ -58,8 +64,7 @@ private:
     // Not so once the router that locked it before has ended meanwhile, and taken the file with it.
     [[nodiscard]] bool is_named(int fd) const {
         struct stat held {};
-        struct stat named {};
-        return ::fstat(fd, &held) == 0 && ::lstat(path_.c_str(), &named) == 0 && held.st_ino == named.st_ino;
+        return ::fstat(fd, &held) == 0 && held.st_ino == inode_of(path_);
     }
 
     std::string path_;
@@ -119,7 +124,7 @@ public:
         context_.stop();
         if (thread_.joinable()) thread_.join();
         router_.drop_posted();
-        if (!socket_.empty()) ::unlink(socket_.c_str());
+        if (!socket_.empty() && inode_of(socket_) == inode_) ::unlink(socket_.c_str());
     }
 
     SetupResult<void> open(const ControlOptions& options) {
@@ -148,6 +153,7 @@ private:
         try {
             control_.open(Local::endpoint(path.string()));
             socket_ = path;
+            inode_ = inode_of(path);
         } catch (const boost::system::system_error& error) {
             return error_of(fmt::format("control socket {}", path.string()), error);
         }
@@ -189,6 +195,7 @@ private:
     std::uint16_t metrics_port_ = 0;
     NameLock name_;  // outlives the socket
     std::filesystem::path socket_;
+    ino_t inode_ = 0;  // its own: somebody may have removed it, and another router have made one
     std::thread thread_;
 };
 
@@ -197,10 +204,14 @@ Control::~Control() = default;
 std::uint16_t Control::metrics_port() const noexcept { return impl_->metrics_port(); }
 
 SetupResult<std::unique_ptr<Control>> Control::create(Router& router, const ControlOptions& options) {
-    auto impl = std::make_unique<Impl>(router);
-    if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
-    impl->start();
-    return std::unique_ptr<Control>(new Control(std::move(impl)));
+    try {
+        auto impl = std::make_unique<Impl>(router);
+        if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
+        impl->start();
+        return std::unique_ptr<Control>(new Control(std::move(impl)));
+    } catch (const boost::system::system_error& error) {  // no descriptors are left, say
+        return error_of("control socket and metrics", error);
+    }
 }
 
 }  // namespace mavloom::runtime

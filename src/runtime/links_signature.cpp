@@ -14,9 +14,8 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& o
     if (!options.verify_key_file.empty()) {
         auto opened = signature->open(options.verify_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
-        const auto& [path, key, times] = signature->verify_with_.emplace(std::move(*opened));
-        signature->verifier_.emplace(key);
-        for (const auto& stream : times->state.heard) signature->verifier_->restore(stream);
+        signature->verify_with_.emplace(std::move(*opened));
+        signature->verifier_ = verifier_of(*signature->verify_with_, !options.group.empty());
     }
     if (!options.sign_key_file.empty()) {
         auto opened = signature->open(options.sign_key_file, notices);
@@ -32,6 +31,17 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
     auto key = wire::SigningKey::load(path);
     if (!key) return tl::unexpected(std::move(key).error());
     return OpenKey{path, *key, states_.open(path, *key, notices)};
+}
+
+// What one endpoint took is a replay at the others with its key. Not so in a group, where the same frame comes by several links, and late by one of them: there
+// each judges alone.
+std::shared_ptr<wire::Verifier> Signature::verifier_of(const OpenKey& with, bool alone) {
+    auto shared = alone ? nullptr : with.times->verifier.lock();
+    if (shared) return shared;
+    auto verifier = std::make_shared<wire::Verifier>(with.key);
+    for (const auto& stream : with.times->state.heard) verifier->restore(stream);
+    if (!alone) with.times->verifier = verifier;
+    return verifier;
 }
 
 Signature::~Signature() {

@@ -196,7 +196,10 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
     auto file = std::make_shared<KeyFile>(path);
     const auto open = std::ranges::find_if(files_, [&](const auto& f) { return f->path() == file->path(); });
     if (open != files_.end()) {
-        (*open)->changed = (*open)->state.belong_to(key) || (*open)->changed;
+        if ((*open)->state.belong_to(key)) {
+            (*open)->changed = true;
+            (*open)->verifier.reset();
+        }
         return *open;
     }
     const auto now = wire::SigningTime::from(wall_now());

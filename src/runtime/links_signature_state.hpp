@@ -52,7 +52,8 @@ public:
     [[nodiscard]] SetupResult<void> write(KeyState wanted);
 
     KeyState state;
-    bool changed = false;  // since it was given to the writer
+    bool changed = false;                    // since it was given to the writer
+    std::weak_ptr<wire::Verifier> verifier;  // that endpoints with this key share
 
 private:
     std::filesystem::path path_;

@@ -290,6 +290,21 @@ def test_a_socket_that_nobody_serves_in_time_is_not_taken(spawn):
     assert refused.status == 1 and "is served by a router that runs" in refused.stderr
 
 
+def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
+    first = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = control_path(first)
+    os.unlink(path)
+    os.unlink(f"{path}.lock")
+    second = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", first.name, env=first.env)
+    harness.wait_for(lambda: os.path.exists(path), what="the second one's socket")
+    assert first.process.stop(signal.SIGTERM).status == 143
+
+    assert sorted(name for name in os.listdir(os.path.dirname(path)) if name.startswith(first.name + ".")) == \
+        [f"{first.name}.ctl", f"{first.name}.ctl.lock"]
+    assert second.stop(signal.SIGTERM).status == 143
+    assert not os.path.exists(path) and not os.path.exists(f"{path}.lock")
+
+
 def test_the_socket_goes_with_its_router_and_a_dead_ones_is_taken(spawn):
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     path = control_path(router)
@@ -939,6 +954,22 @@ def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
     signed = sut[2].next()
     assert signed != own and verifier(key).decode(bytearray(signed)).get_type() == "ATTITUDE"
     assert sut.router.stats("router")[0]["not_signed"] == 4
+
+
+@pytest.mark.parametrize("group, heard", [("", 1), ("&group=air", 2)])
+def test_what_one_endpoint_took_is_a_replay_at_the_others_but_in_a_group(net, run, tmp_path, group, heard):
+    key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key{group}"
+    sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options})
+    own = attitude(VEHICLE, signing=(key, 1, ticks_now()))
+    sut[1].send(own)
+    assert sut[3].next() == own
+    sut[2].send(own)
+    mark = attitude(VEHICLE, signing=(key, 2, ticks_now()))
+    sut[2].send(mark)
+
+    assert sut[3].next() == mark
+    assert sum(link["bad_signature"] for link in sut.router.links()) == 2 - heard
+    assert sum(link["duplicate"] for link in sut.router.links()) == heard - 1
 
 
 def test_the_own_heartbeat_is_signed(net, run, tmp_path):
