@@ -57,7 +57,7 @@ def mode(text: str) -> int:
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory.",
-                                     epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter)
+                                     epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
     parser.add_argument("--ring", required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
     parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
@@ -104,8 +104,8 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
 
 
 def main(words: list[str] | None = None) -> int:
-    options = arguments(words)
     signals = Signals()
+    options = arguments(words)
     try:
         return run(options, signals)
     except Error as error:
