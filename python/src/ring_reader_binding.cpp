@@ -306,7 +306,6 @@ void bind_record(nb::module_& module) {
                      "What the writer found out about it.")
         .def_prop_ro("position", of_record([](const shm::RingRecord& record) { return record.position; }),
                      "Bytes since the ring was made.")
-        .def("__len__", of_record([](const shm::RingRecord& record) { return record.data.size(); }))
         .def("__repr__", of_record([](const shm::RingRecord& record) {
                  return fmt::format("<Record of {} bytes, link {}, position {}>", record.data.size(),
                                     record.info.link.value, record.position);
@@ -324,7 +323,7 @@ void bind_batch(nb::module_& module) {
             "__iter__", [](nb::handle self) { return nb::steal(PySeqIter_New(self.ptr())); },
             nb::sig("def __iter__(self) -> collections.abc.Iterator[Record]"))
         .def("array", &Batch::array, nb::arg("dtype"),
-             nb::sig("def array(self, dtype: typing.Any) -> numpy.ndarray[typing.Any, typing.Any]"),
+             nb::sig("def array(self, dtype: typing.Any) -> numpy.typing.NDArray[typing.Any]"),
              "The records as one read-only numpy array; each has as many bytes as the dtype, else ValueError. Of a "
              "lossless "
              "reader it is a view, and counts as one, unless\n"

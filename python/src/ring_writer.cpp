@@ -170,7 +170,8 @@ void bind_ring_writer(nb::module_& module) {
         .def(
             "write", &PyRingWriter::write, "data"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0,
             "kind"_a = 0, "verdict"_a = 0,
-            nb::sig("def write(self, data: Buffer, *, time_ns: int | None = None, link: int = 0, kind: int = 0, "
+            nb::sig("def write(self, data: Buffer | numpy.typing.NDArray[typing.Any], *, time_ns: int | None = None, "
+                    "link: int = 0, kind: int = 0, "
                     "verdict: int = 0) -> bool"),
             "Copies bytes, or whatever has a contiguous buffer, into the ring as one record, of at most `longest` "
             "bytes. "

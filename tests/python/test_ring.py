@@ -116,7 +116,8 @@ def test_what_a_record_says(writer, ring):
     rest = [reader.read(0) for _ in range(5)]
     assert [r.data for r in rest] == [b"bytes", b"bytearray", b"view", b"\0\0\1\0\2\0", b""]
     assert all((r.time_ns, r.link, r.kind, r.verdict) == (-i, 2**32 - 1, 2**16 - 1, 255) for i, r in enumerate(rest))
-    assert [r.position for r in rest] == [32, 64, 104, 136, 168] and len(rest[1]) == 9
+    assert [r.position for r in rest] == [32, 64, 104, 136, 168]
+    assert all(rest)  # also the empty one
     assert reader.read(0) is None and now.data == b"now"  # a copy
     assert (writer.records, writer.dropped, reader.missed) == (6, 0, 0)
 
@@ -866,7 +867,7 @@ def test_row_6_other_threads_run_while_one_waits(writer, ring):
     """With the GIL held in `read` nothing would ever be written, and with it held in `write` nothing read."""
     reader = mavloom.RingReader(ring, lossless=True)
     found = []
-    thread = threading.Thread(target=lambda: [found.append(len(reader.read())) for _ in range(300)], daemon=True)
+    thread = threading.Thread(target=lambda: [found.append(len(reader.read().data)) for _ in range(300)], daemon=True)
     thread.start()
     for number in range(300):
         writer.write(bytes(number * 10))
