@@ -82,17 +82,17 @@ shm::ReadResult<shm::RingRecord> RingSource::next(MonoTime deadline) {
 }
 
 RingSource::State RingSource::view(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out) {
-    std::vector<shm::RingRecord> records(most);
-    auto count = reader_.try_read_batch(records);
+    if (scratch_.size() < most) scratch_.resize(most);
+    auto count = reader_.try_read_batch({scratch_.data(), most});
     if (!count && count.error() == shm::ReadError::empty && deadline != MonoTime{}) {
         const auto first = reader_.read(deadline);
         if (!first) return state_of(first.error());
-        records.front() = *first;
+        scratch_.front() = *first;
         count = 1;
     }
     if (!count) return state_of(count.error());
-    records.resize(*count);
-    out = std::make_shared<Lease>(shared_from_this(), std::move(records));
+    const auto end = scratch_.begin() + static_cast<std::ptrdiff_t>(*count);
+    out = std::make_shared<Lease>(shared_from_this(), std::vector<shm::RingRecord>(scratch_.begin(), end));
     current_ = out;
     return State::found;
 }

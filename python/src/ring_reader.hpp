@@ -86,7 +86,8 @@ private:
     std::atomic<std::uint64_t> missed_{0};
     // Guarded by turns_, but for its const members.
     shm::RingReader reader_;
-    std::weak_ptr<Lease> current_;  // of a lossless reader: what it holds
+    std::weak_ptr<Lease> current_;          // of a lossless reader: what it holds
+    std::vector<shm::RingRecord> scratch_;  // likewise: where batches are read to
 };
 
 }  // namespace mavloom::python
