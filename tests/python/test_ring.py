@@ -603,6 +603,47 @@ time.sleep(3600)
     assert status_of(ring)["readers"] == [] and writer.dropped == 0
 
 
+def test_example_10_the_program_is_killed_while_it_reads(writer, ring):
+    """Between its read and its release: it holds the ring, and prints to a pipe that nobody empties."""
+    for _ in range(5):
+        process = subprocess.Popen([PROGRAM, "shm", "read", ring, "--lossless"], stdout=subprocess.PIPE)
+        with process:
+            until(lambda: [r["pid"] for r in status_of(ring)["readers"]] == [process.pid])
+            threading.Timer(0.1, process.kill).start()
+            for _ in range(1000):
+                writer.write(bytes(2000))
+    assert writer.records == 5000 and writer.dropped == 0 and status_of(ring)["readers"] == []
+
+
+def test_example_10_the_program_is_killed_while_it_writes(writer, ring):
+    writer.close()
+    rng = random.Random(5)
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        for _ in range(20):
+            process = subprocess.Popen([PROGRAM, "shm", "write", ring, "--capacity", "64k"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            feeder = threading.Thread(target=feed, args=[process.stdin], daemon=True)
+            feeder.start()
+            until(lambda: reader.writer_alive)
+            found = [int(bytes(reader.read(DEADLINE_S).data).rstrip(b"."))]
+            threading.Timer(rng.random() * 0.01, process.kill).start()
+            for record in reader:
+                number, dots = bytes(record.data).split(b".", 1)
+                assert dots == b"." * (int(number) % 50)
+                found.append(int(number))
+            assert process.wait(DEADLINE_S) == -signal.SIGKILL and found == list(range(len(found))) and found
+            feeder.join()
+        with mavloom.RingWriter(ring, capacity=64 * KIB) as following:
+            following.write(b"on")
+            assert reader.read().data == b"on" and not following.created
+
+
+def feed(pipe):
+    """Numbered lines until nobody takes them."""
+    with contextlib.suppress(OSError), pipe:
+        for number in range(10**9):
+            pipe.write(b"%d.%s\n" % (number, b"." * (number % 50)))
+
+
 def test_row_3_9_a_stopped_reader_is_not_dead(ring, start):
     with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
         process = start("""
