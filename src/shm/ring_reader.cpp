@@ -154,18 +154,21 @@ bool RingReader::writer_alive() const noexcept { return segment_->is_locked(writ
 bool RingReader::is_named() const noexcept { return segment_->is_named(); }
 
 // In a child of fork() nothing is touched: the slot is the parent's.
+void RingReader::detach() noexcept {
+    if (!slot_ || segment_->forked()) return;
+    auto& control = *memory_of(*segment_).control;
+    const std::uint64_t bit = std::uint64_t{1} << *slot_;
+    control.holders.fetch_and(~bit, std::memory_order_release);
+    control.attached.fetch_and(~bit, std::memory_order_relaxed);
+    control.sleepers.fetch_and(~bit, std::memory_order_relaxed);
+    control.rooms.fetch_add(1, std::memory_order_release);
+    if (control.room_wanted.load(std::memory_order_seq_cst) != 0) SharedWords::wake(control.rooms);
+    segment_->unlock(slot_byte(*slot_));
+    slot_.reset();
+}
+
 void RingReader::end() noexcept {
-    if (!segment_) return;
-    if (slot_ && !segment_->forked()) {
-        auto& control = *memory_of(*segment_).control;
-        const std::uint64_t bit = std::uint64_t{1} << *slot_;
-        control.holders.fetch_and(~bit, std::memory_order_release);
-        control.attached.fetch_and(~bit, std::memory_order_relaxed);
-        control.sleepers.fetch_and(~bit, std::memory_order_relaxed);
-        control.rooms.fetch_add(1, std::memory_order_release);
-        if (control.room_wanted.load(std::memory_order_seq_cst) != 0) SharedWords::wake(control.rooms);
-        segment_->unlock(slot_byte(*slot_));
-    }
+    if (segment_) detach();
     segment_.reset();
 }
 

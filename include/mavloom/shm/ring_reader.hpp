@@ -67,6 +67,9 @@ public:
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
     // Ends the view of the last record now, and tells the writer.
     void release() noexcept;
+    // Gives the slot and every hold back, as the destructor does, but leaves the ring mapped until then: what still points to a view reads old or newer
+    // bytes, and does not crash. Nothing may be read after it.
+    void detach() noexcept;
 
     // Whether what was read of the view is what was written: false once a writer that evicts took the hold away. Copy (or use), then ask: the answer is
     // about what was read before the call, and a read-modify-write of a shared word.
