@@ -75,7 +75,10 @@ void Receiver::run() {
         sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), room);
         queue_->publish();
     }
-    sources_.drain(*this, [this] { queue_->publish(); });
+    sources_.drain(*this, [this] {
+        queue_->publish();
+        return Room(frames_that_fit());
+    });
     sources_.add_to(totals_);
     queue_->close();
 }

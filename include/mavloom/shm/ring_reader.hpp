@@ -65,6 +65,12 @@ public:
     }
     // The next record, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
+    // For a loop that sleeps elsewhere (RingWaiter). `poll` is `read` without waiting: a record, or at once why there is none. `arm` asks the writer to
+    // change `wake_word` when there is one, until the next record: how long the loop may sleep before it polls again, 0 when something waits already.
+    [[nodiscard]] ReadResult<RingRecord> poll() noexcept;
+    [[nodiscard]] Nanoseconds arm() noexcept;
+    // Keeps the mapping for as long as it is held.
+    [[nodiscard]] std::shared_ptr<const SharedWords::Word32> wake_word() const;
     // Ends the view of the last record now, and tells the writer.
     void release() noexcept;
 
@@ -81,10 +87,12 @@ public:
     [[nodiscard]] std::uint64_t position() const noexcept {
         return consumer_.position();
     }  // of the record in view, or the next
+    // Where what is committed now ends.
+    [[nodiscard]] std::uint64_t end_position() const noexcept;
     [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // in all
 
 private:
-    RingReader(std::string name, const ReaderOptions& options, std::unique_ptr<Segment> segment);
+    RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment);
     [[nodiscard]] bool forked() const noexcept { return forked_->load(std::memory_order_relaxed); }
     [[nodiscard]] SetupResult<void> begin();
     [[nodiscard]] std::optional<unsigned> take_slot() noexcept;
@@ -95,11 +103,11 @@ private:
 
     std::string name_;
     ReaderOptions options_;
-    std::unique_ptr<Segment> segment_;
+    std::shared_ptr<Segment> segment_;           // with those who hold a wake word
     const std::atomic<bool>* forked_ = nullptr;  // of the segment
     std::optional<unsigned> slot_;
     detail::Consumer<SharedWords> consumer_;
-    MonoTime next_look_at_writer_{};
+    MonoTime next_look_at_writer_{}, armed_{};
 };
 
 }  // namespace mavloom::shm
