@@ -72,8 +72,9 @@ bool RingSource::read(LinkHandler& handler) {
 }
 
 void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
-    if (std::exchange(changed_, false) || opened_ != follower_.opened()) {
-        opened_ = follower_.opened();
+    const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
+    if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
+    if (std::exchange(changed_, false) || is_new) {
         by_number_.clear();
         names_.clear();
         last_ = nullptr;
@@ -130,6 +131,7 @@ void RingSource::nothing_comes(shm::ReadError why, LinkHandler& handler) {
     const auto* const error = follower_.error();
     if (error == nullptr) return;
     const bool absent = error->code == SetupCode::not_found;
+    awaited_ = awaited_ || absent;
     tell(handler, absent ? Told::absent : Told::unreadable,
          error->text + (absent ? "; waiting for it" : "; trying again"));
 }

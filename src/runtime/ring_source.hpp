@@ -84,6 +84,7 @@ private:
     MonoTime next_look_{};  // at a ring that is not open, or that is damaged
     bool more_ = false;     // the last turn ended for want of room
     bool changed_ = false;  // its writer went, or another ring is open: links have other numbers
+    bool awaited_ = false;  // the next ring was not there before: all of it is wanted
     std::uint64_t opened_ = 0;
     std::optional<std::uint64_t> end_;  // where reading stops
 
