@@ -175,7 +175,8 @@ SetupResult<void> open_sources(const Options& options, runtime::Sources& sources
             return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring what it holds already; name "
                                                              "another destination",
                                                              endpoint->label()));
-        if (!endpoint->options.lossless) endpoint->options.lossless = true;
+        const bool is_ring = endpoint->scheme == runtime::Scheme::shm;
+        if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
         if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
     }
     return {};
@@ -234,8 +235,9 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Without options what comes out is byte for byte what went in. What the far side answers goes "
-        "back.\n\nExamples:\n"
+        "back. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
         "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
+        "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"
         "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
     return [options, &common] { return relay(common, *options); };
 }
