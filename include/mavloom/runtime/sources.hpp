@@ -25,8 +25,7 @@ class RingSources;
 
 // How many frames a turn may hand over: of the recordings together, of lossless rings together, of the other rings together.
 struct Room {
-    Room(std::size_t all)
-        : recordings(all), lossless(all), lossy(all) {}  // NOLINT(google-explicit-constructor): the common case
+    explicit Room(std::size_t all) : recordings(all), lossless(all), lossy(all) {}
     Room(std::size_t r, std::size_t lossless_rings, std::size_t lossy_rings)
         : recordings(r), lossless(lossless_rings), lossy(lossy_rings) {}
     std::size_t recordings, lossless, lossy;
