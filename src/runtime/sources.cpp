@@ -17,6 +17,8 @@ static constexpr std::uint64_t damage_a_turn = 256u << 10;
 // receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
 static constexpr int last_empty_turns = 16, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
+// How many turns rings wait for a caller that has no room: some hundred milliseconds, for a disk that is busy.
+static constexpr int most_full_turns = 300;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
     auto links = Links::create(dialect);
@@ -166,9 +168,11 @@ void Sources::drain(LinkHandler& handler, const std::function<Room()>& room) {
     rings_->end_here();
     int empty_turns = 0;
     for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns; ++turns) {
-        const MonoTime until = turns < last_empty_turns ? mono_now() + empty_turn : MonoTime{};
         const Room now = room();
-        empty_turns = turn(handler, until, {0, now.lossless, now.lossy}) == 0 ? empty_turns + 1 : 0;
+        const bool is_full = now.lossless == 0 && turns < most_full_turns && !rings_->empty();
+        const MonoTime until = turns < last_empty_turns || is_full ? mono_now() + empty_turn : MonoTime{};
+        const bool is_empty = turn(handler, until, {0, now.lossless, now.lossy}) == 0 && !is_full;
+        empty_turns = is_empty ? empty_turns + 1 : 0;
     }
     room();
 }

@@ -302,6 +302,35 @@ def test_what_was_overwritten_before_the_waiting_reader_saw_the_ring_counts_as_m
     assert totals["lapped"] > 0 and totals["frames"] + totals["lapped"] == 5000
 
 
+@short
+def test_a_relay_whose_hold_was_taken_away_counts_what_it_missed(run, spawn, feed, ring, sink):
+    writer = feed(ring, policy="evict")
+    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    wait_readers(run, ring)
+    relay.send(signal.SIGSTOP)
+    writer.write(numbered(5000))
+    wait_written(run, ring, 5000)
+    relay.send(signal.SIGCONT)
+    harness.wait_for(lambda: stat_of(run, ring)["readers"][0]["behind_records"] == 0, what="the relay")
+    stats = stats_of(relay.stop())
+    assert stats["totals"]["lapped"] > 0 and stats["edit"]["frames"] + stats["totals"]["lapped"] == 5000
+
+
+@short
+def test_a_small_buffer_makes_a_lossless_ring_wait(run, spawn, feed, ring, tmp_path):
+    """Records of very many frames each, more than the buffer has room for."""
+    writer, out, records = feed(ring, capacity=1 << 20), tmp_path / "out.tlog", numbered(20_000)
+    recorder = spawn("record", f"shm://{ring}?lossless=true", "-o", out, "--buffer", "64k")
+    wait_readers(run, ring)
+    for begin in range(0, len(records), 1000):
+        writer.write([(records[begin][0], bytes_of(records[begin:begin + 1000]))])
+    wait_written(run, ring, 20)
+    harness.wait_for(lambda: stat_of(run, ring)["readers"][0]["behind_records"] == 0, what="the recorder")
+    done = recorder.stop()
+    assert done.status == 130 and "not handed on" not in done.stderr
+    assert b"".join(frame for _, frame in frames.read_tlog(out)) == bytes_of(records)
+
+
 # ---- what stands in records
 
 @short
