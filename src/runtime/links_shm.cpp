@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "mavloom/net/local.hpp"
+#include "mavloom/net/local_sender.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_retry.hpp"
@@ -18,13 +18,13 @@ constexpr std::size_t one_frame = 1;  // a datagram has room for no second one
 // What a frame can lie in: the queue's memory is one piece.
 constexpr std::size_t most_pieces = 2;
 
-SetupResult<std::filesystem::path> inlet_path(std::string_view ring) {
+SetupResult<std::filesystem::path> path_of_inlet(std::string_view ring) {
     return control_path(ring).map([](std::filesystem::path path) { return path.replace_extension(".in"); });
 }
 
-class Inlet final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
+class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
-    Inlet(Opening& opening, std::filesystem::path path)
+    InletSender(Opening& opening, std::filesystem::path path)
         : OpenEndpoint(opening),
           core_(opening.core),
           path_(std::move(path)),
@@ -34,7 +34,7 @@ public:
         peer_.signature = signature.get();
         core_.add_link(peer_);
     }
-    ~Inlet() override {
+    ~InletSender() override {
         core_.forget(static_cast<Outlet&>(*this));
         core_.loop().unwatch(watch_);
         core_.remove_link(peer_, "closed");
@@ -58,9 +58,9 @@ public:
 
 private:
     struct Peer final : Link {
-        Peer(Inlet& o, EndpointId owner, const net::BlockQueue::Limits& limits) : Link(owner, limits), inlet(o) {}
+        Peer(InletSender& o, EndpointId owner, const net::BlockQueue::Limits& limits) : Link(owner, limits), inlet(o) {}
         void schedule() override { inlet.core_.schedule(inlet); }
-        Inlet& inlet;
+        InletSender& inlet;
     };
 
     [[nodiscard]] bool fill(net::SendBatch& batch);
@@ -79,7 +79,7 @@ private:
     bool full_ = false, was_up_ = false;
 };
 
-SetupResult<void> Inlet::connect() {
+SetupResult<void> InletSender::connect() {
     auto socket = net::LocalSender::connect(path_);
     if (!socket) return tl::unexpected(std::move(socket.error()));
     auto watch = core_.loop().watch(socket->fd(), false, false, *this);
@@ -96,31 +96,31 @@ SetupResult<void> Inlet::connect() {
 }
 
 // The far side went: its router ended, and another may come.
-void Inlet::lose() {
+void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
     core_.set_down(peer_, "the router went");
     retry_.later();
 }
 
-void Inlet::on_io(net::IoEvents events) {
+void InletSender::on_io(net::IoEvents events) {
     if (!events.writable) return;
     wait_for_room(false);
     core_.schedule(*this);
 }
 
-void Inlet::wait_for_room(bool waits) {
+void InletSender::wait_for_room(bool waits) {
     if (std::exchange(full_, waits) != waits) core_.loop().change(watch_, false, waits);
 }
 
-void Inlet::flush() {
+void InletSender::flush() {
     net::SendBatch& batch = core_.send_batch();
     while (socket_ && !full_ && fill(batch))
         if (!submit(batch)) break;
     peer_.queued = !peer_.queue.empty();
 }
 
-bool Inlet::fill(net::SendBatch& batch) {
+bool InletSender::fill(net::SendBatch& batch) {
     batch.clear();
     auto position = peer_.queue.front();
     while (!batch.full() && batch.room().size() >= most_pieces) {
@@ -132,7 +132,7 @@ bool Inlet::fill(net::SendBatch& batch) {
 }
 
 // False when no more can go now.
-bool Inlet::submit(net::SendBatch& batch) {
+bool InletSender::submit(net::SendBatch& batch) {
     const auto sent = socket_.send(batch, 0);
     if (sent) {
         took(*sent);
@@ -149,7 +149,7 @@ bool Inlet::submit(net::SendBatch& batch) {
     return false;
 }
 
-void Inlet::took(std::size_t frames) {
+void InletSender::took(std::size_t frames) {
     std::array<iovec, most_pieces> pieces;
     auto position = peer_.queue.front();
     for (; frames != 0; --frames) {
@@ -161,7 +161,7 @@ void Inlet::took(std::size_t frames) {
 }
 
 // The kernel refuses this one.
-void Inlet::skip_one() {
+void InletSender::skip_one() {
     std::array<iovec, most_pieces> pieces;
     auto position = peer_.queue.front();
     peer_.counters.frames_not_sent.add(peer_.queue.gather(position, one_frame, pieces).blocks);
@@ -181,9 +181,9 @@ SetupResult<void> check_inlet(const Endpoint& endpoint) {
 SetupResult<std::unique_ptr<OpenEndpoint>> open_shm(Opening opening) {
     const Endpoint& endpoint = opening.endpoint;
     if (auto checked = check_inlet(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
-    auto path = inlet_path(endpoint.path);
+    auto path = path_of_inlet(endpoint.path);
     if (!path) return tl::unexpected(std::move(path.error()));
-    auto inlet = std::make_unique<Inlet>(opening, std::move(*path));
+    auto inlet = std::make_unique<InletSender>(opening, std::move(*path));
     if (!endpoint.options.required) inlet->connect_or_retry();
     else if (auto done = inlet->connect(); !done)
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));

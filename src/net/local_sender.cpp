@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mavloom/net/local.hpp"
+#include "mavloom/net/local_sender.hpp"
 
 #include <fmt/format.h>
 #include <sys/socket.h>
