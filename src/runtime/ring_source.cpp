@@ -74,7 +74,8 @@ bool RingSource::read(LinkHandler& handler) {
 void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
     const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
     if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
-    if (std::exchange(changed_, false) || is_new) {
+    const auto writers = follower_.reader()->writers();
+    if (std::exchange(writers_, writers) != writers || is_new) {
         by_number_.clear();
         names_.clear();
         last_ = nullptr;
@@ -121,7 +122,6 @@ void RingSource::nothing_comes(shm::ReadError why, LinkHandler& handler) {
         told_ = Told::nothing;
         return;
     }
-    changed_ = true;
     if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
         next_look_ = mono_now() + look_distance;
         return tell(handler, Told::damaged, "the ring is damaged; waiting for another ring of that name");

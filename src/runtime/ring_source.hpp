@@ -81,12 +81,11 @@ private:
     RingLinkIds& ids_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
-    MonoTime next_look_{};  // at a ring that is not open, or that is damaged
-    bool more_ = false;     // the last turn ended for want of room
-    bool changed_ = false;  // its writer went, or another ring is open: links have other numbers
-    bool awaited_ = false;  // the next ring was not there before: all of it is wanted
-    std::uint64_t opened_ = 0;
-    std::optional<std::uint64_t> end_;  // where reading stops
+    MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
+    bool more_ = false;                       // the last turn ended for want of room
+    bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
+    std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
+    std::optional<std::uint64_t> end_;        // where reading stops
 
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
     std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring

@@ -178,6 +178,9 @@ void RingReader::release() noexcept {
 std::uint64_t RingReader::end_position() const noexcept {
     return memory_of(*segment_).control->tail.load(std::memory_order_acquire);
 }
+std::uint64_t RingReader::writers() const noexcept {
+    return memory_of(*segment_).control->writers.load(std::memory_order_acquire);
+}
 bool RingReader::writer_alive() const noexcept { return segment_->is_locked(writer_byte); }
 bool RingReader::is_named() const noexcept { return segment_->is_named(); }
 

@@ -345,6 +345,21 @@ def test_links_have_the_names_of_the_counter_page(run, spawn, feed, ring):
 
 
 @short
+def test_the_next_writer_gives_links_other_numbers(run, spawn, feed, ring):
+    writer = feed(ring, names={1: "radio", 2: "usb"})
+    listener = spawn("listen", f"shm://{ring}", "--json", "--count", "4")
+    wait_readers(run, ring)
+    writer.write([(1_700_000_000_000_000, frames.attitude(), 1), (1_700_000_000_000_001, frames.attitude(), 2)])
+    harness.wait_for(lambda: len(listener.stdout.splitlines()) == 2, what="the first writer's frames")
+    listener.send(signal.SIGSTOP)  # it never sees the ring without a writer
+    writer.kill_now()
+    feed(ring, names={1: "usb", 2: "wifi"}).write([(1_700_000_000_000_002, frames.attitude(), 1), (1_700_000_000_000_003, frames.attitude(), 2)])
+    wait_written(run, ring, 4)
+    listener.send(signal.SIGCONT)
+    assert [json.loads(line)["link"] for line in listener.wait().lines] == ["radio", "usb", "usb", "wifi"]
+
+
+@short
 def test_records_that_are_no_frames_are_counted_and_never_passed(run, spawn, feed, ring, sink):
     good = [heartbeat(sequence=n) for n in range(5)]
     bad = bytearray(good[4])

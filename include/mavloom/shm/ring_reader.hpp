@@ -79,6 +79,8 @@ public:
     [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
     [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
     [[nodiscard]] bool writer_alive() const noexcept;
+    // How many there have been: another number, another writer.
+    [[nodiscard]] std::uint64_t writers() const noexcept;
     // Whether the name still leads to this ring.
     [[nodiscard]] bool is_named() const noexcept;
     [[nodiscard]] bool is_retired() const noexcept { return consumer_.retired(); }
