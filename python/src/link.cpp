@@ -223,6 +223,8 @@ runtime::Endpoint endpoint_of(const std::string& url) {
     auto endpoint = value_or_raise(runtime::parse_endpoint(url));
     if (endpoint.scheme == runtime::Scheme::tlog)
         raise_usage(fmt::format("'{}' is a recording: mavloom.read() and mavloom.columns() read it", url));
+    if (endpoint.scheme == runtime::Scheme::shm)
+        raise_usage(fmt::format("'{}' is a ring, which connect() does not read", url));
     return endpoint;
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/links_core.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_serial.hpp"
+#include "runtime/links_shm.hpp"
 #include "runtime/links_tcp.hpp"
 #include "runtime/links_udp.hpp"
 
@@ -82,6 +83,7 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
         case Scheme::udpmcast: return open_udpmcast(std::move(opening));
         case Scheme::tcpin: return open_tcpin(std::move(opening));
         case Scheme::serial: return open_serial(std::move(opening));
+        case Scheme::shm: return open_shm(std::move(opening));
         default: return open_tcpout(std::move(opening));
     }
 }
@@ -91,7 +93,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     if (auto checked = check_supported(endpoint, impl_->routing); !checked)
         return tl::unexpected(std::move(checked).error());
     // Several may have a port of their own each from port 0.
-    const bool has_name = endpoint.scheme == Scheme::serial || endpoint.address.port != 0;
+    const bool has_name = endpoint.scheme == Scheme::serial || endpoint.scheme == Scheme::shm ||
+                          endpoint.address.port != 0;
     for (const auto& other : impl_->endpoints) {
         if (other && other->info.endpoint.label() == endpoint.label() && has_name) {
             return setup_error(SetupCode::usage,

@@ -23,7 +23,10 @@ TEST(SourcesDrain, EndsAlthoughFramesKeepComing) {
         peer.send_to(port, heartbeat(0));
     };  // for each that is read another one comes
     int turns = 0;
-    sources->drain(recorder, [&] { ++turns; });
+    sources->drain(recorder, [&] {
+        ++turns;
+        return Room(0);
+    });
 
     EXPECT_GE(recorder.frames.size(), arrived);
     EXPECT_LT(turns, 200);
