@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "command.hpp"
 #include "counted.hpp"
@@ -87,9 +89,11 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     const auto endpoints = plan.endpoints();
     if (endpoints.empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
-    std::set<std::string_view> recordings;
+    std::set<std::filesystem::path> recordings;
+    std::error_code unknown;
     for (const auto& e : endpoints)
-        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(e.path).second)
+        if (e.scheme == runtime::Scheme::tlog &&
+            !recordings.insert(std::filesystem::weakly_canonical(e.path, unknown)).second)
             return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
     return plan;
 }
@@ -279,18 +283,18 @@ Exit route(const Common& common, const Options& options) {
     if (!router) return fail(router.error());
     const Signals signals([](void* r) noexcept { static_cast<runtime::Router*>(r)->wake(); }, router->get(),
                           Signals::OnHangup::remember);
-    if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
-    const auto control = open_control(common, options, **router);
-    if (!control) return fail(control.error());
-    if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
-    if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
-        say(common, fmt::format("metrics at port {}", port));
     std::optional<ExplainPrinter> explain;
     if (!options.explain.empty()) {
         const auto id = explained_id(*dialect, options.explain);
         if (!id) return fail(id.error());
         explain.emplace(common, *dialect, (*router)->links(), *id);
     }
+    if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
+    const auto control = open_control(common, options, **router);
+    if (!control) return fail(control.error());
+    if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
+    if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
+        say(common, fmt::format("metrics at port {}", port));
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 

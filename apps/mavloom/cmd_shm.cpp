@@ -140,6 +140,7 @@ Exit stat(const Options& options) {
 class Lines {
 public:
     explicit Lines(std::size_t longest) : longest_(longest) {}
+    [[nodiscard]] std::size_t longest() const noexcept { return longest_; }
     // Of a line that is longer than `longest` comes what was read of it so far. Without the line's end; valid until the next call. False: there are no more.
     [[nodiscard]] bool next(std::string& line) {
         for (;;) {
@@ -226,7 +227,7 @@ Exit write_lines(const Common& common, const Options& options, shm::RingWriter& 
     };
     while (status == Exit::done && lines.next(line)) {
         ++number;
-        if (options.hex && !decode_hex(line)) {
+        if (line.size() <= lines.longest() && options.hex && !decode_hex(line)) {
             refuse(Exit::bad_input, "expected pairs of hexadecimal digits");
             break;
         }

@@ -90,7 +90,7 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
 // The new segment is open before the old one is closed: where it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
-    if (is_due(time, time_length + frame.size()) && flush()) {
+    if (is_due(time, time_length + frame.size()) && !is_disk_full()) {
         auto next = TlogWriter::create(free_name(time));
         if (!next) {
             ++refused_;
@@ -103,6 +103,11 @@ SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& fr
     if (taken) return closed;
     ++refused_;
     return taken;
+}
+
+bool RotatingWriter::is_disk_full() {
+    const auto flushed = flush();
+    return !flushed && (flushed.error().sys_errno == ENOSPC || flushed.error().sys_errno == EDQUOT);
 }
 
 SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }

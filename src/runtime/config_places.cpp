@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <utility>
@@ -98,11 +99,15 @@ SetupResult<void> detail::check_ports(const Config& config, std::string_view fil
 }
 
 SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
-    std::set<std::string_view> paths;
-    if (!config.record.path.empty()) paths.insert(config.record.path);
+    std::set<std::filesystem::path> paths;
+    const auto is_new = [&paths](const std::string& path) {
+        std::error_code unknown;
+        return paths.insert(std::filesystem::weakly_canonical(path, unknown)).second;
+    };
+    if (!config.record.path.empty()) (void)is_new(config.record.path);
     return each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         static constexpr std::array<std::string_view, 2> own{"path", "url"};
-        if (endpoint.scheme != Scheme::tlog || paths.insert(endpoint.path).second) return {};
+        if (endpoint.scheme != Scheme::tlog || is_new(endpoint.path)) return {};
         return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {} is recorded already", file_name,
                                                              line_of(section, own), in_quotes(endpoint.path)));
     });

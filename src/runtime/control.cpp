@@ -12,6 +12,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <cerrno>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -53,8 +54,13 @@ public:
         path_ = socket.string() + ".lock";
         while (!fd_) {
             net::Fd fd(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, socket_mode));
+            const bool is_others = !fd && errno == EACCES &&
+                                   inode_of(path_) != 0;  // who left or holds it is another user
+            if (is_others) return served(socket);
             if (!fd) return system_error(fmt::format("control socket {}", path_), errno);
-            if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) return served(socket);
+            if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
+                return errno == EWOULDBLOCK ? served(socket)
+                                            : system_error(fmt::format("control socket {}", path_), errno);
             if (is_named(fd.get())) fd_ = std::move(fd);
         }
         return {};
@@ -211,6 +217,8 @@ SetupResult<std::unique_ptr<Control>> Control::create(Router& router, const Cont
         return std::unique_ptr<Control>(new Control(std::move(impl)));
     } catch (const boost::system::system_error& error) {  // no descriptors are left, say
         return error_of("control socket and metrics", error);
+    } catch (const std::system_error& error) {  // no thread
+        return system_error("control socket and metrics", error.code().value());
     }
 }
 

@@ -99,11 +99,13 @@ private:
         [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
     };
     [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
-    [[nodiscard]] static std::shared_ptr<wire::Verifier> verifier_of(const OpenKey& with, bool alone);
+    void judge(const OpenKey& with, bool alone);
+    [[nodiscard]] bool is_late(const wire::FrameView& frame) noexcept;
 
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
     std::shared_ptr<wire::Verifier> verifier_;  // null without verify=
+    std::shared_ptr<wire::Verifier> common_;    // of all with the key: in a group, where each judges for itself
     std::optional<wire::Signer> signer_;
     const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};

@@ -15,7 +15,7 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& o
         auto opened = signature->open(options.verify_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
         signature->verify_with_.emplace(std::move(*opened));
-        signature->verifier_ = verifier_of(*signature->verify_with_, !options.group.empty());
+        signature->judge(*signature->verify_with_, !options.group.empty());
     }
     if (!options.sign_key_file.empty()) {
         auto opened = signature->open(options.sign_key_file, notices);
@@ -33,15 +33,31 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
     return OpenKey{path, *key, states_.open(path, *key, notices)};
 }
 
-// What one endpoint took is a replay at the others with its key. Not so in a group, where the same frame comes by several links, and late by one of them: there
-// each judges alone.
-std::shared_ptr<wire::Verifier> Signature::verifier_of(const OpenKey& with, bool alone) {
-    auto shared = alone ? nullptr : with.times->verifier.lock();
-    if (shared) return shared;
-    auto verifier = std::make_shared<wire::Verifier>(with.key);
-    for (const auto& stream : with.times->state.heard) verifier->restore(stream);
-    if (!alone) with.times->verifier = verifier;
-    return verifier;
+// What one endpoint took is a replay at the others with its key. In a group the same frame comes by several links, and late by one of them: there each
+// judges alone, within what may be late.
+void Signature::judge(const OpenKey& with, bool alone) {
+    auto common = with.times->verifier.lock();
+    if (!common) {
+        common = std::make_shared<wire::Verifier>(with.key);
+        for (const auto& stream : with.times->state.heard) common->restore(stream);
+        with.times->verifier = common;
+    }
+    if (!alone) {
+        verifier_ = std::move(common);
+        return;
+    }
+    verifier_ = std::make_shared<wire::Verifier>(with.key);
+    for (const auto& stream : common->streams()) verifier_->restore(stream);
+    common_ = std::move(common);
+}
+
+// Of a frame of a group's link that its own verifier took: whether another link brought later ones long ago.
+bool Signature::is_late(const wire::FrameView& frame) noexcept {
+    constexpr std::uint64_t latest_ticks = 5 * 100'000;  // five seconds between two ways to one place are no way to fly
+    const auto stream = wire::Verifier::stream_of(frame);
+    if (stream.last.ticks + latest_ticks < common_->last(stream.key).ticks) return true;
+    common_->restore(stream);
+    return false;
 }
 
 Signature::~Signature() {
@@ -76,7 +92,8 @@ bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
         vouched_ = nullptr;
         return true;
     }
-    return verifier_->verify(frame, wire::SigningTime::from(now)) == wire::Verifier::Verdict::good;
+    if (verifier_->verify(frame, wire::SigningTime::from(now)) != wire::Verifier::Verdict::good) return false;
+    return common_ == nullptr || !is_late(frame);
 }
 
 bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {

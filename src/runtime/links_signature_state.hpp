@@ -43,7 +43,8 @@ struct KeyState {
 // One key file's state. `load` and `state` belong to the owner of KeyStates; `write` may be called by any thread.
 class KeyFile {
 public:
-    explicit KeyFile(const std::filesystem::path& key) : path_(key.string() + ".state") {}
+    // However the key file is written, and by whatever link: it is one.
+    explicit KeyFile(const std::filesystem::path& key);
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     // Nothing there is a new state; what cannot be read or understood is an error.

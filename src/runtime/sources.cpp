@@ -13,8 +13,8 @@ namespace mavloom::runtime {
 static constexpr std::chrono::milliseconds pipe_look{5};
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
-// A drain ends after some turns without a frame (one full of junk has none either). Where frames keep coming it ends after as many turns as empty a
-// stream's receive buffer of 8 MiB, at 128 KiB a turn, that brought nothing which the kernel had received before; and in any case after more turns than
+// A drain ends after some turns without a frame (one full of junk has none either). Where frames keep coming it ends after as many turns as read
+// 8 MiB of a stream, at 128 KiB a turn, that brought nothing which the kernel had received before; and in any case after more turns than
 // empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
 static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};

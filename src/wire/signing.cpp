@@ -125,6 +125,17 @@ Verifier::Verifier(const SigningKey& key, SigningTime newest) : key_(key), newes
     streams_.reserve(max_streams);
 }
 
+Verifier::Stream Verifier::stream_of(const FrameView& frame) noexcept {
+    const auto signature = frame.signature();
+    return {std::uint32_t{signature[0]} << 16 | std::uint32_t{frame.system().value} << 8 | frame.component().value,
+            SigningTime{load_time(signature.data() + 1)}};
+}
+
+SigningTime Verifier::last(std::uint32_t key) const noexcept {
+    const auto it = std::ranges::lower_bound(streams_, key, {}, &Stream::key);
+    return it != streams_.end() && it->key == key ? it->last : SigningTime{};
+}
+
 void Verifier::restore(const Stream& stream) noexcept {
     const auto it = std::ranges::lower_bound(streams_, stream.key, {}, &Stream::key);
     if (it != streams_.end() && it->key == stream.key) {
@@ -143,9 +154,7 @@ Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noex
     const auto hash = hash_of(key_, frame.bytes().first(frame.size() - hash_length));
     if (sodium_memcmp(hash.data(), signature.data() + 1 + time_length, hash.size()) != 0) return Verdict::bad_signature;
 
-    const SigningTime time{load_time(signature.data() + 1)};
-    const std::uint32_t key = std::uint32_t{signature[0]} << 16 | std::uint32_t{frame.system().value} << 8 |
-                              frame.component().value;
+    const auto [key, time] = stream_of(frame);
     const auto it = std::ranges::lower_bound(streams_, key, {}, &Stream::key);
     if (it != streams_.end() && it->key == key) {
         if (time <= it->last) return Verdict::replay;

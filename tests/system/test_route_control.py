@@ -290,6 +290,20 @@ def test_a_socket_that_nobody_serves_in_time_is_not_taken(spawn):
     assert refused.status == 1 and "is served by a router that runs" in refused.stderr
 
 
+def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
+    if os.geteuid() != 0:
+        pytest.skip("two users need root")
+    folder = tmp_path / "mavloom"
+    folder.mkdir()
+    (folder / "router.ctl.lock").touch(0o600)
+    for place in (*list(tmp_path.parents)[:2], tmp_path, folder):
+        place.chmod(0o777)
+    other = subprocess.run(["unshare", "--mount", "sh", "-c", f"mount -t tmpfs -o mode=755 none /run && exec setpriv --reuid=12345 --clear-groups {program} route"
+                            f" udpin://127.0.0.1:{routers.udp_port()} --for 100ms"], capture_output=True, text=True, timeout=60, env={**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)})
+
+    assert other.returncode == 0 and "no control socket: " in other.stderr and "is served by a router that runs" in other.stderr, other
+
+
 def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
     first = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     path = control_path(first)
@@ -956,10 +970,28 @@ def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
     assert sut.router.stats("router")[0]["not_signed"] == 4
 
 
+def test_in_a_group_what_came_by_another_link_long_ago_is_a_replay(net, run, tmp_path):
+    key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key&group=air"
+    sut, second = net(("udpout", "udpout", "udpout"), options={1: options, 2: options}), 100_000
+    first, later, late, latest = (attitude(VEHICLE, signing=(key, 1, ticks_now() + t * second)) for t in (0, 20, 16, 40))
+    sut[1].send(first)
+    assert sut[3].next() == first
+    for frame in (later, latest):
+        sut[2].send(frame)
+        assert sut[3].next() == frame
+    sut[1].send(late)  # this link heard nothing since the first
+    mark = attitude(VEHICLE, signing=(key, 1, ticks_now() + 36 * second))
+    sut[1].send(mark)
+
+    assert sut[3].next() == mark
+    assert sum(link["bad_signature"] for link in sut.router.links()) == 1
+
+
 @pytest.mark.parametrize("group, heard", [("", 1), ("&group=air", 2)])
 def test_what_one_endpoint_took_is_a_replay_at_the_others_but_in_a_group(net, run, tmp_path, group, heard):
     key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key{group}"
-    sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options})
+    (tmp_path / "same.key").symlink_to("link.key")
+    sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options.replace("link.key", "same.key")})
     own = attitude(VEHICLE, signing=(key, 1, ticks_now()))
     sut[1].send(own)
     assert sut[3].next() == own

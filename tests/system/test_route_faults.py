@@ -431,6 +431,14 @@ def test_a_rotated_recording_begins_no_files_on_a_full_disk(pair, tmp_path):
         assert order == sorted(set(order)) and len(list(tmp_path.glob("*.tlog"))) > len(files)
 
 
+def test_a_file_that_can_grow_no_more_is_left_for_the_next_one(pair, tmp_path):
+    net = pair(f"tlog://{tmp_path / 'flight.tlog'}?name=tape&rotate_every=1s")
+    SmallLimit(tmp_path).fill(net.process.pid)
+    tape = Tape(net)
+    harness.wait_for(lambda: tape.after_more()["write_error"] > 20, what="the file to be full")
+    harness.wait_for(lambda: tape.after_more() and len(list(tmp_path.glob("*.tlog"))) > 3, what="new files")
+
+
 def test_a_router_that_cannot_start_leaves_recordings_alone(run, tmp_path):
     path = tmp_path / "flight.tlog"
     path.write_bytes(before := b"what an earlier flight left")
@@ -438,7 +446,8 @@ def test_a_router_that_cannot_start_leaves_recordings_alone(run, tmp_path):
         taken.bind((LOCALHOST, 0))
         port = taken.getsockname()[1]
         assert run("route", f"tlog://{path}", f"udpin://{LOCALHOST}:{port}").status == 1
-    assert run("route", f"tlog://{path}", f"tlog://{path}?name=again", f"udpin://{LOCALHOST}:{port}").status == 2
+    assert run("route", f"tlog://{path}", f"tlog://{tmp_path}/./flight.tlog?name=again", f"udpin://{LOCALHOST}:{port}").status == 2
+    assert run("route", f"tlog://{path}", f"udpin://{LOCALHOST}:{port}", "--explain", "NOPE").status == 2
 
     assert os.listdir(tmp_path) == ["flight.tlog"] and path.read_bytes() == before
 

@@ -51,6 +51,8 @@ public:
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
+    // Whether what waits for the current file finds no room on the disk.
+    [[nodiscard]] bool is_disk_full();
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;

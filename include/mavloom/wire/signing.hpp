@@ -109,6 +109,11 @@ public:
 
     [[nodiscard]] SigningTime newest() const noexcept { return newest_; }
 
+    // Who signed it, and when: of a signed frame.
+    [[nodiscard]] static Stream stream_of(const FrameView& frame) noexcept;
+    // The last time that was taken from a sender; 0: none.
+    [[nodiscard]] SigningTime last(std::uint32_t key) const noexcept;
+
     // To be stored, so that what was taken before a restart is a replay after it. Sorted by key.
     [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }
     // A stream of an earlier run. Never goes back; a stream too many is left out.

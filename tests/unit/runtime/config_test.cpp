@@ -264,8 +264,8 @@ TEST(Config, MessagesAreLookedUpWithFileAndLine) {
 
 TEST(Config, TwoRecordingsInOneFileAreAnErrorOfTheSecond) {
     const auto error_of = [](std::string_view text) { return parse_config(text, "r.toml").error().text; };
-    EXPECT_EQ(error_of("[record]\npath = \"a.tlog\"\n[[endpoint]]\nurl = \"tlog://a.tlog?name=b\"\n"),
-              "r.toml:4: 'a.tlog' is recorded already");
+    EXPECT_EQ(error_of("[record]\npath = \"a.tlog\"\n[[endpoint]]\nurl = \"tlog://./a.tlog?name=b\"\n"),
+              "r.toml:4: './a.tlog' is recorded already");
     EXPECT_EQ(error_of("[[endpoint]]\nurl = \"tlog://a.tlog\"\n[[endpoint]]\nscheme = \"tlog\"\nname = \"b\"\npath = "
                        "\"a.tlog\"\n"),
               "r.toml:6: 'a.tlog' is recorded already");

@@ -97,7 +97,7 @@ TEST(LinksUdp, ARushIsTakenWholeAndInOrder) {
 std::size_t turns_in_a_rush(Node& node, std::uint16_t port) {
     const auto peer = PlainSocket::udp();
     Bytes datagram;
-    for (std::uint8_t i = 0; i < 40; ++i) datagram = std::move(datagram) + heartbeat(i);
+    for (std::uint8_t i = 0; i < 20; ++i) datagram = std::move(datagram) + heartbeat(i);
     const MonoTime begin = mono_now();
     std::size_t turns = 0;
     for (MonoTime now = begin; now < begin + std::chrono::milliseconds(50); now = mono_now()) {
