@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/runtime/control.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +13,7 @@
 #include <utility>
 
 #include "runtime/control_sessions.hpp"
+#include "runtime/folder_lock.hpp"
 
 namespace mavloom::runtime {
 
@@ -22,23 +21,6 @@ namespace {
 
 constexpr std::size_t most_sessions = 64;  // of each kind: more are turned away
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
-
-// Of routers that start at once in one folder, each looks at a socket, takes it over and listens before the next one looks.
-class FolderLock {
-public:
-    explicit FolderLock(const std::filesystem::path& folder)
-        : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        if (fd_ >= 0) (void)::flock(fd_, LOCK_EX);
-    }
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-    ~FolderLock() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-
-private:
-    int fd_;
-};
 
 // Accepts for as long as it lives. Sessions keep a share of `places_`: its use count tells how many there are.
 template <class Protocol, class Session>

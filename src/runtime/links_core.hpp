@@ -56,6 +56,7 @@ struct Link {
     bool up = false;
     bool told_up = false;
     bool queued = false;  // waits in its outlet
+    bool finds_in_ring = false;  // what goes to it is in the ring: counted, never queued
     Signature* signature = nullptr;
     LinkCounters counters;
     net::BlockQueue queue;
