@@ -47,6 +47,7 @@ RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType ty
 
 void RingPage::name_link(LinkId link, std::string_view name) {
     std::erase(gone_, link);  // one that comes again
+    if (rows_.size() < most_rows) add_row(link);
     while (!page_.name_link(link, name) && !gone_.empty()) {
         page_.forget_link(gone_.front());
         gone_.pop_front();
@@ -74,8 +75,11 @@ void RingPage::choose_rows(const std::vector<const LinkInfo*>& busiest) {
         if (!is_chosen(row->first)) remove_row(row);
         row = next;
     }
-    for (const LinkInfo* link : busiest)
-        if (!rows_.contains(link->id)) rows_.emplace(link->id, add_words("", shm::CounterType::counter, link->id));
+    for (const LinkInfo* link : busiest) add_row(link->id);
+}
+
+void RingPage::add_row(LinkId link) {
+    if (!rows_.contains(link)) rows_.emplace(link, add_words("", shm::CounterType::counter, link));
 }
 
 void RingPage::refresh(const std::vector<LinkInfo>& links, const std::vector<EndpointInfo>& endpoints,

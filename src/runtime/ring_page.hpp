@@ -58,6 +58,7 @@ private:
     explicit RingPage(shm::CounterPage page);
     [[nodiscard]] Words add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link);
     void choose_rows(const std::vector<const LinkInfo*>& busiest);
+    void add_row(LinkId link);
     void remove_row(std::map<LinkId, Words>::iterator row);
 
     shm::CounterPage page_;
