@@ -214,10 +214,13 @@ Run declare_ctl(Arguments command, const Common&) {
 
 Run declare_stat(Arguments command, const Common&) {
     auto options = std::make_shared<StatOptions>();
-    command.add_option("name", options->name, "the router's --ring, or its --name").capture_default_str().type_name("NAME");
+    command.add_option("name", options->name, "the router's --ring, or its --name")
+        .capture_default_str()
+        .type_name("NAME");
     command.add_flag("--json", options->json, "one JSON object a line");
     command.footer(
-        "Of a router with --ring its counter page is read, which does not disturb it; others are asked, as by `ctl NAME "
+        "Of a router with --ring its counter page is read, which does not disturb it; others are asked, as by `ctl "
+        "NAME "
         "stats`.\n\nExamples: mavloom stat router\n          mavloom stat px4 --json");
     return [options] { return stat(*options); };
 }

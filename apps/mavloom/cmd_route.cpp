@@ -78,7 +78,8 @@ SetupResult<runtime::Config> effective_config(const Options& options, const dial
 SetupResult<void> check_endpoints(const runtime::Config& config, const std::string& file) {
     for (const auto& endpoint : config.endpoints)
         if (endpoint.scheme == runtime::Scheme::shm)
-            return setup_error(SetupCode::bad_input, fmt::format("{}: {}", file, runtime::ring_is_no_endpoint(endpoint)));
+            return setup_error(SetupCode::bad_input,
+                               fmt::format("{}: {}", file, runtime::ring_is_no_endpoint(endpoint)));
     return {};
 }
 
@@ -322,9 +323,10 @@ Run declare_route(Arguments command, const Common& common) {
         .default_str("*")
         .type_name("[MESSAGE]");
     command
-        .add_option("--ring", options->ring,
-                    "write every good frame into this ring, /dev/shm/mavloom.NAME, for programs of this machine, and take "
-                    "what they send there")
+        .add_option(
+            "--ring", options->ring,
+            "write every good frame into this ring, /dev/shm/mavloom.NAME, for programs of this machine, and take "
+            "what they send there")
         .type_name("NAME");
     command
         .add_option("--name", options->name,

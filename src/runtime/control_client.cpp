@@ -29,7 +29,8 @@ bool is_router_name(std::string_view name) noexcept {
 }
 
 // RUN/NAME.SUFFIX; `what` for people.
-static SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix, std::string_view what) {
+static SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
+                                                   std::string_view what) {
     constexpr std::size_t most = sizeof(sockaddr_un::sun_path) - 1;
     if (!is_router_name(name))
         return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));

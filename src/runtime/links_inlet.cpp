@@ -55,8 +55,7 @@ struct Place {
 
 class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
 public:
-    explicit Inlet(Opening& opening)
-        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table()) {}
+    explicit Inlet(Opening& opening) : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table()) {}
     ~Inlet() override;
 
     SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
@@ -146,8 +145,7 @@ void Inlet::take(const net::LocalDatagram& datagram) {
     if (sender == nullptr) return;
     const WallTime time = datagram.time == WallTime{} ? wall_now() : datagram.time;
     const std::uint64_t frames_before = sender->counters.frames_in.value();
-    sender->parser.parse(datagram.bytes,
-                         [&](const wire::ParseEvent& event) { core_.on_event(*sender, event, time); });
+    sender->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*sender, event, time); });
     sender->counters.junk_bytes.add(datagram.cut);
     sender->counters.implausible_unknown.set(sender->parser.counters().implausible_unknown.value());
     if (sender->counters.frames_in.value() == frames_before) return;
@@ -233,8 +231,7 @@ std::size_t Inlet::send(const wire::FrameView& frame) {
 
 }  // namespace
 
-SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path,
-                                                      unsigned mode) {
+SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path, unsigned mode) {
     auto inlet = std::make_unique<Inlet>(opening);
     if (auto done = inlet->open(path, mode); !done) return tl::unexpected(std::move(done.error()).within("inlet"));
     return inlet;

@@ -35,9 +35,10 @@ std::vector<std::string> RingTap::look_after(const Links& links) {
         const auto anew = writer_.reopen();
         if (anew) notices.push_back(fmt::format("ring {} was removed, and is made anew", config_.name));
         else if (!told_ring_)
-            notices.push_back(fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted "
-                                          "as dropped",
-                                          config_.name, anew.error().text));
+            notices.push_back(
+                fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted "
+                            "as dropped",
+                            config_.name, anew.error().text));
         told_ring_ = !anew;
     }
     if (!page_ || page_->is_removed()) make_page_anew(links, notices);

@@ -91,9 +91,10 @@ bool Router::OpenedEndpoint::has_other_keys() const {
 }
 
 std::string ring_is_no_endpoint(const Endpoint& endpoint) {
-    return fmt::format("{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
-                       "send there",
-                       endpoint.label(), endpoint.path);
+    return fmt::format(
+        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
+        "send there",
+        endpoint.label(), endpoint.path);
 }
 
 SetupResult<void> Router::add(const Endpoint& endpoint) {
@@ -351,7 +352,8 @@ void Router::turn(MonoTime deadline) {
         for (const auto& recorder : recorders_) recorder->publish();
         if (ring_) ring_->note_frames(now);
     }
-    if (ring_ && now >= ring_->page_due()) ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt);
+    if (ring_ && now >= ring_->page_due())
+        ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt);
     if (has_posted_.load(std::memory_order_acquire)) run_posted();
     for (auto& link : heartbeats_)
         if (now >= link.due) beat(link, now);
