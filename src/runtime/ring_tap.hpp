@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mavloom/runtime/config.hpp"
@@ -36,15 +37,18 @@ public:
     }
 
     void on_link_up(LinkId link, std::string_view name) {
+        links_changed_ = true;
         if (page_) page_->name_link(link, name);
     }
     void on_link_down(LinkId link) {
+        links_changed_ = true;
         if (page_) page_->link_went(link);
     }
 
-    // Behind a turn with frames: the page is due soon.
-    void note_frames(MonoTime now) noexcept {
-        if (page_due_ == MonoTime::max()) page_due_ = now + page_interval;
+    // Behind each turn: the page is due soon where there is something new.
+    void note_turn(std::size_t frames, MonoTime now) noexcept {
+        const bool is_new = std::exchange(links_changed_, false) || frames != 0;
+        if (is_new && page_due_ == MonoTime::max()) page_due_ = now + page_interval;
     }
     [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
     void refresh_page(const Links& links, std::optional<EndpointId> inlet);
@@ -63,6 +67,7 @@ private:
     std::optional<RingPage> page_;
     Counter dropped_;  // frames that are not in the ring
     MonoTime page_due_{};
+    bool links_changed_ = false;
     bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
 };
 

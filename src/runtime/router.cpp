@@ -348,12 +348,12 @@ void Router::turn(MonoTime deadline) {
     const std::size_t frames = links_->turn(
         *this, has_posted_.load(std::memory_order_acquire) ? MonoTime{} : std::min(deadline, next_due()));
     const MonoTime now = mono_now();
-    if (frames != 0) {
+    if (frames != 0)
         for (const auto& recorder : recorders_) recorder->publish();
-        if (ring_) ring_->note_frames(now);
+    if (ring_) {
+        ring_->note_turn(frames, now);
+        if (now >= ring_->page_due()) refresh_page();
     }
-    if (ring_ && now >= ring_->page_due())
-        ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt);
     if (has_posted_.load(std::memory_order_acquire)) run_posted();
     for (auto& link : heartbeats_)
         if (now >= link.due) beat(link, now);
@@ -445,8 +445,10 @@ void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
     for (const auto& e : endpoints_) tell_more_links(*e);
     if (inlet_) tell_more_links(*inlet_);
-    if (ring_)
+    if (ring_) {
         for (const auto& text : ring_->look_after(*links_)) notice_(LogLevel::warning, text);
+        refresh_page();
+    }
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
@@ -460,6 +462,8 @@ void Router::look_after(MonoTime now) {
                         links_->link_name(d.second)));
     }
 }
+
+void Router::refresh_page() { ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt); }
 
 void Router::tell_more_links(OpenedEndpoint& opened) {
     opened.may_tell = std::min(most_told, opened.may_tell + told_each_look);

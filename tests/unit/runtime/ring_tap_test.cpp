@@ -115,6 +115,7 @@ struct Counted {
 
 std::vector<LinkInfo> infos(const std::vector<Counted>& links) {
     std::vector<LinkInfo> all;
+    all.reserve(links.size());
     for (const auto& link : links)
         all.push_back({link.id, {}, fmt::format("link {}", link.id.value), true, &link.counters});
     return all;
@@ -131,6 +132,7 @@ std::vector<Counted> links_with(const std::vector<std::uint64_t>& frames) {
 
 std::vector<std::uint32_t> ids(const std::vector<const LinkInfo*>& links) {
     std::vector<std::uint32_t> all;
+    all.reserve(links.size());
     for (const auto* link : links) all.push_back(link->id.value);
     return all;
 }
