@@ -325,21 +325,34 @@ def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
     assert f"vehicle#127.0.0.1:{net.vehicle.port}" in harness.wait_for(lambda: net.names(run), what="the links' names").values()
 
 
-def test_a_name_that_another_writer_took_meanwhile(tapped, spawn):
+def test_a_name_that_another_writer_took_meanwhile(tapped, spawn, run):
     """The frames are counted as dropped, and the ring is the router's again when the other one is gone."""
     net = tapped()
     net.sent_by(net.vehicle, heartbeat(), attitude())
-    shared(net.ring).unlink()
-    other = spawn("shm", "write", net.ring, "--remove", stdin=subprocess.PIPE)
-    harness.wait_for(lambda: "was removed" in net.router.process.stderr, what="the router's word")
-    if "tried again every second" in net.router.process.stderr:
-        assert f"process {other.pid}" in net.router.process.stderr
-        other.process.stdin.close()
-        other.wait()
-        net.router.process.wait_output("is made anew")
+    name = f"{net.ring}-other"
+    other = spawn("shm", "write", name, stdin=subprocess.PIPE)
+    harness.wait_for(lambda: shared(name).exists(), what="the other ring")
+    shared(name).rename(shared(net.ring))
+    net.router.process.wait_output(f"ring {net.ring} was removed: ring {net.ring} has a writer already, process {other.pid}; tried again every second")
+    for _ in range(3):
+        net.vehicle.send(attitude())
+    harness.wait_for(lambda: net.page(run)[0]["ring_dropped"] == 3, what="three frames counted")
+    other.process.stdin.close()
+    assert other.wait().status == 0
+    net.router.process.wait_output(f"ring {net.ring} was removed, and is made anew")
     frame = attitude()
-    harness.wait_for(lambda: shared(net.ring).exists(), what="the ring")
-    assert frame in [r.data for r in net.sent_by(net.vehicle, frame)]
+    assert [r.data for r in net.sent_by(net.vehicle, frame)] == [frame]
+    assert net.router.process.stderr.count("tried again every second") == 1
+
+
+def test_own_heartbeats_are_not_for_who_reads_the_ring(tapped, app):
+    net = tapped(rules={"heartbeat": "77/66"})
+    app(net.inlet).send(heartbeat((30, 1)))
+    harness.wait_for(lambda: any("#@" in link["link"] for link in net.router.links()), what="the sender")
+    own = [frame for frame in (net.ground.next() for _ in range(5)) if frame[5] == 77]
+    assert len(own) >= 4, "the ground station gets them"
+    link, = [link for link in net.router.links() if "#@" in link["link"]]
+    assert link["frames_out"] == 0 and all(r.data not in own for r in records(net.ring))
 
 
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare"), reason="a small /dev/shm needs root and unshare")
