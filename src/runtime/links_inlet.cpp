@@ -65,6 +65,9 @@ public:
     void on_timer(MonoTime now) override;
 
 private:
+    SetupResult<void> bind();
+    void look_at_place();
+    void expire(MonoTime now);
     void take(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* sender_of(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* newcomer(const net::LocalDatagram& datagram);
@@ -72,18 +75,20 @@ private:
     [[nodiscard]] bool make_room();
     void drop(std::size_t index, std::string_view why);
 
-    static constexpr std::chrono::seconds idle{60};
+    static constexpr std::chrono::seconds idle{60}, look_interval{1};
 
     Core& core_;
     std::optional<net::LocalSocket> socket_;
     net::WatchId watch_;
     std::filesystem::path path_;
+    unsigned mode_ = 0;
     Place place_;
+    bool told_ = false;  // that it cannot be made anew
     wire::DatagramParser stranger_;
     std::vector<std::unique_ptr<Sender>> senders_;
     std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
     Sender* last_ = nullptr;  // datagrams come in runs
-    net::TimerId expiry_;
+    net::TimerId timer_;
 };
 
 // ---- the socket ------------------------------------------------------------------------------------------------------
@@ -103,26 +108,43 @@ SetupResult<void> take_over(const std::filesystem::path& path) {
 }
 
 SetupResult<void> Inlet::open(const std::filesystem::path& path, unsigned mode) {
-    const FolderLock lock(path.parent_path());
-    if (auto taken = take_over(path); !taken) return taken;
-    auto socket = net::LocalSocket::open(path, mode);
-    if (!socket) return tl::unexpected(std::move(socket).error());
     path_ = path;
-    place_ = Place::of(path);
+    mode_ = mode;
+    const FolderLock lock(path.parent_path());
+    auto bound = bind();
+    if (bound) timer_ = core_.loop().start_timer(core_.now() + look_interval, *this);
+    return bound;
+}
+
+SetupResult<void> Inlet::bind() {
+    if (auto taken = take_over(path_); !taken) return taken;
+    auto socket = net::LocalSocket::open(path_, mode_);
+    if (!socket) return tl::unexpected(std::move(socket).error());
+    place_ = Place::of(path_);
     auto watch = core_.loop().watch(socket->fd(), true, false, *this);
     if (!watch) return tl::unexpected(std::move(watch).error());
+    core_.loop().unwatch(watch_);
     socket_ = std::move(*socket);
     watch_ = *watch;
     return {};
 }
 
 Inlet::~Inlet() {
-    core_.loop().cancel_timer(expiry_);
+    core_.loop().cancel_timer(timer_);
     core_.loop().unwatch(watch_);
     while (!senders_.empty()) drop(senders_.size() - 1, "closed");
-    if (path_.empty()) return;
-    const FolderLock lock(path_.parent_path());
-    if (place_ == Place::of(path_)) ::unlink(path_.c_str());
+    if (place_ != Place{} && place_ == Place::of(path_)) ::unlink(path_.c_str());
+}
+
+// Somebody may have removed the socket, or the folder.
+void Inlet::look_at_place() {
+    if (place_ == Place::of(path_)) return;
+    const FolderLock lock(path_.parent_path(), FolderLock::Wait::no);
+    if (!lock.held()) return;  // next time
+    const auto anew = bind();
+    if (anew) core_.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
+    else if (!told_) core_.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
+    told_ = !anew;
 }
 
 void Inlet::on_io(net::IoEvents) {
@@ -175,7 +197,6 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
     core_.add_link(*sender);
     by_address_.emplace(sender->address, sender.get());
     senders_.push_back(std::move(sender));
-    if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle, *this);
     core_.set_up(*senders_.back());
     return senders_.back().get();
 }
@@ -210,17 +231,15 @@ void Inlet::drop(std::size_t index, std::string_view why) {
     senders_.pop_back();
 }
 
-// Runs when the longest idle sender may have been silent for too long, and then again when the next one may.
 void Inlet::on_timer(MonoTime now) {
-    MonoTime oldest = now;
-    for (std::size_t i = senders_.size(); i-- > 0;) {
-        if (now - senders_[i]->last_heard >= idle) {
-            drop(i, "idle");
-        } else {
-            oldest = std::min(oldest, senders_[i]->last_heard);
-        }
-    }
-    expiry_ = senders_.empty() ? net::TimerId{} : core_.loop().start_timer(oldest + idle, *this);
+    timer_ = core_.loop().start_timer(now + look_interval, *this);
+    expire(now);
+    look_at_place();
+}
+
+void Inlet::expire(MonoTime now) {
+    for (std::size_t i = senders_.size(); i-- > 0;)
+        if (now - senders_[i]->last_heard >= idle) drop(i, "idle");
 }
 
 std::size_t Inlet::send(const wire::FrameView& frame) {

@@ -325,6 +325,25 @@ def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
     assert f"vehicle#127.0.0.1:{net.vehicle.port}" in harness.wait_for(lambda: net.names(run), what="the links' names").values()
 
 
+def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    place = net.inlet
+    os.unlink(place)
+    net.router.process.wait_output(f"inlet {place} was removed, and is made anew")
+    frame = heartbeat((30, 1))
+    app(net.inlet).send(frame)
+    assert next_from(net.vehicle) == frame
+    # Somebody else's is left alone, and told once.
+    os.unlink(place)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
+        other.bind(place)
+        net.router.process.wait_output(f"inlet {place} was removed: {place} is served by a router that runs")
+        net.router.process.process.terminate()
+        assert net.router.process.wait().status == 143
+        assert os.path.exists(place)
+
+
 def test_a_name_that_another_writer_took_meanwhile(tapped, spawn, run):
     """The frames are counted as dropped, and the ring is the router's again when the other one is gone."""
     net = tapped()
