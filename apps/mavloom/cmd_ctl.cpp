@@ -219,9 +219,9 @@ Run declare_stat(Arguments command, const Common&) {
         .type_name("NAME");
     command.add_flag("--json", options->json, "one JSON object a line");
     command.footer(
-        "Of a router with --ring its counter page is read, which does not disturb it; others are asked, as by `ctl "
-        "NAME "
-        "stats`.\n\nExamples: mavloom stat router\n          mavloom stat px4 --json");
+        "A router with --ring is not disturbed: its counter page is read. Others are asked, as `ctl NAME stats` does.\n\n"
+        "Examples: mavloom stat router\n"
+        "          mavloom stat px4 --json");
     return [options] { return stat(*options); };
 }
 
