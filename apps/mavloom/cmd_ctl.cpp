@@ -219,7 +219,8 @@ Run declare_stat(Arguments command, const Common&) {
         .type_name("NAME");
     command.add_flag("--json", options->json, "one JSON object a line");
     command.footer(
-        "A router with --ring is not disturbed: its counter page is read. Others are asked, as `ctl NAME stats` does.\n\n"
+        "A router with --ring is not disturbed: its counter page is read. Others are asked, as `ctl NAME stats` "
+        "does.\n\n"
         "Examples: mavloom stat router\n"
         "          mavloom stat px4 --json");
     return [options] { return stat(*options); };
