@@ -165,7 +165,8 @@ Run declare_listen(Arguments command, const Common& common) {
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats\n\nEnds with status 0 whatever the link lost; 130 after Ctrl-C; 1 where "
+        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nEnds with status 0 whatever the "
+        "link lost; 130 after Ctrl-C; 1 where "
         "nobody took the output behind the end of --for.");
     return [options, &common] { return listen(common, *options); };
 }

@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t frames_a_turn = 1024;  // of recordings
+constexpr std::size_t frames_a_turn = 1024;  // of recordings and rings
 constexpr auto longest_flush = 5s;           // for what is queued to leave
 
 struct Options {
@@ -44,16 +44,17 @@ public:
           signs_(options.edit.sign_key.has_value()),
           json_(options.json) {}
 
-    // Recordings wait for somebody to send to; live sources do not.
+    // Recordings wait for somebody to send to; live sources do not, but a lossless ring holds its writer while a queue is full.
     Exit run(MonoTime end) {
         while (going(end) && !destinations_.failed() && !sources_.finished()) {
             const bool started = started_ || destinations_.all_up();
             if (started != std::exchange(started_, started) && waited_) say(common_, "somebody is there: going on");
-            const std::size_t room = started ? std::min(frames_a_turn, destinations_.room_in_frames()) : 0;
+            const std::size_t room = started ? ring_room() : 0;
             if (!started && sources_.has_recordings() && !std::exchange(waited_, true))
                 say(common_, "waiting for somebody to send to");
             // A full queue is looked at again soon: its socket may have taken all by then.
-            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})), room);
+            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})),
+                          {room, ring_room(), frames_a_turn});
         }
         drain();
         return finish();
@@ -77,11 +78,12 @@ private:
     }
     void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }
 
+    [[nodiscard]] std::size_t ring_room() const { return std::min(frames_a_turn, destinations_.room_in_frames()); }
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
     void drain() {
+        sources_.drain(*this, [this] { return runtime::Room(0, ring_room(), frames_a_turn); });
         const auto begin = mono_now();
-        sources_.drain(*this);
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
         sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
@@ -158,10 +160,23 @@ SetupResult<void> check_words(Options& options) {
     return {};
 }
 
+bool is_sent_to(const runtime::Endpoint& ring, const std::vector<std::string>& to) {
+    return std::ranges::any_of(to, [&](const std::string& text) {
+        const auto endpoint = runtime::parse_endpoint(text);
+        return endpoint && endpoint->scheme == runtime::Scheme::shm && endpoint->path == ring.path;
+    });
+}
+
 SetupResult<void> open_sources(const Options& options, runtime::Sources& sources) {
     for (const auto& text : options.sources) {
-        const auto endpoint = runtime::parse_endpoint(text);
-        if (!endpoint) return tl::unexpected(endpoint.error());
+        auto endpoint = runtime::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
+        if (endpoint->scheme == runtime::Scheme::shm && is_sent_to(*endpoint, options.to))
+            return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring what it holds already; name "
+                                                             "another destination",
+                                                             endpoint->label()));
+        const bool is_ring = endpoint->scheme == runtime::Scheme::shm;
+        if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
         if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
     }
     return {};
@@ -220,8 +235,9 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Without options what comes out is byte for byte what went in. What the far side answers goes "
-        "back.\n\nExamples:\n"
+        "back. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
         "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
+        "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"
         "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
     return [options, &common] { return relay(common, *options); };
 }

@@ -42,7 +42,7 @@ public:
     Exit run(MonoTime end) {
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
-            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), room);
+            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), runtime::Room(room));
             show_progress();
         }
         flush();

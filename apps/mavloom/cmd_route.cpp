@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
+#include <string_view>
 
 #include "command.hpp"
 #include "counted.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/runtime/config.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "mavloom/runtime/router.hpp"
@@ -98,9 +101,22 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
     if (auto good = check_endpoints(*config, options.config); !good) return tl::unexpected(std::move(good.error()));
     plan.config = std::move(*config);
-    if (plan.endpoints().empty())
+    const auto endpoints = plan.endpoints();
+    if (endpoints.empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
+    std::set<std::string_view> recordings;
+    for (const auto& e : endpoints)
+        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(e.path).second)
+            return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
     return plan;
+}
+
+// Recordings come last, for an existing file is renamed: not by a router that finds its port in use.
+SetupResult<void> add_endpoints(runtime::Router& router, const Plan& plan, bool recordings) {
+    for (const auto& endpoint : plan.endpoints())
+        if ((endpoint.scheme == runtime::Scheme::tlog) == recordings)
+            if (auto added = router.add(endpoint); !added) return added;
+    return {};
 }
 
 // "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded", then a line for each link. No frame waits for who reads them: what a reader
@@ -212,8 +228,10 @@ private:
     void reload() {
         if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
         std::error_code unknown;
-        if (std::filesystem::is_fifo(options_.config, unknown))
-            return tell(fmt::format("mavloom: {} is a pipe, which is read once; nothing was changed", options_.config));
+        const auto type = std::filesystem::status(options_.config, unknown).type();
+        if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
+            return tell(fmt::format("mavloom: {} is a pipe or a terminal, which is read once; nothing was changed",
+                                    options_.config));
         auto config = effective_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
@@ -292,10 +310,10 @@ Exit route(const Common& common, const Options& options) {
     const Signals signals([](void* r) noexcept { static_cast<runtime::Router*>(r)->wake(); }, router->get(),
                           Signals::OnHangup::remember);
     if (auto opened = open_ring(common, plan->config.ring, **router); !opened) return fail(opened.error());
-    for (const auto& endpoint : plan->endpoints())
-        if (auto added = (*router)->add(endpoint); !added) return fail(added.error());
+    if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
     const auto control = open_control(common, options, plan->config.ring.name, **router);
     if (!control) return fail(control.error());
+    if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
         say(common, fmt::format("metrics at port {}", port));
     std::optional<ExplainPrinter> explain;

@@ -139,12 +139,14 @@ Exit stat(const Options& options) {
 // Standard input by lines; an end or a signal ends it.
 class Lines {
 public:
-    // Without the line's end; valid until the next call. False: there are no more.
+    explicit Lines(std::size_t longest) : longest_(longest) {}
+    // Of a line that is longer than `longest` comes what was read of it so far. Without the line's end; valid until the next call. False: there are no more.
     [[nodiscard]] bool next(std::string& line) {
         for (;;) {
             if (const auto end = text_.find('\n', searched_); end != std::string::npos) return take(line, end, end + 1);
             searched_ = text_.size();
             if (Signals::received()) return false;
+            if (text_.size() > longest_) return take(line, text_.size(), text_.size());
             if (!read_more()) return !text_.empty() && !Signals::received() && take(line, text_.size(), text_.size());
         }
     }
@@ -166,6 +168,7 @@ private:
         return got > 0 || (got < 0 && errno == EINTR);
     }
 
+    std::size_t longest_;
     std::string text_;
     std::size_t searched_ = 0;
 };
@@ -214,7 +217,7 @@ shm::WriteResult<void> write_record(shm::RingWriter& writer, ByteView bytes, con
 }
 
 Exit write_lines(const Common& common, const Options& options, shm::RingWriter& writer) {
-    Lines lines;
+    Lines lines(writer.longest() * (options.hex ? 2 : 1));
     std::string line;
     std::uint64_t number = 0, records = 0, bytes = 0;
     Exit status = Exit::done;
@@ -236,7 +239,7 @@ Exit write_lines(const Common& common, const Options& options, shm::RingWriter& 
             bytes += line.size();
         } else if (written.error() == shm::WriteError::too_long) {
             refuse(Exit::bad_input,
-                   fmt::format("{} bytes; a record of this ring has at most {}", line.size(), writer.longest()));
+                   fmt::format("over {} bytes, the most that a record of this ring has", writer.longest()));
         } else if (written.error() != shm::WriteError::full) {
             refuse(Exit::failed, shm::to_text(written.error()));
         }

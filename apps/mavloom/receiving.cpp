@@ -58,9 +58,9 @@ bool Selection::takes(const wire::FrameView& frame) const noexcept {
 
 void ReceiveOptions::declare(Arguments command) {
     command
-        .add_option(
-            "source", sources,
-            "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, flight.tlog, ... (docs/guide/endpoints.md)")
+        .add_option("source", sources,
+                    "where to receive: udpin://0.0.0.0:14550, tcpout://HOST:PORT, shm://NAME, flight.tlog, ... "
+                    "(docs/guide/endpoints.md)")
         .required()
         .type_name("SOURCE");
     command.add_option("--for", duration, "end after this time: 10s, 2m, 500ms").type_name("TIME");

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""MAVLink telemetry at C++ speed: live links, recordings as messages or as numpy columns, definitions.
+"""MAVLink telemetry at C++ speed: live links, recordings as messages or as numpy columns, rings in shared memory, definitions.
 
     link = mavloom.connect("udpin://0.0.0.0:14550"); print(link.recv(timeout=1.0))
     for msg in mavloom.read("flight.tlog"): print(msg.time_ns, msg.name, msg.to_dict())
     att = mavloom.columns("flight.tlog", "ATTITUDE", system=1); print(att["roll"], att.units["roll"])
+    with mavloom.RingReader("px4") as ring: print(ring.read(timeout=1.0))
 """
 import atexit as _atexit
 
 from . import _errors, enums, messages
 from ._columns import Columns, columns, tables
-from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Recording, RecordingStats, Subscription, stop_all,
-                    version)
+from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Record, RecordBatch, Recording, RecordingStats, RingReader,
+                    RingWriter, Subscription, remove_ring, rings, stop_all, version)
 from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
 from ._link import Link, connect
 
@@ -24,6 +25,6 @@ _atexit.register(stop_all)
 
 __all__ = [
     "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
-    "Parser", "PermissionDeniedError", "Recording", "RecordingStats", "Subscription", "SystemFailure", "UsageError", "__version__", "columns", "connect",
-    "enums", "messages", "read", "tables",
+    "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats", "RingReader", "RingWriter", "Subscription", "SystemFailure",
+    "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings", "tables",
 ]

@@ -7,7 +7,7 @@ import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import Any
 
-from ._core import Dialect, LinkStats, Message, Port, Subscription
+from ._core import Dialect, LinkStats, Message, Port, RingWriter, Subscription
 from ._errors import UsageError
 from ._types import MessageTypes
 
@@ -70,6 +70,11 @@ class Link:
                max_age: float | None = None) -> Message | None:
         """The newest message of this type that arrived; None where there is none, or none in the last `max_age` seconds. Reads nothing away."""
         return self._port.latest(type, system, component, instance, max_age)
+
+    def pump(self, writer: RingWriter, timeout: float | None = None) -> int:
+        """Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: until the link is closed). Returns how many.
+        They are taken away from `recv`; a subscription has a `pump` of its own."""
+        return self._reader.pump(writer, timeout)
 
     # ---- sending
 

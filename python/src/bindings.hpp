@@ -10,5 +10,7 @@ void bind_parser(nanobind::module_& module);
 void bind_recording(nanobind::module_& module);
 void bind_link(nanobind::module_& module);
 void bind_columns(nanobind::module_& module);
+void bind_ring_writer(nanobind::module_& module);
+void bind_ring_reader(nanobind::module_& module);
 
 }  // namespace mavloom::python

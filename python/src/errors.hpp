@@ -18,6 +18,8 @@ namespace nb = nanobind;
 [[noreturn]] void raise_usage(std::string text);
 [[noreturn]] void raise_input(std::string text);
 [[noreturn]] void raise_closed(std::string text);
+[[noreturn]] void raise_error(const std::string& text);   // mavloom.Error itself
+[[noreturn]] void raise_buffer(const std::string& text);  // Python's BufferError
 
 template <class T>
 T value_or_raise(SetupResult<T>&& result) {

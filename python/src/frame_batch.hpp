@@ -38,6 +38,8 @@ public:
 
     // The next one, or null behind the last.
     [[nodiscard]] const Item* next() noexcept { return next_ == items_.size() ? nullptr : &items_[next_++]; }
+    // Gives the last one back: it comes again.
+    void put_back() noexcept { --next_; }
     [[nodiscard]] wire::FrameView frame(const Item& item) const noexcept {
         return wire::FrameView::unchecked({bytes_.data() + item.offset, item.size});
     }

@@ -7,7 +7,6 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 
-#include <cmath>
 #include <mutex>
 
 #include "bindings.hpp"
@@ -16,39 +15,13 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "hub.hpp"
+#include "ring_writer.hpp"
+#include "waiting.hpp"
 
 namespace mavloom::python {
 namespace {
 
 using OptionalByte = std::optional<std::uint8_t>;
-
-constexpr auto for_ever = Nanoseconds{std::chrono::hours{24 * 365}};
-
-// Seconds as users give them; 0 for less, `for_ever` at most.
-Nanoseconds duration_of(const char* what, const nb::object& given) {
-    const double seconds = PyFloat_AsDouble(given.ptr());
-    if (PyErr_Occurred() != nullptr) throw nb::python_error();
-    if (std::isnan(seconds)) raise_usage(fmt::format("{}: NaN is no time", what));
-    if (seconds >= std::chrono::duration<double>(for_ever).count()) return for_ever;
-    return std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
-}
-
-// When a wait ends: None waits for ever.
-MonoTime deadline_after(const nb::object& timeout) {
-    return timeout.is_none() ? MonoTime::max() : mono_now() + duration_of("timeout", timeout);
-}
-
-// Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.
-class BeforeFork {
-public:
-    [[nodiscard]] bool is_here() const noexcept { return born_ == Hub::forks(); }
-    void check() const {
-        if (!is_here()) raise_closed("opened before fork: open it again in this process");
-    }
-
-private:
-    std::uint64_t born_ = Hub::forks();
-};
 
 // ---- class Subscription
 
@@ -101,6 +74,24 @@ public:
         return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
     }
 
+    // Into a ring, without an object for each message; how many. Also after the time what was there when it began, as far as the ring has room.
+    std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout) {
+        fork_.check();
+        const auto deadline = deadline_after(timeout);
+        const auto end = consumer_->newest();
+        for (Pumped pumped;;) {
+            writer.check();
+            {
+                const WithoutGil outside;
+                pump_slice(writer, deadline, pumped);
+            }
+            check_signals();
+            fork_.check();
+            if (pumped.error) writer.raise(*pumped.error, 0);
+            if (pumped.ended || (mono_now() >= deadline && (pumped.full || is_past(end)))) return pumped.count;
+        }
+    }
+
     // For asyncio: tells when to ask again after a poll that found nothing.
     int event_fd() {
         fork_.check();
@@ -133,6 +124,49 @@ private:
                             item.verified);
     }
 
+    struct Pumped {
+        std::uint64_t count = 0;
+        std::optional<shm::WriteError> error;
+        bool full = false, ended = false;
+    };
+
+    // Without the GIL.
+    void pump_slice(PyRingWriter& writer, MonoTime deadline, Pumped& pumped) {
+        const MonoTime now = mono_now();
+        const MonoTime end = now + longest_slice;
+        const MonoTime waits_until = now < deadline ? std::min(deadline, end) : MonoTime{};
+        do {
+            {
+                const std::lock_guard lock(mutex_);
+                while (const auto* item = next_item())
+                    if (!put(writer, *item, waits_until, pumped) || mono_now() >= end) return;
+                pumped.ended = ended_;
+            }
+            if (!pumped.ended) consumer_->wait(waits_until);
+        } while (!pumped.ended && mono_now() < waits_until);
+    }
+
+    // With mutex_ held. What the ring has no room for comes again.
+    bool put(PyRingWriter& writer, const FrameBatch::Item& item, MonoTime deadline, Pumped& pumped) {
+        const auto frame = batch_.frame(item);
+        const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
+                                   .link = LinkId{item.link},
+                                   .verdict = verdict_of(frame, item.verified)};
+        const auto written = writer.put(frame.bytes(), info, deadline);
+        pumped.full = !written && written.error() == shm::WriteError::full;
+        if (written) return ++pumped.count, true;
+        if (pumped.full && !writer.waits()) return true;  // dropped, as it was asked to, and counted by the ring
+        if (!pumped.full) pumped.error = written.error();
+        batch_.put_back();
+        return false;
+    }
+
+    // docs/guide/python.md has the numbers.
+    static std::uint8_t verdict_of(const wire::FrameView& frame, bool verified) noexcept {
+        if (!frame.is_signed()) return 0;
+        return verified ? 1 : 3;
+    }
+
     nb::object or_closed(const Filter& filter, const nb::object& condition, MonoTime deadline) {
         fork_.check();
         Limit limit{deadline, {}};
@@ -145,6 +179,11 @@ private:
             const auto lock = lock_without_gil(mutex_);
             if (is_over(limit)) return nb::none();
         }
+    }
+
+    [[nodiscard]] bool is_past(std::uint64_t end) {
+        const auto lock = lock_without_gil(mutex_);
+        return is_over({{}, end});
     }
 
     // With mutex_ held.
@@ -184,6 +223,8 @@ runtime::Endpoint endpoint_of(const std::string& url) {
     auto endpoint = value_or_raise(runtime::parse_endpoint(url));
     if (endpoint.scheme == runtime::Scheme::tlog)
         raise_usage(fmt::format("'{}' is a recording: mavloom.read() and mavloom.columns() read it", url));
+    if (endpoint.scheme == runtime::Scheme::shm)
+        raise_usage(fmt::format("'{}' is a ring, which connect() does not read", url));
     return endpoint;
 }
 
@@ -377,6 +418,15 @@ void bind_link(nb::module_& module) {
              "The next message of these types for which `condition(message)` is true; what comes before it is passed "
              "over. None when there is none: at once,\n"
              "or with `blocking` after `timeout` seconds.")
+        .def("pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
+             nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
+             "Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: "
+             "until the "
+             "link is closed). Returns how many. Each record is a\n"
+             "whole frame with its receive time and link; `verdict` is 0 unsigned, 1 signed and verified, 3 signed and "
+             "not "
+             "checked. What a full ring has no room for stays with\n"
+             "the reader.")
         .def("event_fd", &Subscription::event_fd)
         .def_prop_ro("missed", &Subscription::missed,
                      "Frames of the link that were overwritten before this reader came to them.")

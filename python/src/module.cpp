@@ -20,5 +20,7 @@ NB_MODULE(_core, module) {
     bind_parser(module);
     bind_recording(module);
     bind_columns(module);
+    bind_ring_writer(module);
+    bind_ring_reader(module);
     bind_link(module);
 }

@@ -28,6 +28,14 @@ static std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
+// A word that somebody began and did not end: `dedup` for `dedup_ms`.
+static bool begins(std::string_view typed, std::string_view candidate) {
+    constexpr std::size_t shortest = 3;
+    return typed.size() >= shortest && typed.size() < candidate.size() &&
+           std::equal(typed.begin(), typed.end(), candidate.begin(),
+                      [](char a, char b) { return lower(a) == lower(b); });
+}
+
 std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates) {
     constexpr std::size_t longest_name = 64;  // bounds the work for a name that came from a file
     if (typed.empty() || typed.size() > longest_name) return {};
@@ -42,7 +50,9 @@ std::string_view nearest(std::string_view typed, std::span<const std::string_vie
             best_distance = d;
         }
     }
-    return best;
+    if (!best.empty()) return best;
+    const auto begun = std::ranges::find_if(candidates, [&](auto candidate) { return begins(typed, candidate); });
+    return begun == candidates.end() ? std::string_view{} : *begun;
 }
 
 std::string did_you_mean(std::string_view typed, std::span<const std::string_view> candidates) {

@@ -86,10 +86,11 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
     return closed;
 }
 
+// Where the records that are due for the old file do not fit on the disk, a new one would not hold them either: they wait, and it goes on.
 // The new segment is open before the old one is closed: where it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
-    if (is_due(time, time_length + frame.size())) {
+    if (is_due(time, time_length + frame.size()) && flush()) {
         auto next = TlogWriter::create(free_name(time));
         if (!next) {
             ++refused_;

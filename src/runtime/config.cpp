@@ -74,6 +74,7 @@ public:
             for (const auto& item : *endpoints)
                 if (auto done = read_endpoint(*item.as_table()); !done) return tl::unexpected(std::move(done.error()));
         if (auto done = check_ports(config_, file_); !done) return tl::unexpected(std::move(done.error()));
+        if (auto done = check_recordings(config_, file_); !done) return tl::unexpected(std::move(done.error()));
         return std::move(config_);
     }
 

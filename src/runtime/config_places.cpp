@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,17 @@ SetupResult<void> detail::check_ports(const Config& config, std::string_view fil
                                            bound->address.port, in_quotes(other->label), other->line));
         all.push_back(*bound);
         return {};
+    });
+}
+
+SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
+    std::set<std::string_view> paths;
+    if (!config.record.path.empty()) paths.insert(config.record.path);
+    return each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        static constexpr std::array<std::string_view, 2> own{"path", "url"};
+        if (endpoint.scheme != Scheme::tlog || paths.insert(endpoint.path).second) return {};
+        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {} is recorded already", file_name,
+                                                             line_of(section, own), in_quotes(endpoint.path)));
     });
 }
 

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/runtime/control.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
+#include <cerrno>
 #include <thread>
 #include <type_traits>
 #include <utility>
 
+#include "mavloom/net/fd.hpp"
 #include "runtime/control_sessions.hpp"
-#include "runtime/folder_lock.hpp"
 
 namespace mavloom::runtime {
 
@@ -21,6 +25,51 @@ namespace {
 
 constexpr std::size_t most_sessions = 64;  // of each kind: more are turned away
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
+
+// 0: there is nothing.
+ino_t inode_of(const std::filesystem::path& path) noexcept {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
+    return setup_error(
+        SetupCode::in_use,
+        fmt::format("{} is served by a router that runs; --name gives this one another name", socket.string()));
+}
+
+// NAME.ctl.lock beside the socket, locked for as long as a router serves the name; the kernel frees it whatever end the router meets. Mode 0600: nobody
+// else can open it, and so hold it. Whoever gets the lock may take away a socket that is left, for its router is gone.
+class NameLock {
+public:
+    NameLock() = default;
+    NameLock(const NameLock&) = delete;
+    NameLock& operator=(const NameLock&) = delete;
+    ~NameLock() {
+        if (fd_ && is_named(fd_.get())) ::unlink(path_.c_str());
+    }
+
+    [[nodiscard]] SetupResult<void> take(const std::filesystem::path& socket) {
+        path_ = socket.string() + ".lock";
+        while (!fd_) {
+            net::Fd fd(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, socket_mode));
+            if (!fd) return system_error(fmt::format("control socket {}", path_), errno);
+            if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0) return served(socket);
+            if (is_named(fd.get())) fd_ = std::move(fd);
+        }
+        return {};
+    }
+
+private:
+    // Not so once the router that locked it before has ended meanwhile, and taken the file with it.
+    [[nodiscard]] bool is_named(int fd) const {
+        struct stat held {};
+        return ::fstat(fd, &held) == 0 && held.st_ino == inode_of(path_);
+    }
+
+    std::string path_;
+    net::Fd fd_;
+};
 
 // Accepts for as long as it lives. Sessions keep a share of `places_`: its use count tells how many there are.
 template <class Protocol, class Session>
@@ -75,7 +124,7 @@ public:
         context_.stop();
         if (thread_.joinable()) thread_.join();
         router_.drop_posted();
-        if (!socket_.empty()) ::unlink(socket_.c_str());
+        if (!socket_.empty() && inode_of(socket_) == inode_) ::unlink(socket_.c_str());
     }
 
     SetupResult<void> open(const ControlOptions& options) {
@@ -99,27 +148,26 @@ public:
 
 private:
     SetupResult<void> open_socket(const std::filesystem::path& path) {
-        const FolderLock lock(path.parent_path());
-        if (auto taken = take_over(path); !taken) return taken;
+        if (auto taken = name_.take(path); !taken) return taken;
+        if (auto free = remove_left_over(path); !free) return free;
         try {
             control_.open(Local::endpoint(path.string()));
             socket_ = path;
+            inode_ = inode_of(path);
         } catch (const boost::system::system_error& error) {
             return error_of(fmt::format("control socket {}", path.string()), error);
         }
         return {};
     }
 
-    SetupResult<void> take_over(const std::filesystem::path& path) {
-        Local::socket probe(context_);
-        error_code error;
-        probe.connect(Local::endpoint(path.string()), error);
-        if (!error)
-            return setup_error(
-                SetupCode::in_use,
-                fmt::format("{} is served by a router that runs; --name gives this one another name", path.string()));
+    // Looks without waiting: at a socket whose backlog is full somebody listens, too.
+    static SetupResult<void> remove_left_over(const std::filesystem::path& path) {
+        const Local::endpoint there(path.string());
+        const net::Fd probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+        const int error = ::connect(probe.get(), there.data(), static_cast<socklen_t>(there.size())) == 0 ? 0 : errno;
+        if (error == 0 || error == EAGAIN) return served(path);
         struct stat status {};
-        const bool is_left = error == asio::error::connection_refused && ::lstat(path.c_str(), &status) == 0;
+        const bool is_left = error == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
         if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
         return {};
     }
@@ -145,7 +193,9 @@ private:
     Acceptor<Local, ControlSession> control_;
     Acceptor<Tcp, MetricsSession> metrics_;
     std::uint16_t metrics_port_ = 0;
+    NameLock name_;  // outlives the socket
     std::filesystem::path socket_;
+    ino_t inode_ = 0;  // its own: somebody may have removed it, and another router have made one
     std::thread thread_;
 };
 
@@ -154,10 +204,14 @@ Control::~Control() = default;
 std::uint16_t Control::metrics_port() const noexcept { return impl_->metrics_port(); }
 
 SetupResult<std::unique_ptr<Control>> Control::create(Router& router, const ControlOptions& options) {
-    auto impl = std::make_unique<Impl>(router);
-    if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
-    impl->start();
-    return std::unique_ptr<Control>(new Control(std::move(impl)));
+    try {
+        auto impl = std::make_unique<Impl>(router);
+        if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
+        impl->start();
+        return std::unique_ptr<Control>(new Control(std::move(impl)));
+    } catch (const boost::system::system_error& error) {  // no descriptors are left, say
+        return error_of("control socket and metrics", error);
+    }
 }
 
 }  // namespace mavloom::runtime

@@ -10,6 +10,7 @@
 #include "runtime/links_inlet.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_serial.hpp"
+#include "runtime/links_shm.hpp"
 #include "runtime/links_tcp.hpp"
 #include "runtime/links_udp.hpp"
 
@@ -83,6 +84,7 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
         case Scheme::udpmcast: return open_udpmcast(std::move(opening));
         case Scheme::tcpin: return open_tcpin(std::move(opening));
         case Scheme::serial: return open_serial(std::move(opening));
+        case Scheme::shm: return open_shm(std::move(opening));
         default: return open_tcpout(std::move(opening));
     }
 }
@@ -92,7 +94,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     if (auto checked = check_supported(endpoint, impl_->routing); !checked)
         return tl::unexpected(std::move(checked).error());
     // Several may have a port of their own each from port 0.
-    const bool has_name = endpoint.scheme == Scheme::serial || endpoint.address.port != 0;
+    const bool has_name = endpoint.scheme == Scheme::serial || endpoint.scheme == Scheme::shm ||
+                          endpoint.address.port != 0;
     for (const auto& other : impl_->endpoints) {
         if (other && other->info.endpoint.label() == endpoint.label() && has_name) {
             return setup_error(SetupCode::usage,
@@ -129,6 +132,11 @@ SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::fil
 void Links::remove(EndpointId endpoint) {
     if (impl_->find(endpoint) != nullptr) impl_->endpoints[endpoint.value].reset();
     impl_->choose_coalescing();
+}
+
+bool Links::has_other_keys(EndpointId endpoint) const {
+    const OpenEndpoint* const found = impl_->find(endpoint);
+    return found != nullptr && found->signature != nullptr && found->signature->has_other_keys();
 }
 
 std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return impl_->core.turn(handler, deadline); }

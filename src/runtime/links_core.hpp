@@ -78,7 +78,9 @@ public:
 
     // Notes in the keys' files the times that were used so far.
     void keep_times() const;
-    [[nodiscard]] bool verifies() const noexcept { return verifier_.has_value(); }
+    // Whether the files hold other keys now; not so while one of them cannot be read.
+    [[nodiscard]] bool has_other_keys() const;
+    [[nodiscard]] bool verifies() const noexcept { return verifier_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
     // `accepts` ahead of the parser that will find the same bytes once more: that second look is not taken for a replay.
@@ -91,9 +93,18 @@ public:
                                        WallTime now) noexcept;
 
 private:
+    struct OpenKey {
+        std::string path;
+        wire::SigningKey key;
+        std::shared_ptr<KeyFile> times;
+        [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
+    };
+    [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
+    [[nodiscard]] static std::shared_ptr<wire::Verifier> verifier_of(const OpenKey& with, bool alone);
+
     KeyStates& states_;
-    std::shared_ptr<KeyFile> verify_file_, sign_file_;
-    std::optional<wire::Verifier> verifier_;
+    std::optional<OpenKey> verify_with_, sign_with_;
+    std::shared_ptr<wire::Verifier> verifier_;  // null without verify=
     std::optional<wire::Signer> signer_;
     const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};

@@ -16,7 +16,6 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/net/local.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
-#include "runtime/folder_lock.hpp"
 #include "runtime/links_peer_room.hpp"
 
 namespace mavloom::runtime::detail {
@@ -93,7 +92,7 @@ private:
 
 // ---- the socket ------------------------------------------------------------------------------------------------------
 
-// Nothing happens where there is no socket, or one of another kind.
+// Nothing happens where there is no socket, or one of another kind. Of routers of one ring only one comes here: it holds the ring's lock.
 SetupResult<void> take_over(const std::filesystem::path& path) {
     const net::Fd probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     sockaddr_un address{};
@@ -110,7 +109,6 @@ SetupResult<void> take_over(const std::filesystem::path& path) {
 SetupResult<void> Inlet::open(const std::filesystem::path& path, unsigned mode) {
     path_ = path;
     mode_ = mode;
-    const FolderLock lock(path.parent_path());
     auto bound = bind();
     if (bound) timer_ = core_.loop().start_timer(core_.now() + look_interval, *this);
     return bound;
@@ -139,8 +137,6 @@ Inlet::~Inlet() {
 // Somebody may have removed the socket, or the folder.
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
-    const FolderLock lock(path_.parent_path(), FolderLock::Wait::no);
-    if (!lock.held()) return;  // next time
     const auto anew = bind();
     if (anew) core_.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
     else if (!told_) core_.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));

@@ -20,11 +20,16 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
         case Scheme::tcpin:
         case Scheme::tcpout:
         case Scheme::serial: break;
+        case Scheme::shm:
+            if (routing == RoutingOptions::by_owner)
+                return usage(
+                    endpoint,
+                    "a ring is no link of a router: route --ring NAME writes one and takes what is sent to its "
+                    "inlet; listen, relay and record read it");
+            break;
         case Scheme::tlog:
             return usage(endpoint,
                          "a recording is no link: it is read and written by listen, relay, record and replay");
-        default:
-            return usage(endpoint, fmt::format("{}:// is not available in this version", scheme_name(endpoint.scheme)));
     }
     const EndpointOptions& o = endpoint.options;
     const std::pair<std::string_view, bool> routed[] = {
@@ -42,6 +47,9 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
         if (set && routing == RoutingOptions::refused)
             return usage(endpoint, fmt::format("option {}= is for mavloom route, which decides what goes where", name));
     }
+    if (endpoint.scheme == Scheme::shm && !o.verify_key_file.empty())
+        return usage(endpoint,
+                     "verify= belongs to the endpoint that the frames came in by; who wrote the ring has checked them");
     if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
         return usage(endpoint, "ttl=0 keeps the datagrams of a group on this machine; others need 1 to 255");
     const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);

@@ -196,7 +196,8 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_serial(Opening opening) {
     auto opened = std::make_unique<Serial>(opening);
     auto done = opened->open();
     if (done) return opened;
-    if (done.error().code != SetupCode::not_found || endpoint.options.required)
+    const bool required = endpoint.options.required && !opening.core.running();
+    if (done.error().code != SetupCode::not_found || required)
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());
     return opened;

@@ -12,21 +12,36 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const EndpointOptions& o
     if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
     auto signature = std::make_unique<Signature>(states);
     if (!options.verify_key_file.empty()) {
-        auto key = wire::SigningKey::load(options.verify_key_file);
-        if (!key) return tl::unexpected(std::move(key).error());
-        signature->verify_file_ = states.open(options.verify_key_file, notices);
-        signature->verifier_.emplace(*key);
-        for (const auto& stream : signature->verify_file_->state.heard) signature->verifier_->restore(stream);
+        auto opened = signature->open(options.verify_key_file, notices);
+        if (!opened) return tl::unexpected(std::move(opened).error());
+        signature->verify_with_.emplace(std::move(*opened));
+        signature->verifier_ = verifier_of(*signature->verify_with_, !options.group.empty());
     }
     if (!options.sign_key_file.empty()) {
-        auto key = wire::SigningKey::load(options.sign_key_file);
-        if (!key) return tl::unexpected(std::move(key).error());
-        signature->sign_file_ = states.open(options.sign_key_file, notices);
-        KeyStates::begin_signing(*signature->sign_file_);
-        signature->signer_.emplace(*key, static_cast<std::uint8_t>(signs_as.value),
-                                   signature->sign_file_->state.last_signed);
+        auto opened = signature->open(options.sign_key_file, notices);
+        if (!opened) return tl::unexpected(std::move(opened).error());
+        const auto& [path, key, times] = signature->sign_with_.emplace(std::move(*opened));
+        KeyStates::begin_signing(*times);
+        signature->signer_.emplace(key, static_cast<std::uint8_t>(signs_as.value), times->state.last_signed);
     }
     return signature;
+}
+
+SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::vector<std::string>& notices) {
+    auto key = wire::SigningKey::load(path);
+    if (!key) return tl::unexpected(std::move(key).error());
+    return OpenKey{path, *key, states_.open(path, *key, notices)};
+}
+
+// What one endpoint took is a replay at the others with its key. Not so in a group, where the same frame comes by several links, and late by one of them: there
+// each judges alone.
+std::shared_ptr<wire::Verifier> Signature::verifier_of(const OpenKey& with, bool alone) {
+    auto shared = alone ? nullptr : with.times->verifier.lock();
+    if (shared) return shared;
+    auto verifier = std::make_shared<wire::Verifier>(with.key);
+    for (const auto& stream : with.times->state.heard) verifier->restore(stream);
+    if (!alone) with.times->verifier = verifier;
+    return verifier;
 }
 
 Signature::~Signature() {
@@ -34,11 +49,24 @@ Signature::~Signature() {
     states_.remove(*this);
 }
 
+bool Signature::has_other_keys() const {
+    bool other = false;
+    for (const auto* with : {&verify_with_, &sign_with_}) {
+        if (!*with) continue;
+        const auto now = wire::SigningKey::load((*with)->path);
+        if (!now) return false;
+        other = other || *now != (*with)->key;
+    }
+    return other;
+}
+
+// Another endpoint may have been opened meanwhile with another key from the same file.
 void Signature::keep_times() const {
-    if (verifier_ && verify_file_->state.merge_heard(verifier_->streams())) verify_file_->changed = true;
-    if (signer_ && signer_->last() > sign_file_->state.last_signed) {
-        sign_file_->state.last_signed = signer_->last();
-        sign_file_->changed = true;
+    if (verifier_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(verifier_->streams()))
+        verify_with_->times->changed = true;
+    if (signer_ && signer_->last() > sign_with_->times->state.last_signed) {
+        sign_with_->times->state.last_signed = signer_->last();
+        sign_with_->times->changed = true;
     }
 }
 

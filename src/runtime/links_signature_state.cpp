@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cerrno>
 #include <charconv>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -51,6 +53,11 @@ bool read_line(std::string_view line, KeyState& state) {
         if (ticks) state.last_signed = {*ticks};
         return ticks && line.empty();
     }
+    if (what == "key") {
+        const auto fingerprint = take_number(line, std::numeric_limits<std::uint64_t>::max());
+        state.key = fingerprint.value_or(0);
+        return fingerprint && line.empty();
+    }
     const auto link = take_number(line, 256), system = take_number(line, 256), component = take_number(line, 256);
     const auto ticks = take_number(line, time_limit);
     if (what != "heard" || !link || !system || !component || !ticks || !line.empty()) return false;
@@ -60,8 +67,12 @@ bool read_line(std::string_view line, KeyState& state) {
 }
 
 SetupResult<std::string> read_file(const std::filesystem::path& path) {
-    const net::Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const net::Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));  // waits for no pipe's writer
     if (!file && errno == ENOENT) return std::string();
+    struct stat status {};
+    if (file && (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)))
+        return setup_error(SetupCode::bad_input,
+                           fmt::format("{} is no regular file; signing times begin anew", path.string()));
     std::string text(longest_file, '\0');
     const ssize_t size = !file ? -1 : ::read(file.get(), text.data(), text.size());
     if (size < 0) return system_error(fmt::format("cannot read {}", path.string()), errno);
@@ -86,6 +97,12 @@ int replace_file(const std::filesystem::path& path, std::string_view text) noexc
 
 // ---- what is kept ----------------------------------------------------------------------------------------------------
 
+bool KeyState::belong_to(const wire::SigningKey& now) {
+    const std::uint64_t before = std::exchange(key, now.fingerprint());
+    if (before != 0 && before != key) heard.clear();
+    return before != key;
+}
+
 bool KeyState::merge_heard(std::span<const Stream> streams) {
     bool changed = false;
     for (const Stream& stream : streams) {
@@ -103,6 +120,7 @@ bool KeyState::merge_heard(std::span<const Stream> streams) {
 
 std::string text_of(const KeyState& state) {
     std::string text = fmt::format("{}\nsigned {}\n", heading, state.last_signed.ticks);
+    if (state.key != 0) fmt::format_to(std::back_inserter(text), "key {}\n", state.key);
     for (const auto& [key, last] : state.heard)
         fmt::format_to(std::back_inserter(text), "heard {} {} {} {}\n", key >> 16, key >> 8 & 0xFF, key & 0xFF,
                        last.ticks);
@@ -134,7 +152,7 @@ SetupResult<void> KeyFile::write(KeyState wanted) {
     const std::lock_guard lock(mutex_);
     if (const auto text = read_file(path_)) {
         if (const auto there = parse_key_state(*text)) {
-            wanted.merge_heard(there->heard);
+            if (there->key == wanted.key || there->key == 0) wanted.merge_heard(there->heard);
             if (there->last_signed > written_) wanted.last_signed = std::max(wanted.last_signed, there->last_signed);
         }
     }
@@ -173,12 +191,20 @@ KeyStates::~KeyStates() {
     for (const auto& file : files_) (void)file->write(file->state);
 }
 
-std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& key, std::vector<std::string>& notices) {
-    auto file = std::make_shared<KeyFile>(key);
+std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, const wire::SigningKey& key,
+                                         std::vector<std::string>& notices) {
+    auto file = std::make_shared<KeyFile>(path);
     const auto open = std::ranges::find_if(files_, [&](const auto& f) { return f->path() == file->path(); });
-    if (open != files_.end()) return *open;
+    if (open != files_.end()) {
+        if ((*open)->state.belong_to(key)) {
+            (*open)->changed = true;
+            (*open)->verifier.reset();
+        }
+        return *open;
+    }
     const auto now = wire::SigningTime::from(wall_now());
     if (const auto loaded = file->load(); !loaded) notices.push_back(loaded.error().text);
+    file->state.belong_to(key);
     if (const auto ahead = seconds_ahead(file->state, now); ahead != 0)
         notices.push_back(fmt::format("{}: its times are {} s ahead of the clock; signing goes on from there",
                                       file->path().string(), ahead));

@@ -26,9 +26,12 @@ namespace mavloom::runtime::detail {
 class Signature;
 
 struct KeyState {
+    std::uint64_t key = 0;  // its fingerprint; 0: not known
     wire::SigningTime last_signed;
     std::vector<wire::Verifier::Stream> heard;  // sorted by key, at most Verifier::max_streams
 
+    // Of another key than before nothing was heard: its frames are no replays under this one. True when the key is another.
+    bool belong_to(const wire::SigningKey& key);
     // The later of each. True when something of this state changed.
     bool merge_heard(std::span<const wire::Verifier::Stream> streams);
 };
@@ -49,7 +52,8 @@ public:
     [[nodiscard]] SetupResult<void> write(KeyState wanted);
 
     KeyState state;
-    bool changed = false;  // since it was given to the writer
+    bool changed = false;                    // since it was given to the writer
+    std::weak_ptr<wire::Verifier> verifier;  // that endpoints with this key share
 
 private:
     std::filesystem::path path_;
@@ -69,8 +73,9 @@ public:
     // Writes what is there, to the tick.
     ~KeyStates();
 
-    // The state of a key; the first time it is read from its file, and written, and `notices` gets what a person should know of it.
-    [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& key, std::vector<std::string>& notices);
+    // The state of the key in file `path`; the first time it is read from its file, and written, and `notices` gets what a person should know of it.
+    [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& path, const wire::SigningKey& key,
+                                                std::vector<std::string>& notices);
     // To be called before the first frame is signed with the key.
     static void begin_signing(KeyFile& file);
     void add(const Signature& signature) { signatures_.push_back(&signature); }

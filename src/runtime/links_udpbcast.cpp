@@ -109,11 +109,11 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
     if (auto checked = check_destination(endpoint); !checked) return tl::unexpected(std::move(checked).error());
     auto local = local_address(endpoint);
     if (!local) return tl::unexpected(std::move(local).error());
-    const bool required = endpoint.options.required;
+    const bool required = endpoint.options.required && !core.running();
     auto opened = std::make_unique<UdpBroadcast>(opening, *local);
     const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
     auto answer = core.resolve_now(endpoint.address, limit, *opened);
-    if (!answer && (!required || core.running())) return opened;
+    if (!answer && !required) return opened;
     if (!answer)
         return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
                                                                endpoint.label(), endpoint.address.host));

@@ -115,7 +115,8 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
     auto done = opened->join();
     if (done) return opened;
     const bool may_come = done.error().code == SetupCode::not_found || done.error().code == SetupCode::unreachable;
-    if (endpoint.options.required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    const bool required = endpoint.options.required && !opening.core.running();
+    if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());
     return opened;
 }

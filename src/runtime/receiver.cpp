@@ -72,10 +72,13 @@ void Receiver::run() {
             ask_kernel = now + drops_every;
         }
         const std::size_t room = frames_that_fit();
-        sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), room);
+        sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), Room(room));
         queue_->publish();
     }
-    sources_.drain(*this, [this] { queue_->publish(); });
+    sources_.drain(*this, [this] {
+        queue_->publish();
+        return Room(frames_that_fit());
+    });
     sources_.add_to(totals_);
     queue_->close();
 }

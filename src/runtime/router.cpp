@@ -74,22 +74,6 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
 
 // ---- endpoints -------------------------------------------------------------------------------------------------------
 
-// What the files of `sign` and `verify` hold now; nothing for one that cannot be read.
-static auto keys_of(const Endpoint& endpoint) {
-    std::array<std::optional<wire::SigningKey>, 2> keys;
-    const std::array files{&endpoint.options.sign_key_file, &endpoint.options.verify_key_file};
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (files[i]->empty()) continue;
-        if (const auto key = wire::SigningKey::load(*files[i])) keys[i] = *key;
-    }
-    return keys;
-}
-
-bool Router::OpenedEndpoint::has_other_keys() const {
-    const auto now = keys_of(endpoint);
-    return (now[0] && now[0] != keys[0]) || (now[1] && now[1] != keys[1]);
-}
-
 std::string ring_is_no_endpoint(const Endpoint& endpoint) {
     return fmt::format(
         "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
@@ -102,11 +86,9 @@ SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (endpoint.scheme == Scheme::shm) return setup_error(SetupCode::usage, ring_is_no_endpoint(endpoint));
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
-    auto keys = keys_of(endpoint);  // before they are used: at worst a later reload finds others
     const auto id = links_->add(endpoint);
     if (!id) return tl::unexpected(id.error());
-    endpoints_.push_back(
-        std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy), std::move(keys)}));
+    endpoints_.push_back(std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy)}));
     endpoints_.back()->verifies = !endpoint.options.verify_key_file.empty();
     any_signs_ = any_signs_ || !endpoint.options.sign_key_file.empty();
     register_endpoint(*endpoints_.back());
@@ -229,7 +211,7 @@ void Router::become(const std::vector<Endpoint>& endpoints) {
     std::vector<Endpoint> gone;
     const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
     for (const auto& e : endpoints_)
-        if (!stays(e->endpoint) || e->has_other_keys()) gone.push_back(e->endpoint);
+        if (!stays(e->endpoint) || links_->has_other_keys(e->id)) gone.push_back(e->endpoint);
     for (const auto& e : recordings_)
         if (!stays(e)) gone.push_back(e);
     for (const auto& endpoint : gone) {
@@ -258,10 +240,11 @@ void Router::order_as(const std::vector<Endpoint>& endpoints) {
     engine_.set_group_orders(orders);
 }
 
-// What was to be changed and cannot be goes on as it was.
+// What was to be changed and cannot be goes on with its former options.
 void Router::put_back(const std::vector<Endpoint>& gone, const std::string& label) {
     const auto before = std::ranges::find(gone, label, &Endpoint::label);
-    if (before != gone.end() && add(*before)) notice_(LogLevel::info, fmt::format("{}: goes on as it was", label));
+    if (before != gone.end() && add(*before))
+        notice_(LogLevel::info, fmt::format("{}: goes on with its former options", label));
 }
 
 bool Router::has(const Endpoint& endpoint) const {
@@ -452,14 +435,17 @@ void Router::look_after(MonoTime now) {
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
+    const auto name = [this](LinkId link) {
+        const auto found = links_->link_name(link);
+        return found.empty() ? std::string_view{"a link that is gone"} : found;
+    };
     const auto ids = engine_.duplicate_ids();
     for (; duplicate_ids_told_ < ids.size(); ++duplicate_ids_told_) {
         const auto& d = ids[duplicate_ids_told_];
         notice_(
             LogLevel::warning,
             fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
-                        d.source.system.value, d.source.component.value, links_->link_name(d.first),
-                        links_->link_name(d.second)));
+                        d.source.system.value, d.source.component.value, name(d.first), name(d.second)));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "mavloom/record/tlog_index.hpp"
+#include "runtime/sources_rings.hpp"
 
 namespace mavloom::runtime {
 
@@ -12,18 +13,24 @@ namespace mavloom::runtime {
 static constexpr std::chrono::milliseconds pipe_look{5};
 // How much damage is read before signals, ends and live links are looked at again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
-// A drain ends after some turns without a frame, for one full of junk has none either; and where frames keep coming, after more turns than empty a
-// receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
-static constexpr int last_empty_turns = 16, most_drain_turns = 1400;
+// A drain ends after some turns without a frame (one full of junk has none either). Where frames keep coming it ends after as many turns as empty a
+// stream's receive buffer of 8 MiB, at 128 KiB a turn, that brought nothing which the kernel had received before; and in any case after more turns than
+// empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
+static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
+// How many turns rings wait for a caller that has no room: some hundred milliseconds, for a disk that is busy.
+static constexpr int most_full_turns = 300;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
     auto links = Links::create(dialect);
     if (!links) return tl::unexpected(std::move(links.error()));
-    Sources sources(std::move(*links));
-    sources.table_ = &dialect.wire_table();
-    return sources;
+    return Sources(std::move(*links), dialect.wire_table());
 }
+
+Sources::Sources(std::unique_ptr<Links> links, const wire::MessageTable& table)
+    : links_(std::move(links)), table_(&table), rings_(std::make_unique<detail::RingSources>(*links_, table)) {}
+Sources::Sources(Sources&&) noexcept = default;
+Sources::~Sources() = default;
 
 namespace {
 
@@ -52,6 +59,7 @@ bool may_be_read_twice(const std::string& path) {
 
 SetupResult<void> Sources::check(const Endpoint& endpoint) const {
     if (auto checked = check_source_options(endpoint); !checked) return checked;
+    if (endpoint.scheme == Scheme::shm) return detail::RingSources::check(endpoint);
     if (endpoint.scheme != Scheme::tlog || !may_be_read_twice(endpoint.path)) return {};
     auto reader = record::TlogReader::open(endpoint.path, *table_);
     if (!reader) {
@@ -65,6 +73,7 @@ SetupResult<void> Sources::check(const Endpoint& endpoint) const {
 
 SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
     if (auto checked = check(endpoint); !checked) return checked;
+    if (endpoint.scheme == Scheme::shm) return rings_->add(endpoint);
     if (endpoint.scheme != Scheme::tlog) {
         return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
     }
@@ -146,34 +155,75 @@ Sources::Recording* Sources::earliest() noexcept {
     return first;
 }
 
-std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames) {
-    if (const auto* first = earliest(); first != nullptr && most_frames != 0) deadline = std::min(deadline, first->due);
+std::size_t Sources::turn(LinkHandler& handler, MonoTime deadline, Room room) {
+    if (const auto* first = earliest(); first != nullptr && room.recordings != 0)
+        deadline = std::min(deadline, first->due);
+    deadline = std::min(deadline, rings_->due(room));
     const std::size_t frames = links_->turn(handler, deadline);
-    return frames + play(handler, most_frames);
+    const std::size_t of_rings = rings_->play(handler, room);
+    return frames + of_rings + play(handler, room.recordings);
 }
 
-// Counts turns, not time: on a busy machine time may pass before the first of them.
-void Sources::drain(LinkHandler& handler, const std::function<void()>& after_turn) {
-    int empty_turns = 0;
-    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns; ++turns) {
-        const MonoTime until = turns < last_empty_turns ? mono_now() + empty_turn : MonoTime{};
-        empty_turns = turn(handler, until, 0) == 0 ? empty_turns + 1 : 0;
-        after_turn();
+namespace {
+
+// Hears whether a frame was received before a moment. The time of a stream's frame is that of its reading.
+class EarlyFrames final : public LinkHandler {
+public:
+    EarlyFrames(LinkHandler& handler, WallTime moment) : handler_(handler), moment_(moment) {}
+    [[nodiscard]] bool take() noexcept { return std::exchange(early_, false); }
+
+private:
+    void on_frame(const RxFrame& rx) override {
+        early_ = early_ || rx.time <= moment_;
+        handler_.on_frame(rx);
     }
+    void on_link_up(LinkId link, EndpointId endpoint, std::string_view name) override {
+        handler_.on_link_up(link, endpoint, name);
+    }
+    void on_link_down(LinkId link, EndpointId endpoint, std::string_view why) override {
+        handler_.on_link_down(link, endpoint, why);
+    }
+    void on_notice(EndpointId endpoint, std::string_view text) override { handler_.on_notice(endpoint, text); }
+
+    LinkHandler& handler_;
+    WallTime moment_;
+    bool early_ = false;
+};
+
+}  // namespace
+
+// Counts turns, not time: on a busy machine time may pass before the first of them.
+void Sources::drain(LinkHandler& handler, const std::function<Room()>& room) {
+    rings_->end_here();
+    EarlyFrames early(handler, wall_now());
+    int empty_turns = 0, late_turns = 0;
+    for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns && late_turns < last_late_turns;
+         ++turns) {
+        const Room now = room();
+        const bool is_full = now.lossless == 0 && turns < most_full_turns && !rings_->empty();
+        const MonoTime until = turns < last_empty_turns || is_full ? mono_now() + empty_turn : MonoTime{};
+        const bool is_empty = turn(early, until, {0, now.lossless, now.lossy}) == 0 && !is_full;
+        empty_turns = is_empty ? empty_turns + 1 : 0;
+        late_turns = early.take() || !rings_->empty() ? 0 : late_turns + 1;
+    }
+    room();
 }
 
 std::size_t Sources::send(const wire::FrameView& frame) {
     std::size_t takers = 0;
     for (const auto id : live_) takers += links_->send(id, frame);
-    return takers;
+    return takers + rings_->send(frame);
 }
 
 void Sources::add_to(Totals& totals) {
     links_->refresh_kernel_drops();
     for (const auto& link : links_->links()) totals.add(*link.counters);
     for (const auto& endpoint : links_->endpoints()) totals.add(*endpoint.counters);
+    rings_->add_to(totals);
     for (const auto& recording : recordings_) totals.add(recording->reader.counters());
 }
+
+bool Sources::finished() const noexcept { return live_.empty() && rings_->empty() && finished_recordings(); }
 
 bool Sources::finished_recordings() const noexcept {
     return std::ranges::all_of(recordings_, [](const auto& r) { return r->ended; });

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/shm/ring_follower.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <thread>
 #include <utility>
 
+#include "shm/segment.hpp"
+
 namespace mavloom::shm {
 
-// Between two looks at a name that leads nowhere, or at a ring that nobody writes to.
-static constexpr Nanoseconds look_distance = std::chrono::milliseconds(20);
+// Spares the list of rings that an error would have.
+static bool is_there(const std::string& name) { return ::access(path_of(name).c_str(), F_OK) == 0; }
 
 bool RingFollower::try_open() {
     if (reader_) return true;
+    if (error_ && error_->code == SetupCode::not_found && !is_there(name_)) return false;
     ReaderOptions options = options_;
     if (std::exchange(looked_, true)) options.from = ReaderOptions::From::oldest;
     auto reader = RingReader::open(name_, options);
@@ -30,16 +35,31 @@ void RingFollower::drop() {
     reader_.reset();
 }
 
+// A retired ring that still bears the name is kept, or it would be read again.
+bool RingFollower::moved_on(ReadError error) {
+    if (error == ReadError::empty || error == ReadError::forked || reader_->is_named()) return false;
+    drop();
+    return true;
+}
+
+ReadResult<RingRecord> RingFollower::poll() {
+    while (try_open()) {
+        auto record = reader_->poll();
+        if (record) return record;
+        if (moved_on(record.error())) continue;
+        if (record.error() == ReadError::retired) return tl::unexpected(ReadError::no_writer);
+        return record;
+    }
+    return tl::unexpected(ReadError::no_writer);
+}
+
 ReadResult<RingRecord> RingFollower::read(MonoTime deadline) {
     for (;;) {
         if (try_open()) {
             auto record = reader_->read(deadline);
-            if (record || record.error() == ReadError::empty || record.error() == ReadError::forked) return record;
-            // Another ring may stand there now, or soon. A retired one that still bears the name is kept, or it would be read again.
-            if (!reader_->is_named()) {
-                drop();
-                continue;
-            }
+            if (record) return record;
+            if (moved_on(record.error())) continue;
+            if (record.error() == ReadError::empty || record.error() == ReadError::forked) return record;
             if (record.error() == ReadError::damaged) return record;
         }
         const MonoTime now = mono_now();

@@ -26,7 +26,7 @@ static void relax() noexcept {
 #endif
 }
 
-RingReader::RingReader(std::string name, const ReaderOptions& options, std::unique_ptr<Segment> segment)
+RingReader::RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment)
     : name_(std::move(name)), options_(options), segment_(std::move(segment)), forked_(&segment_->forked_flag()) {}
 
 RingReader::RingReader(RingReader&& other) noexcept = default;
@@ -42,6 +42,7 @@ RingReader& RingReader::operator=(RingReader&& other) noexcept {
     slot_ = std::exchange(other.slot_, std::nullopt);
     consumer_ = std::move(other.consumer_);
     next_look_at_writer_ = other.next_look_at_writer_;
+    armed_ = other.armed_;
     return *this;
 }
 
@@ -53,7 +54,7 @@ SetupResult<RingReader> RingReader::open(std::string_view name, const ReaderOpti
     if (!segment && segment.error().code == SetupCode::permission && !options.lossless && !options.read_only)
         if (auto readable = open_ring(name, Access::read_only)) segment = std::move(readable);
     if (!segment) return tl::unexpected(std::move(segment.error()));
-    RingReader reader(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
+    RingReader reader(std::string(name), options, std::make_shared<Segment>(std::move(*segment)));
     if (auto begun = reader.begin(); !begun) return tl::unexpected(std::move(begun.error()));
     return reader;
 }
@@ -144,28 +145,61 @@ std::optional<ReadError> RingReader::why_nothing_comes(MonoTime now) noexcept {
     return ReadError::no_writer;
 }
 
+ReadResult<RingRecord> RingReader::poll() noexcept {
+    auto record = try_read();
+    if (!record && record.error() == ReadError::empty) {
+        const auto why = why_nothing_comes(mono_now());
+        if (!why) return record;
+        record = try_read();  // what was written before the writer went
+        if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
+    }
+    if (record) consumer_.awake();
+    return record;
+}
+
+Nanoseconds RingReader::arm() noexcept {
+    if (forked() || !slot_) return poll_distance;
+    const MonoTime now = mono_now();
+    if (!consumer_.fall_asleep()) armed_ = now;
+    if (consumer_.more_waits()) return {};
+    return now < armed_ + detail::wake_distance ? detail::wake_distance : look_at_writer;
+}
+
+std::shared_ptr<const SharedWords::Word32> RingReader::wake_word() const {
+    return {segment_, &memory_of(*segment_).control->wakes};
+}
+
 void RingReader::release() noexcept {
     if (forked()) return;
     consumer_.release();
     consumer_.publish();
 }
 
+std::uint64_t RingReader::end_position() const noexcept {
+    return memory_of(*segment_).control->tail.load(std::memory_order_acquire);
+}
+std::uint64_t RingReader::writers() const noexcept {
+    return memory_of(*segment_).control->writers.load(std::memory_order_acquire);
+}
 bool RingReader::writer_alive() const noexcept { return segment_->is_locked(writer_byte); }
 bool RingReader::is_named() const noexcept { return segment_->is_named(); }
 
 // In a child of fork() nothing is touched: the slot is the parent's.
+void RingReader::detach() noexcept {
+    if (!slot_ || segment_->forked()) return;
+    auto& control = *memory_of(*segment_).control;
+    const std::uint64_t bit = std::uint64_t{1} << *slot_;
+    control.holders.fetch_and(~bit, std::memory_order_release);
+    control.attached.fetch_and(~bit, std::memory_order_relaxed);
+    control.sleepers.fetch_and(~bit, std::memory_order_relaxed);
+    control.rooms.fetch_add(1, std::memory_order_release);
+    if (control.room_wanted.load(std::memory_order_seq_cst) != 0) SharedWords::wake(control.rooms);
+    segment_->unlock(slot_byte(*slot_));
+    slot_.reset();
+}
+
 void RingReader::end() noexcept {
-    if (!segment_) return;
-    if (slot_ && !segment_->forked()) {
-        auto& control = *memory_of(*segment_).control;
-        const std::uint64_t bit = std::uint64_t{1} << *slot_;
-        control.holders.fetch_and(~bit, std::memory_order_release);
-        control.attached.fetch_and(~bit, std::memory_order_relaxed);
-        control.sleepers.fetch_and(~bit, std::memory_order_relaxed);
-        control.rooms.fetch_add(1, std::memory_order_release);
-        if (control.room_wanted.load(std::memory_order_seq_cst) != 0) SharedWords::wake(control.rooms);
-        segment_->unlock(slot_byte(*slot_));
-    }
+    if (segment_) detach();
     segment_.reset();
 }
 

@@ -29,6 +29,7 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
     options_ = other.options_;
     segment_ = std::move(other.segment_);
     producer_ = other.producer_;
+    created_ = other.created_;
     return *this;
 }
 
@@ -54,7 +55,7 @@ SetupResult<void> RingWriter::begin() {
     control.when_full.store(static_cast<std::uint32_t>(options_.when_full), std::memory_order_relaxed);
     control.writer_opened_ns.store(static_cast<std::uint64_t>(unix_time().time_since_epoch().count()),
                                    std::memory_order_relaxed);
-    control.writers.fetch_add(1, std::memory_order_relaxed);
+    created_ = control.writers.fetch_add(1, std::memory_order_relaxed) == 0;
     control.room_wanted.store(0, std::memory_order_relaxed);
     producer_.wake_readers_now();
     return {};

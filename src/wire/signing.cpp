@@ -60,6 +60,16 @@ std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(std::strin
 
 }  // namespace
 
+std::uint64_t SigningKey::fingerprint() const noexcept {
+    constexpr std::string_view purpose = "mavloom: which signing key";
+    std::array<std::uint8_t, purpose.size() + length> text;
+    std::copy(bytes_.begin(), bytes_.end(), std::copy(purpose.begin(), purpose.end(), text.begin()));
+    std::array<std::uint8_t, crypto_hash_sha256_BYTES> hash;
+    crypto_hash_sha256(hash.data(), text.data(), text.size());
+    sodium_memzero(text.data(), text.size());
+    return load_le<std::uint64_t>(hash.data());
+}
+
 SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
 // The user named the file as input: whatever is wrong with it is `bad_input`, status 3.

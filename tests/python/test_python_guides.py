@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The Python examples of the guides: run as they are written, and taken by mypy --strict (row 25 of docs/guide/python.md)."""
 import contextlib
+import pathlib
 import re
 import shutil
 import socket
@@ -48,8 +49,10 @@ def test_examples_run(page, flight, tmp_path, child_environment):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    script = script_of(page).replace("14550", str(port))
-    with vehicle_at(port, flight):
+    ring = f"guides-{port}"
+    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"')
+    with vehicle_at(port, flight), contextlib.ExitStack() as at_the_end:
+        at_the_end.callback(pathlib.Path(f"/dev/shm/mavloom.{ring}").unlink, missing_ok=True)
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
 

@@ -163,9 +163,10 @@ class Running:
         self.process.wait()
         for reader in self._readers:
             reader.join(timeout=5)
-        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
-            if pipe:
-                pipe.close()
+        if not any(reader.is_alive() for reader in self._readers):  # closing would wait for one that reads
+            for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+                if pipe:
+                    pipe.close()
 
     def _join(self):
         for reader in self._readers:
@@ -174,10 +175,11 @@ class Running:
 
 
 def end(processes):
-    """Kills what still runs, and takes away the control socket that a killed router leaves."""
+    """Kills what still runs, and takes away what a killed router leaves of its control socket."""
     for process in processes:
         process.kill()
         if process.process.returncode == -signal.SIGKILL and "--name" in process.args:
             name = process.args[process.args.index("--name") + 1]
-            with contextlib.suppress(OSError):
-                os.unlink(f"/run/mavloom/{name}.ctl")
+            for left in ("ctl", "ctl.lock"):
+                with contextlib.suppress(OSError):
+                    os.unlink(f"/run/mavloom/{name}.{left}")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Around the routing: ctl, stat, metrics, reload, --explain, keys and signatures at the border, recordings, and what bad input gets."""
 import contextlib
+import fcntl
 import json
 import os
 import pathlib
@@ -262,7 +263,46 @@ def test_of_routers_that_start_at_once_one_gets_the_socket(spawn, left):
     refused = [router.wait() for router in starting if not router.alive]
 
     assert all(done.status == 1 and "is served by a router that runs" in done.stderr for done in refused), refused
-    assert killed._connect_to(path)
+    killed._connect_to(path).close()
+
+
+def test_who_may_only_look_into_the_folder_cannot_hold_routers_up(spawn):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    folder = os.open(os.path.dirname(control_path(router)), os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        assert Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", env=router.env).stats("router")
+    finally:
+        os.close(folder)
+
+
+def test_a_socket_that_nobody_serves_in_time_is_not_taken(spawn):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path, name = control_path(router), router.name
+    assert router.process.stop(signal.SIGTERM).status == 143
+    with socket.socket(socket.AF_UNIX) as hung, socket.socket(socket.AF_UNIX) as waiting:
+        hung.bind(path)
+        hung.listen(0)
+        waiting.connect(path)  # its backlog is full now
+        refused = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", name, env=router.env).wait()
+    os.unlink(path)
+
+    assert refused.status == 1 and "is served by a router that runs" in refused.stderr
+
+
+def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
+    first = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = control_path(first)
+    os.unlink(path)
+    os.unlink(f"{path}.lock")
+    second = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", first.name, env=first.env)
+    harness.wait_for(lambda: os.path.exists(path), what="the second one's socket")
+    assert first.process.stop(signal.SIGTERM).status == 143
+
+    assert sorted(name for name in os.listdir(os.path.dirname(path)) if name.startswith(first.name + ".")) == \
+        [f"{first.name}.ctl", f"{first.name}.ctl.lock"]
+    assert second.stop(signal.SIGTERM).status == 143
+    assert not os.path.exists(path) and not os.path.exists(f"{path}.lock")
 
 
 def test_the_socket_goes_with_its_router_and_a_dead_ones_is_taken(spawn):
@@ -533,7 +573,7 @@ def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable):
     sut.write(air="iface=none0")
     sut.reload()
     assert "none0" in sut.router.process.stderr
-    assert "air: goes on as it was" in sut.router.process.stderr
+    assert "air: goes on with its former options" in sut.router.process.stderr
     sut.peer.send(heartbeat(VEHICLE))
     sut.passes()
 
@@ -560,8 +600,12 @@ def test_an_endpoint_of_the_command_line_stays_although_its_key_went(reloadable,
     key = tmp_path / "air.key"
     key.write_text("11" * 32)
     key.chmod(0o600)
-    sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=signed&verify={key}"])
+    other = tmp_path / "other.key"
+    other.write_text("22" * 32)
+    other.chmod(0o600)
+    sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=signed&verify={key}&sign={other}"])
     key.unlink()
+    other.write_text("33" * 32)  # this alone would be a reason to open it anew
     sut.reload()
 
     assert "signed" in [e["endpoint"] for e in sut.router.stats("endpoint")]
@@ -590,6 +634,25 @@ def test_reload_takes_what_a_key_file_holds_now(reloadable, tmp_path):
     assert sut.router.process.stderr.count("air: added") == 2
 
 
+def test_what_the_holder_of_a_lost_key_did_goes_with_the_key(reloadable, tmp_path):
+    key = tmp_path / "air.key"
+    key.write_text("11" * 32)
+    key.chmod(0o600)
+    sut = reloadable()
+    sut.write(air=f"verify={key}")
+    sut.reload()
+    now = ticks_now()
+    of_next_year = heartbeat(VEHICLE, signing=(b"\x11" * 32, 5, now + 365 * 86400 * 100_000))
+    sut.peer.send(of_next_year)
+    sut.client.until(of_next_year)
+    key.write_text("22" * 32)
+    sut.reload()
+    for link_id in (5, 6):  # the same sender, and one that is new
+        good = heartbeat(VEHICLE, signing=(b"\x22" * 32, link_id, ticks_now()))
+        sut.peer.send(good)
+        assert sut.client.until(good) == []
+
+
 def test_a_pipe_is_read_once(spawn, tmp_path):
     pipe = tmp_path / "router.toml"
     os.mkfifo(pipe)
@@ -597,7 +660,7 @@ def test_a_pipe_is_read_once(spawn, tmp_path):
     pipe.write_text(f"[[endpoint]]\nurl = 'udpin://127.0.0.1:{routers.udp_port()}?name=air'\n")
     process.wait_output("air: listening", stream="err")
     process.send(signal.SIGHUP)
-    process.wait_output("is a pipe, which is read once; nothing was changed", stream="err")
+    process.wait_output("is a pipe or a terminal, which is read once; nothing was changed", stream="err")
 
     assert process.stop().status == 130
 
@@ -891,6 +954,22 @@ def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
     signed = sut[2].next()
     assert signed != own and verifier(key).decode(bytearray(signed)).get_type() == "ATTITUDE"
     assert sut.router.stats("router")[0]["not_signed"] == 4
+
+
+@pytest.mark.parametrize("group, heard", [("", 1), ("&group=air", 2)])
+def test_what_one_endpoint_took_is_a_replay_at_the_others_but_in_a_group(net, run, tmp_path, group, heard):
+    key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key{group}"
+    sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options})
+    own = attitude(VEHICLE, signing=(key, 1, ticks_now()))
+    sut[1].send(own)
+    assert sut[3].next() == own
+    sut[2].send(own)
+    mark = attitude(VEHICLE, signing=(key, 2, ticks_now()))
+    sut[2].send(mark)
+
+    assert sut[3].next() == mark
+    assert sum(link["bad_signature"] for link in sut.router.links()) == 2 - heard
+    assert sum(link["duplicate"] for link in sut.router.links()) == heard - 1
 
 
 def test_the_own_heartbeat_is_signed(net, run, tmp_path):

@@ -303,6 +303,17 @@ def test_without_file_descriptors_it_lives_on_and_recovers(pair, run):
         assert run("ctl", net.router.name, "links", env=net.router.env).status == 0
 
 
+@pytest.mark.parametrize("most", range(4, 24))
+def test_with_too_few_descriptors_it_says_so(program, most):
+    if has_sanitizer(program):
+        pytest.skip("a sanitizer needs descriptors of its own")
+    done = subprocess.run(["prlimit", f"--nofile={most}", program, "route", f"udpin://{LOCALHOST}:{routers.udp_port()}", "--metrics",
+                           f"{LOCALHOST}:{routers.tcp_port()}", "--for", "50ms", "--name", f"few-{os.getpid()}"], capture_output=True, text=True, timeout=60)
+
+    assert done.returncode in (0, 1), done
+    assert done.returncode == 0 or "oo many open files" in done.stderr, done
+
+
 # ---- disk and clock --------------------------------------------------------------------------------------------------
 
 class SmallDisk:
@@ -398,6 +409,38 @@ def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_
     done = net.process.stop()
     assert done.status == 130 and len(frames.read_tlog(path)) == len(recorded)
     assert f"tape: {len(tape.sent) - len(recorded)} frames not written" in done.stderr
+
+
+def test_a_rotated_recording_begins_no_files_on_a_full_disk(pair, tmp_path):
+    disk = SmallDisk(tmp_path)
+    with contextlib.closing(disk):
+        net = pair(f"tlog://{tmp_path / 'flight.tlog'}?name=tape&rotate_bytes=20k")
+        tape = Tape(net)
+        harness.wait_for(lambda: tape.after_more()["write_error"] > 20, what="the disk to be full")
+        files = sorted(tmp_path.glob("*.tlog"))
+        for _ in range(20):
+            tape.after_more()
+        assert sorted(tmp_path.glob("*.tlog")) == files
+        disk.free(net.process.pid)
+        before = tape.counters()["frames"]
+        harness.wait_for(lambda: tape.after_more()["frames"] > before + 500, what="the recording to go on")
+        assert net.process.stop().status == 130
+        recorded = [frame for path in sorted(tmp_path.glob("*.tlog")) for _, frame in frames.read_tlog(path)]
+        places = {frame: place for place, frame in enumerate(tape.sent)}
+        order = [places[frame] for frame in recorded if frame in places]
+        assert order == sorted(set(order)) and len(list(tmp_path.glob("*.tlog"))) > len(files)
+
+
+def test_a_router_that_cannot_start_leaves_recordings_alone(run, tmp_path):
+    path = tmp_path / "flight.tlog"
+    path.write_bytes(before := b"what an earlier flight left")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind((LOCALHOST, 0))
+        port = taken.getsockname()[1]
+        assert run("route", f"tlog://{path}", f"udpin://{LOCALHOST}:{port}").status == 1
+    assert run("route", f"tlog://{path}", f"tlog://{path}?name=again", f"udpin://{LOCALHOST}:{port}").status == 2
+
+    assert os.listdir(tmp_path) == ["flight.tlog"] and path.read_bytes() == before
 
 
 def faketime_library():

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Writers and readers of a ring for tests/system/test_shm.py, which kills them.
+// Writers and readers of a ring for tests/system/test_shm.py and test_shm_sources.py, which kill them.
 //   ring_tool write NAME COUNT POLICY       COUNT records (0: without end); "ready" on stdout once the ring is open
 //   ring_tool die NAME RECORDS STEP         RECORDS whole ones, then SIGKILL of itself before the STEPth access to shared memory from then on
 //   ring_tool read NAME lossy|lossless|polling COUNT   until record COUNT - 1 was there (0: until killed); checks each, ends with a JSON object
+//   ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" of stdin becomes a record; "ready" on stdout;
+//                                           a counter page where names are given
 //   ring_tool check NAME                    all that the ring holds, whole and in order; a JSON object
 // The record with sequence number n has (n * 7919) % 1500 bytes that follow from n.
 #include <fmt/format.h>
@@ -11,10 +13,13 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/ring_reader.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "shm/ring_file.hpp"
@@ -68,6 +73,47 @@ int write(const std::string& name, std::uint64_t count, std::string_view policy)
         if (const auto written = writer->write(content_of(sequence), info_of(sequence));
             !written && written.error() != WriteError::full)
             fail(to_text(written.error()));
+    }
+    return 0;
+}
+
+// ---- a writer of given records
+
+std::vector<std::uint8_t> bytes_of(std::string_view hex) {
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        bytes.push_back(static_cast<std::uint8_t>(std::stoul(std::string(hex.substr(i, 2)), nullptr, 16)));
+    return bytes;
+}
+
+void name_links(CounterPage& page, const std::vector<std::string>& names) {
+    for (const auto& word : names) {
+        const auto equals = word.find('=');
+        const auto link = static_cast<std::uint32_t>(std::stoul(word.substr(0, equals)));
+        if (!page.name_link(LinkId{link}, word.substr(equals + 1))) fail("the page is full");
+    }
+}
+
+int feed(const std::string& name, std::string_view policy, std::uint64_t capacity,
+         const std::vector<std::string>& names) {
+    auto options = options_of(policy);
+    options.capacity = capacity;
+    auto writer = RingWriter::open(name, options);
+    if (!writer) fail(writer.error().text);
+    std::optional<CounterPage> page;
+    if (!names.empty()) {
+        auto made = CounterPage::create(name);
+        if (!made) fail(made.error().text);
+        page = std::move(*made);
+        name_links(*page, names);
+    }
+    ready();
+    std::int64_t time_ns = 0;
+    std::uint32_t link = 0;
+    for (std::string hex; std::cin >> time_ns >> link >> hex;) {
+        const RecordInfo info{WallTime{Nanoseconds{time_ns}}, LinkId{link}, 0, 0};
+        const auto written = writer->write(bytes_of(hex), info, MonoTime::max());
+        if (!written) fail(to_text(written.error()));
     }
     return 0;
 }
@@ -177,6 +223,8 @@ int main(int argc, char** argv) {
     if (words.size() == 4 && words[0] == "write") return write(words[1], number(2), words[3]);
     if (words.size() == 4 && words[0] == "die") return die(words[1], number(2), number(3));
     if (words.size() == 4 && words[0] == "read") return read(words[1], words[2], number(3));
+    if (words.size() >= 4 && words[0] == "feed")
+        return feed(words[1], words[2], number(3), {words.begin() + 4, words.end()});
     if (words.size() == 2 && words[0] == "check") return check(words[1]);
     fail("see tests/tools/ring_tool.cpp");
 }

@@ -8,7 +8,8 @@
 
 namespace mavloom {
 
-// The candidate with the smallest edit distance to `typed` (case ignored), or empty when none is near (over a third of its letters wrong).
+// The candidate with the smallest edit distance to `typed` (case ignored), or one that begins with it (three letters at least), or empty when
+// none is near (over a third of its letters wrong).
 [[nodiscard]] std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates);
 
 // ", did you mean 'X'?" or an empty string.

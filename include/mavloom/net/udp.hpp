@@ -72,6 +72,7 @@ public:
     void add(const Address* to, std::size_t pieces) noexcept;
 
 private:
+    friend class LocalSender;
     friend class UdpSocket;
     std::vector<mmsghdr> messages_;
     std::vector<iovec> iovecs_;

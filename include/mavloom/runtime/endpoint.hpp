@@ -68,7 +68,8 @@ struct EndpointOptions {
     std::chrono::nanoseconds rotate_every{};
     std::uint32_t baud = 57600;  // serial; 0: auto
     std::string flow = "none";
-    bool from_oldest = false, lossless = false;  // shm
+    bool from_oldest = false;      // shm
+    std::optional<bool> lossless;  // shm; default: as the command has it
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 

@@ -129,6 +129,8 @@ public:
                                                     unsigned mode);
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
+    // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.
+    [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;
 
     // One turn: waits until something is readable, writable, due, or `deadline` (in a rush of frames, and where no endpoint has low_latency, it
     // begins 0.2 ms after the last one at the earliest); reads all that is there (bounded, so that one flooded

@@ -6,7 +6,6 @@
 // Explainer is set. DESIGN.md sections 3 and 4, docs/guide/route.md.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <deque>
 #include <filesystem>
@@ -23,7 +22,6 @@
 #include "mavloom/runtime/config.hpp"
 #include "mavloom/runtime/links.hpp"
 #include "mavloom/runtime/recorder.hpp"
-#include "mavloom/wire/signing.hpp"
 
 namespace mavloom::runtime {
 
@@ -97,12 +95,8 @@ private:
         EndpointId id;
         Endpoint endpoint;
         route::LinkPolicy policy;
-        std::array<std::optional<wire::SigningKey>, 2> keys{};  // of its files, as they were then
         bool verifies = false;
         std::size_t may_tell = most_told, not_told = 0;  // lines about its links
-
-        // One that cannot be read now counts as the same.
-        [[nodiscard]] bool has_other_keys() const;
     };
     struct HeartbeatLink {
         LinkId link;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What listen, record, relay and replay read: live links and recordings behind one handler, on one loop. A recording's frames come at its pace
-// (`speed=`), or as fast as the caller takes them. One owner thread; `wake` from any.
+// What listen, record, relay and replay read: live links, rings and recordings behind one handler, on one loop. A recording's frames come at its pace
+// (`speed=`), or as fast as the caller takes them; a ring's as they are written, and a lossless ring waits for the caller. With rings a second thread
+// sleeps on them (shm::RingWaiter). One owner thread; `wake` from any.
 #pragma once
 
 #include <cstdint>
@@ -18,29 +19,44 @@
 
 namespace mavloom::runtime {
 
+namespace detail {
+class RingSources;
+}
+
+// How many frames a turn may hand over: of the recordings together, of lossless rings together, of the other rings together.
+struct Room {
+    explicit Room(std::size_t all) : recordings(all), lossless(all), lossy(all) {}
+    Room(std::size_t r, std::size_t lossless_rings, std::size_t lossy_rings)
+        : recordings(r), lossless(lossless_rings), lossy(lossy_rings) {}
+    std::size_t recordings, lossless, lossy;
+};
+
 class Sources {
 public:
+    Sources(Sources&&) noexcept;
+    ~Sources();
+
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect);
 
     // What `add` would find wrong with it before anything is opened or waited for: options, and a file that is missing or no recording.
     [[nodiscard]] SetupResult<void> check(const Endpoint& endpoint) const;
 
-    // Opens the endpoint; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
+    // Opens the endpoint; a ring that is not there is told of by `on_notice` and waited for, without end; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now,
                                         double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
 
-    // One turn of the links, then at most `most_frames` frames of the recordings that are due, the earliest first. Returns the number of frames handed over.
-    std::size_t turn(LinkHandler& handler, MonoTime deadline, std::size_t most_frames);
+    // One turn of the links, then what stands in the rings, then the recordings that are due, the earliest first, as far as there is room. Returns the
+    // number of frames handed over.
+    std::size_t turn(LinkHandler& handler, MonoTime deadline, Room room);
 
-    // At the end: hands over what had arrived from live sources when the end was asked for, `after_turn` after each turn, until several turns in
-    // a row brought no frame, at most what a full receive buffer holds.
-    void drain(
-        LinkHandler& handler, const std::function<void()>& after_turn = [] {});
+    // At the end: hands over what had arrived from live sources when the end was asked for, rings as far as there is `room`, asked before each turn
+    // and after the last (the recordings' is not used), until several turns in a row brought no frame, at most what a full receive buffer holds.
+    void drain(LinkHandler& handler, const std::function<Room()>& room);
 
     [[nodiscard]] bool has_recordings() const noexcept { return !recordings_.empty(); }
 
-    // Sends a frame to every live source: what a destination answered goes back. Returns the number of links that took it.
+    // Sends a frame to every live source, to a ring's inlet where there is one: what a destination answered goes back. Returns the number of links that took it.
     std::size_t send(const wire::FrameView& frame);
 
     // Adds all that is here now, after asking the kernel for its drops: at the end. What links that went had counted is added by whoever
@@ -48,7 +64,7 @@ public:
     void add_to(Totals& totals);
 
     // Every source is a recording and all were read to their end.
-    [[nodiscard]] bool finished() const noexcept { return live_.empty() && finished_recordings(); }
+    [[nodiscard]] bool finished() const noexcept;
     [[nodiscard]] bool finished_recordings() const noexcept;
     // The first error that ended a recording before its end.
     [[nodiscard]] const SetupError* error() const noexcept;
@@ -75,14 +91,15 @@ private:
     // Ids of recordings lie above all that Links gives.
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
-    explicit Sources(std::unique_ptr<Links> links) noexcept : links_(std::move(links)) {}
+    Sources(std::unique_ptr<Links> links, const wire::MessageTable& table);
     // Reads its next record. False: it met much damage and gives way to links and signals.
     bool advance(Recording& recording, LinkHandler& handler);
     std::size_t play(LinkHandler& handler, std::size_t most_frames);
     [[nodiscard]] Recording* earliest() noexcept;
 
     std::unique_ptr<Links> links_;
-    const wire::MessageTable* table_ = nullptr;
+    const wire::MessageTable* table_;
+    std::unique_ptr<detail::RingSources> rings_;  // its thread wakes the links
     std::vector<std::unique_ptr<Recording>> recordings_;
     std::vector<EndpointId> live_;
 };

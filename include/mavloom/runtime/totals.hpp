@@ -18,6 +18,9 @@ struct Totals {
     std::uint64_t wrong_peer = 0, stray_bytes = 0, peers_refused = 0;
     std::uint64_t lost = 0;            // on the links themselves: sequence gaps
     std::uint64_t damaged_places = 0;  // in recordings
+    std::uint64_t lapped = 0;          // records that a ring's writer overwrote before they were read
+    std::uint64_t bad_records = 0;     // records of a ring that held no whole valid frame
+    std::uint64_t echo = 0;            // frames that were sent to a ring's inlet and stood in the ring again
 
     // Of a link that is there, of an endpoint with its links that are gone, of a recording: once each, at the end.
     void add(const LinkCounters& counters) noexcept;

@@ -22,6 +22,14 @@ public:
     // it. `damaged` as long as a damaged ring bears the name.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline);
 
+    // The same without waiting, for a loop that sleeps elsewhere; it polls again when the reader's `arm` says, or after `look_distance` while no ring is open.
+    [[nodiscard]] ReadResult<RingRecord> poll();
+    // The ring that is open, until the next call; null without one.
+    [[nodiscard]] RingReader* reader() noexcept { return reader_ ? &*reader_ : nullptr; }
+
+    // Between two looks at a name that leads nowhere, or at a ring that nobody writes to.
+    static constexpr Nanoseconds look_distance = std::chrono::milliseconds(20);
+
     [[nodiscard]] bool is_open() const noexcept { return reader_.has_value(); }
     // Why the last try to open failed; null when it did not.
     [[nodiscard]] const SetupError* error() const noexcept { return error_ ? &*error_ : nullptr; }
@@ -31,6 +39,8 @@ public:
 
 private:
     void drop();
+    // Whether another ring may stand under the name now, or soon: the one that was open is left.
+    [[nodiscard]] bool moved_on(ReadError error);
 
     std::string name_;
     ReaderOptions options_;

@@ -65,14 +65,25 @@ public:
     }
     // The next record, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
+    // For a loop that sleeps elsewhere (RingWaiter). `poll` is `read` without waiting: a record, or at once why there is none. `arm` asks the writer to
+    // change `wake_word` when there is one, until the next record: how long the loop may sleep before it polls again, 0 when something waits already.
+    [[nodiscard]] ReadResult<RingRecord> poll() noexcept;
+    [[nodiscard]] Nanoseconds arm() noexcept;
+    // Keeps the mapping for as long as it is held.
+    [[nodiscard]] std::shared_ptr<const SharedWords::Word32> wake_word() const;
     // Ends the view of the last record now, and tells the writer.
     void release() noexcept;
+    // Gives the slot and every hold back, as the destructor does, but leaves the ring mapped until then: what still points to a view reads old or newer
+    // bytes, and does not crash. Nothing may be read after it.
+    void detach() noexcept;
 
     // Whether what was read of the view is what was written: false once a writer that evicts took the hold away. Copy (or use), then ask: the answer is
     // about what was read before the call, and a read-modify-write of a shared word.
     [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
     [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
     [[nodiscard]] bool writer_alive() const noexcept;
+    // How many there have been: another number, another writer.
+    [[nodiscard]] std::uint64_t writers() const noexcept;
     // Whether the name still leads to this ring.
     [[nodiscard]] bool is_named() const noexcept;
     [[nodiscard]] bool is_retired() const noexcept { return consumer_.retired(); }
@@ -81,10 +92,12 @@ public:
     [[nodiscard]] std::uint64_t position() const noexcept {
         return consumer_.position();
     }  // of the record in view, or the next
+    // Where what is committed now ends.
+    [[nodiscard]] std::uint64_t end_position() const noexcept;
     [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // in all
 
 private:
-    RingReader(std::string name, const ReaderOptions& options, std::unique_ptr<Segment> segment);
+    RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment);
     [[nodiscard]] bool forked() const noexcept { return forked_->load(std::memory_order_relaxed); }
     [[nodiscard]] SetupResult<void> begin();
     [[nodiscard]] std::optional<unsigned> take_slot() noexcept;
@@ -95,11 +108,11 @@ private:
 
     std::string name_;
     ReaderOptions options_;
-    std::unique_ptr<Segment> segment_;
+    std::shared_ptr<Segment> segment_;           // with those who hold a wake word
     const std::atomic<bool>* forked_ = nullptr;  // of the segment
     std::optional<unsigned> slot_;
     detail::Consumer<SharedWords> consumer_;
-    MonoTime next_look_at_writer_{};
+    MonoTime next_look_at_writer_{}, armed_{};
 };
 
 }  // namespace mavloom::shm

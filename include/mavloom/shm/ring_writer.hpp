@@ -61,6 +61,8 @@ public:
     [[nodiscard]] SetupResult<void> close(Leave leave = Leave::ring);
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    // Whether open() or reopen() made the ring; false: it carried on in one that was there.
+    [[nodiscard]] bool created() const noexcept { return created_; }
     [[nodiscard]] std::size_t longest() const noexcept { return max_payload(options_.capacity); }
     [[nodiscard]] std::uint64_t records() const noexcept { return producer_.records(); }  // since the ring was made
     [[nodiscard]] std::uint64_t dropped() const noexcept;                                 // likewise
@@ -77,6 +79,7 @@ private:
     RingOptions options_;
     std::unique_ptr<Segment> segment_;  // empty once closed
     detail::Producer<SharedWords> producer_;
+    bool created_ = false;
 };
 
 }  // namespace mavloom::shm

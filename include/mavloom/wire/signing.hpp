@@ -53,6 +53,8 @@ public:
     friend bool operator==(const SigningKey&, const SigningKey&) = default;
 
     [[nodiscard]] const std::array<std::uint8_t, length>& bytes() const noexcept { return bytes_; }
+    // Tells keys apart without telling the key: the first 64 bits of a SHA-256.
+    [[nodiscard]] std::uint64_t fingerprint() const noexcept;
 
 private:
     std::array<std::uint8_t, length> bytes_;

@@ -18,6 +18,12 @@ TEST(Suggest, FindsTheNearestSpelling) {
     EXPECT_EQ(nearest("ttl", names), "ttl");
 }
 
+TEST(Suggest, FindsAWordThatWasOnlyBegun) {
+    EXPECT_EQ(nearest("que", names), "queue_age");
+    EXPECT_EQ(nearest("HEART", names), "HEARTBEAT");
+    EXPECT_EQ(nearest("qu", names), "");
+}
+
 TEST(Suggest, SaysNothingWhenNothingIsNear) {
     EXPECT_EQ(nearest("GPS_RAW_INT", names), "");
     EXPECT_EQ(nearest("", names), "");

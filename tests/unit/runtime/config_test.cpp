@@ -264,6 +264,15 @@ TEST(Config, MessagesAreLookedUpWithFileAndLine) {
               "r.toml:3: max_rate: unknown message 'ATITUDE', did you mean 'ATTITUDE'?");
 }
 
+TEST(Config, TwoRecordingsInOneFileAreAnErrorOfTheSecond) {
+    const auto error_of = [](std::string_view text) { return parse_config(text, "r.toml").error().text; };
+    EXPECT_EQ(error_of("[record]\npath = \"a.tlog\"\n[[endpoint]]\nurl = \"tlog://a.tlog?name=b\"\n"),
+              "r.toml:4: 'a.tlog' is recorded already");
+    EXPECT_EQ(error_of("[[endpoint]]\nurl = \"tlog://a.tlog\"\n[[endpoint]]\nscheme = \"tlog\"\nname = \"b\"\npath = "
+                       "\"a.tlog\"\n"),
+              "r.toml:6: 'a.tlog' is recorded already");
+}
+
 TEST(Config, TwoEndpointsThatBindOnePortAreAnErrorOfTheSecond) {
     const auto with = [](std::string_view a, std::string_view b) {
         const auto config = parse_config(

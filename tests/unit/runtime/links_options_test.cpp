@@ -21,7 +21,10 @@ struct Refusal {
 
 TEST(LinksOptions, NothingIsSilentlyIgnored) {
     for (const auto& [url, says] : {
-             Refusal{"shm://ring", "shm:// is not available in this version"},
+             Refusal{"shm://ring?lossless=false", "'lossless' is for a ring that is read"},
+             Refusal{"shm://ring?from=oldest", "'from' is for a ring that is read"},
+             Refusal{"shm://ring?verify=key", "verify= belongs to the endpoint that the frames came in by"},
+             Refusal{"shm://ring?tap=true", "tap= is for mavloom route"},
              Refusal{"tlog://flight.tlog", "a recording is no link"},
              Refusal{"udpin://127.0.0.1:1?group=air", "group= is for mavloom route"},
              Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is for mavloom route"},

@@ -113,6 +113,12 @@ TEST_F(LinksSerial, APortThatIsRemovedAndMadeAgainComesBack) {
     ASSERT_TRUE(collect(second, got, [&] { return got == heartbeat(3); }));
 }
 
+TEST_F(LinksSerial, WhileTurnsGoOnARequiredPortIsAwaited) {
+    node.poll();
+    node.add("serial://" + name + "?required=true");
+    EXPECT_THAT(node.refused("serial:///dev/null?required=true").text, HasSubstr("is no serial port"));
+}
+
 // By then the back-off alone would wait for three seconds.
 TEST_F(LinksSerial, AMissingPortIsOpenedAtOnceWhenItAppears) {
     node.add("serial://" + name);

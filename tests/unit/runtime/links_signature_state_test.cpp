@@ -25,6 +25,9 @@ std::string content(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// Of the key in SetUp: the first 8 bytes of hashlib.sha256(b"mavloom: which signing key" + b"\xaa" * 32), as a little-endian number.
+constexpr std::string_view key_line = "key 9383837124702055004\n";
+
 class SigningTimes : public testing::Test {
 protected:
     test::TempDir dir;
@@ -84,12 +87,12 @@ TEST(KeyState, HoldsAsManySendersAsAVerifier) {
 
 TEST_F(SigningTimes, ANewKeyHasAFileForItsOwnerOnly) {
     KeyStates states;
-    (void)states.open(key, notices);
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
 
     struct stat status {};
     ASSERT_EQ(::stat(file.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777u, 0600u);
-    EXPECT_EQ(content(file), "mavloom signing times 1\nsigned 0\n");
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
     EXPECT_THAT(notices, IsEmpty());
 }
 
@@ -115,35 +118,61 @@ TEST_F(SigningTimes, AtTheEndTheFileIsExact) {
         ASSERT_TRUE(signature);
     }
 
-    EXPECT_EQ(content(file), "mavloom signing times 1\nsigned " + std::to_string(future) + "\n");
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned {}\n{}", future, key_line));
 }
 
 TEST_F(SigningTimes, WhatAnotherProgramWroteMeanwhileIsKept) {
     {
         KeyStates states;
-        const auto mine = states.open(key, notices);
+        const auto mine = states.open(key, *wire::SigningKey::load(key), notices);
         write(file, two_senders);
         mine->state.merge_heard(std::array{Stream{0x000101, {2000}}, Stream{7, {5}}});
     }
 
     EXPECT_EQ(content(file),
-              "mavloom signing times 1\nsigned 123456789\nheard 0 0 7 5\nheard 0 1 1 2000\n"
-              "heard 3 255 190 281474976710655\n");
+              fmt::format("mavloom signing times 1\nsigned 123456789\n{}heard 0 0 7 5\nheard 0 1 1 2000\n"
+                          "heard 3 255 190 281474976710655\n",
+                          key_line));
 }
 
 TEST_F(SigningTimes, EndpointsWithOneKeyShareItsTimes) {
     KeyStates states;
 
-    EXPECT_EQ(states.open(key, notices), states.open(key, notices));
+    EXPECT_EQ(states.open(key, *wire::SigningKey::load(key), notices),
+              states.open(key, *wire::SigningKey::load(key), notices));
+}
+
+TEST_F(SigningTimes, AnotherKeyInTheFileHasHeardNobody) {
+    write(file, fmt::format("mavloom signing times 1\nsigned 123456789\n{}heard 0 1 1 1000\n", key_line));
+    KeyStates states;
+    const auto times = states.open(key, *wire::SigningKey::load(key), notices);
+    EXPECT_THAT(times->state.heard, testing::SizeIs(1));
+    write(key, std::string(64, 'b'));
+    const auto again = states.open(key, *wire::SigningKey::load(key), notices);
+
+    EXPECT_EQ(again, times);
+    EXPECT_THAT(again->state.heard, IsEmpty());
+    EXPECT_EQ(again->state.last_signed.ticks, 123456789u);
+    EXPECT_TRUE(again->changed);
+    (void)again->write(again->state);
+    EXPECT_THAT(content(file), testing::Not(HasSubstr("heard")));  // neither what the file held
+}
+
+TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    KeyStates states;
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
+
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no regular file")));
 }
 
 TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
     write(file, "nonsense");
     KeyStates states;
-    (void)states.open(key, notices);
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
 
     EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no record of signing times")));
-    EXPECT_EQ(content(file), "mavloom signing times 1\nsigned 0\n");
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
 }
 
 TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
@@ -159,7 +188,7 @@ TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
 
 TEST_F(SigningTimes, WhatIsNewIsWrittenWhileItRuns) {
     KeyStates states;
-    const auto mine = states.open(key, notices);
+    const auto mine = states.open(key, *wire::SigningKey::load(key), notices);
     EXPECT_NE(states.due(), MonoTime::max());
     mine->state.merge_heard(std::array{Stream{7, {5}}});
     mine->changed = true;
@@ -168,9 +197,9 @@ TEST_F(SigningTimes, WhatIsNewIsWrittenWhileItRuns) {
 
     EXPECT_EQ(states.due(), now + KeyStates::save_interval);
     const auto deadline = mono_now() + std::chrono::seconds(60);
-    while (content(file) != "mavloom signing times 1\nsigned 0\nheard 0 0 7 5\n" && mono_now() < deadline)
-        std::this_thread::yield();
-    EXPECT_EQ(content(file), "mavloom signing times 1\nsigned 0\nheard 0 0 7 5\n");
+    const auto expected = fmt::format("mavloom signing times 1\nsigned 0\n{}heard 0 0 7 5\n", key_line);
+    while (content(file) != expected && mono_now() < deadline) std::this_thread::yield();
+    EXPECT_EQ(content(file), expected);
 }
 
 TEST(KeyStates, WithoutAKeyThereIsNothingToDo) { EXPECT_EQ(KeyStates().due(), MonoTime::max()); }

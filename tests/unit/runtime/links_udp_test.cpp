@@ -93,6 +93,34 @@ TEST(LinksUdp, ARushIsTakenWholeAndInOrder) {
     EXPECT_EQ(node.info(in).counters->kernel_drop.value(), 0u);
 }
 
+// Turns that fit into a rush of 20 ms, after 30 ms of it.
+std::size_t turns_in_a_rush(Node& node, std::uint16_t port) {
+    const auto peer = PlainSocket::udp();
+    Bytes datagram;
+    for (std::uint8_t i = 0; i < 40; ++i) datagram = std::move(datagram) + heartbeat(i);
+    const MonoTime begin = mono_now();
+    std::size_t turns = 0;
+    for (MonoTime now = begin; now < begin + std::chrono::milliseconds(50); now = mono_now()) {
+        peer.send_to(port, datagram);
+        node.links->turn(node.recorder, now);
+        if (now > begin + std::chrono::milliseconds(30)) ++turns;
+    }
+    return turns;
+}
+
+TEST(LinksUdp, LowLatencyKeepsTurnsFromResting) {
+    constexpr std::size_t most_with_rests = std::chrono::milliseconds(20) / detail::Coalescing::turn_interval + 2;
+    Node node;
+    const auto port = node.port(node.add("udpin://127.0.0.1:0"));
+    const auto rests = [&] { return turns_in_a_rush(node, port) <= most_with_rests; };
+
+    EXPECT_TRUE(until([&] { return rests(); }, node));
+    const auto low = node.add("udpin://127.0.0.1:0?low_latency=true");
+    EXPECT_TRUE(until([&] { return !rests(); }, node));
+    node.links->remove(low);
+    EXPECT_TRUE(until([&] { return rests(); }, node));
+}
+
 TEST(LinksUdp, HalfAFrameHarmsNobodyElse) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");

@@ -251,6 +251,21 @@ TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
     EXPECT_EQ(reader.missed(), 0u);
 }
 
+TEST(Ring, AReaderThatDetachesHoldsNobodyAndKeepsTheRingMapped) {
+    const RingName name;
+    auto writer = open_writer(name);
+    auto reader = open_reader(name, lossless);
+    write(writer, "in view");
+    const auto record = reader.try_read();
+    ASSERT_TRUE(record);
+    reader.detach();
+    reader.detach();
+    EXPECT_TRUE(ring_status(name.text())->readers.empty());
+    EXPECT_EQ(text_of(*record), "in view");
+    write_many(writer, 100);              // passes it: nobody waits
+    EXPECT_EQ(record->data.back(), '.');  // newer bytes, and no crash
+}
+
 TEST(Ring, AWaitThatEndsWroteNothingAndTheCallerCountsWhatHeGivesUp) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);
@@ -353,6 +368,16 @@ TEST(Ring, TheNextWriterCarriesOnInPlace) {
     ASSERT_TRUE(record);
     EXPECT_EQ(record->sequence, 100u);
     EXPECT_EQ(ring_status(name.text())->writers, 2u);
+}
+
+TEST(Ring, AWriterKnowsWhetherItMadeTheRing) {
+    const RingName name;
+    EXPECT_TRUE(open_writer(name).created());
+    auto second = open_writer(name);
+    EXPECT_FALSE(second.created());
+    ASSERT_TRUE(remove_ring(name.text()));
+    ASSERT_TRUE(second.reopen());
+    EXPECT_TRUE(second.created());
 }
 
 TEST(Ring, AWriterOfAnotherCapacityMakesAnotherFile) {

@@ -142,6 +142,17 @@ public:
             is_known_ = true;
     }
 
+    // For a sleep elsewhere on `wakes`, until awake(): sets this reader's bit. Whether it was set before.
+    [[nodiscard]] bool fall_asleep() noexcept {
+        asleep_ = true;
+        return (ring_.control->sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) != 0;
+    }
+    // Whether something waits that next() has not looked at. Behind fall_asleep(): a later commit sees the bit, but for one that the writer makes within
+    // `wake_distance` (see sleep()).
+    [[nodiscard]] bool more_waits() const noexcept {
+        return ring_.control->tail.load(std::memory_order_seq_cst) != tail_ || retired();
+    }
+
     // After the last sleep() of a wait: the writer need not wake this reader.
     void awake() noexcept {
         if (std::exchange(asleep_, false)) ring_.control->sleepers.fetch_and(~bit(), std::memory_order_relaxed);

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""python -m mavloom.hear URL --ring NAME: what is heard on a link goes into a ring in shared memory."""
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+
+from . import Error, InputError, Link, RingWriter, UsageError, connect
+
+LOOK_AT_SIGNALS_S = 0.1
+UNITS = {"k": 1 << 10, "m": 1 << 20, "g": 1 << 30}
+
+EPILOG = """\
+Each record is one good frame, byte for byte, with its receive time (the kernel's) and the number of its link; the verdict is 0 unsigned,
+1 signed and verified (verify= in URL), 3 signed and not checked. Other processes read it from there at memory speed:
+
+  python -m mavloom.hear udpin://0.0.0.0:14550 --ring px4
+  mavloom shm read px4 --json
+  python -c 'import mavloom; print(mavloom.RingReader("px4").read())'
+
+While a lossless reader holds the ring full, frames wait in a buffer of 16 MiB; what is overwritten there is "missed". A ring that is there
+already is carried on, one of another capacity replaced, if nobody writes to it. Ctrl-C or SIGTERM ends it cleanly (status 130, 143) and takes
+away the ring that it made; one that was there before stays. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
+"""
+
+
+class Signals:
+    """Remembers the signal that asks for the end; a second one ends the program at once."""
+
+    def __init__(self) -> None:
+        self.received = 0
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, self._remember)
+
+    def _remember(self, number: int, frame: object) -> None:
+        self.received = number
+        signal.signal(number, signal.SIG_DFL)
+
+
+def size(text: str) -> int:
+    """Bytes of 65536, 64k, 8M, 1G."""
+    unit = UNITS.get(text[-1:].lower())
+    digits = text if unit is None else text[:-1]
+    if not digits.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a size, for example 8M")
+    return int(digits) * (unit or 1)
+
+
+def mode(text: str) -> int:
+    try:
+        return int(text, 8)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected octal digits, for example 0640") from None
+
+
+def arguments(words: list[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory.",
+                                     epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
+    parser.add_argument("--ring", required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
+    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
+    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring (0600)")
+    end = parser.add_mutually_exclusive_group()
+    end.add_argument("--keep", action="store_true", help="leave the ring at the end, also one that was made here")
+    end.add_argument("--remove", action="store_true", help="take the ring away at the end, also one that was there before")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
+    return parser.parse_args(words)
+
+
+def hear(link: Link, writer: RingWriter, signals: Signals) -> None:
+    while not signals.received:
+        link.pump(writer, LOOK_AT_SIGNALS_S)
+    link.pump(writer, 0)
+
+
+def summary(link: Link, writer: RingWriter, written: int) -> str:
+    stats = link.stats
+    losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
+              "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
+              "wrongly signed": stats.bad_signature}
+    return f"{writer.name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
+
+
+def run(options: argparse.Namespace, signals: Signals) -> int:
+    def say(text: str) -> None:
+        if not options.quiet:
+            print(text, file=sys.stderr, flush=True)
+    with RingWriter(options.ring, capacity=options.capacity, mode=options.mode) as writer:
+        removes = options.remove or (writer.created and not options.keep)
+        try:
+            before = writer.records
+            with connect(options.url) as link:
+                say(f"hearing on {link.name}, writing to ring {writer.name}{'' if writer.created else ', which was there before'}")
+                hear(link, writer, signals)
+            written = writer.records - before
+            say(summary(link, writer, written))
+        finally:
+            writer.close(remove=removes)
+    if link.stats.missed:
+        return 4
+    return 128 + signals.received if signals.received else 0
+
+
+def main(words: list[str] | None = None) -> int:
+    signals = Signals()
+    options = arguments(words)
+    try:
+        return run(options, signals)
+    except Error as error:
+        print(f"mavloom.hear: {error.strerror if isinstance(error, OSError) and error.strerror else error}", file=sys.stderr)
+        return 2 if isinstance(error, UsageError) else 3 if isinstance(error, InputError) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

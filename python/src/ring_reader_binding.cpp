@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+// Classes RingReader, Record and RecordBatch.
+//
+// A record's bytes are looked at through a View: an object that the lease counts as long as it lives, whatever was made of it. numpy keeps the object
+// behind a memoryview and drops the memoryview itself, so that counting exports of the record would not do.
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <optional>
+
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "ring_reader.hpp"
+#include "waiting.hpp"
+
+namespace mavloom::python {
+namespace {
+
+constexpr std::size_t most_in_batch = 1024;
+
+// ---- what is given out
+
+class View {
+public:
+    View(std::shared_ptr<Lease> lease, ByteView bytes) : bytes_(bytes) {
+        if (!lease->look())
+            raise_usage("the record was released by a later read, release() or close(): copy what you keep");
+        lease_ = std::move(lease);
+        if (lease_->is_copy() || lease_->source()->holds()) return;
+        std::exchange(lease_, nullptr)->look_away();
+        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+    }
+    View(View&& other) noexcept = default;
+    View& operator=(View&&) = delete;
+    ~View() {
+        if (lease_) lease_->look_away();
+    }
+    [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
+
+private:
+    std::shared_ptr<Lease> lease_;
+    ByteView bytes_;
+};
+
+// The type's slots are C: what was thrown becomes Python's current error.
+template <class Work>
+int guarded(Work&& work) noexcept {
+    try {
+        return work();
+    } catch (nb::python_error& error) {
+        error.restore();
+    } catch (const std::exception& error) {
+        PyErr_SetString(PyExc_RuntimeError, error.what());
+    }
+    return -1;
+}
+
+bool is_ready(PyObject* self, Py_buffer* out) noexcept {
+    out->obj = nullptr;
+    if (!nb::inst_ready(self)) PyErr_SetString(PyExc_TypeError, "records are made by a RingReader");
+    return nb::inst_ready(self);
+}
+
+int view_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
+    if (!is_ready(self, out)) return -1;
+    const auto bytes = nb::inst_ptr<View>(self)->bytes();
+    // Never written to: the buffer is read-only.
+    auto* const begin = const_cast<std::uint8_t*>(bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    return PyBuffer_FillInfo(out, self, begin, static_cast<Py_ssize_t>(bytes.size()), 1, flags);
+}
+
+PyType_Slot view_slots[] = {
+    {Py_bf_getbuffer, reinterpret_cast<void*>(view_buffer)},  // NOLINT
+    {0, nullptr},
+};
+
+class Record {
+public:
+    Record(std::shared_ptr<Lease> lease, std::size_t index) : lease_(std::move(lease)), index_(index) {}
+
+    [[nodiscard]] const shm::RingRecord& get() const noexcept { return lease_->records()[index_]; }
+    [[nodiscard]] nb::object view() const { return nb::cast(View(lease_, get().data)); }
+    [[nodiscard]] nb::object data() const {
+        if (!lease_->is_copy()) return nb::steal(PyMemoryView_FromObject(view().ptr()));
+        const View view(lease_, get().data);
+        return nb::bytes(view.bytes().data(), view.bytes().size());
+    }
+
+private:
+    std::shared_ptr<Lease> lease_;
+    std::size_t index_;
+};
+
+int record_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
+    if (!is_ready(self, out)) return -1;
+    return guarded([&] { return PyObject_GetBuffer(nb::inst_ptr<Record>(self)->view().ptr(), out, flags); });
+}
+
+// Never called, for the buffer is the view's; but numpy.frombuffer holds on to the buffers of types that have it, to others' objects only.
+void release_record_buffer(PyObject*, Py_buffer*) noexcept {}
+
+PyType_Slot record_slots[] = {
+    {Py_bf_releasebuffer, reinterpret_cast<void*>(release_record_buffer)},  // NOLINT
+    {Py_bf_getbuffer, reinterpret_cast<void*>(record_buffer)},              // NOLINT
+    {0, nullptr},
+};
+
+// ---- class RecordBatch
+
+class Batch {
+public:
+    explicit Batch(std::shared_ptr<Lease> lease, std::shared_ptr<RingSource> source)
+        : lease_(std::move(lease)), source_(std::move(source)) {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return lease_->records().size(); }
+    [[nodiscard]] Record at(Py_ssize_t index) const {
+        const auto count = static_cast<Py_ssize_t>(size());
+        if (index < 0) index += count;
+        if (index < 0 || index >= count) throw nb::index_error(fmt::format("a batch of {} records", count).c_str());
+        return {lease_, static_cast<std::size_t>(index)};
+    }
+    void release() {
+        fork_.check();
+        const bool released = [&] {
+            const WithoutGil outside;
+            return source_->release(*lease_);
+        }();
+        if (!released) raise_buffer("a view of one of these records is still alive: release or delete it first");
+    }
+
+    [[nodiscard]] nb::object array(const nb::object& dtype) const {
+        const auto numpy = nb::module_::import_("numpy");
+        const nb::object type = numpy.attr("dtype")(dtype);
+        check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
+        const auto& records = lease_->records();
+        if (const auto stride = distance()) {
+            const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
+            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, all)), "u1");
+            return numpy.attr("ndarray")(nb::arg("shape") = size(), nb::arg("dtype") = type, nb::arg("buffer") = bytes,
+                                         nb::arg("strides") = nb::make_tuple(*stride));
+        }
+        const View view(lease_, {});
+        std::vector<std::uint8_t> copy;
+        copy.reserve(size() * records.front().data.size());
+        for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
+        return numpy.attr("frombuffer")(nb::bytes(copy.data(), copy.size()), type);
+    }
+
+private:
+    void check_lengths(std::size_t expected) const {
+        const auto& records = lease_->records();
+        for (std::size_t i = 0; i < records.size(); ++i)
+            if (records[i].data.size() != expected)
+                raise_usage(fmt::format("record {} of the batch has {} bytes, and the dtype {}", i,
+                                        records[i].data.size(), expected));
+        if (expected == 0) raise_usage("records without bytes make no array");
+    }
+    // From record to record in memory; none where the ring's end lies between.
+    [[nodiscard]] std::optional<std::size_t> distance() const {
+        const auto& records = lease_->records();
+        if (records.size() == 1) return records.front().data.size();
+        const auto step = records[1].data.data() - records[0].data.data();
+        for (std::size_t i = 1; i < records.size(); ++i)
+            if (records[i].data.data() - records[i - 1].data.data() != step) return std::nullopt;
+        return static_cast<std::size_t>(step);
+    }
+
+    const BeforeFork fork_;
+    std::shared_ptr<Lease> lease_;
+    std::shared_ptr<RingSource> source_;
+};
+
+// ---- class RingReader
+
+shm::ReaderOptions options_of(bool lossless, const std::string& start) {
+    using From = shm::ReaderOptions::From;
+    if (start != "newest" && start != "oldest")
+        raise_usage(fmt::format("start='{}': expected newest or oldest", start));
+    return {.lossless = lossless, .from = start == "oldest" ? From::oldest : From::newest};
+}
+
+class PyRingReader {
+public:
+    PyRingReader(const std::string& name, bool lossless, const std::string& start) {
+        auto opened = [&, options = options_of(lossless, start)] {
+            const WithoutGil outside;
+            return shm::RingReader::open(name, options);
+        }();
+        source_ = std::make_shared<RingSource>(value_or_raise(std::move(opened)), lossless);
+    }
+    ~PyRingReader() {
+        if (source_) source_->abandon();
+    }
+    PyRingReader(const PyRingReader&) = delete;
+    PyRingReader& operator=(const PyRingReader&) = delete;
+
+    // Null: nothing came in time, or nothing comes because nobody writes.
+    [[nodiscard]] std::shared_ptr<Lease> take(std::size_t most, MonoTime deadline) {
+        std::shared_ptr<Lease> lease;
+        fork_.check();
+        // One record costs less than letting go of the GIL.
+        State state = most == 1 ? source_->poll(most, lease) : State::nothing;
+        for (bool first = most != 1; state == State::nothing && (first || mono_now() < deadline); first = false) {
+            {
+                const WithoutGil outside;
+                source_->give_way();
+                state = source_->read(most, deadline, lease);
+            }
+            check_signals();
+        }
+        check(state);
+        return lease;
+    }
+
+    [[nodiscard]] nb::object read(const nb::object& timeout) {
+        auto lease = take(1, deadline_after(timeout));
+        return lease ? nb::cast(Record(std::move(lease), 0)) : nb::none();
+    }
+    [[nodiscard]] nb::object next() {
+        auto lease = take(1, MonoTime::max());
+        if (!lease) throw nb::stop_iteration();
+        return nb::cast(Record(std::move(lease), 0));
+    }
+    [[nodiscard]] nb::object next_batch(const nb::object& timeout) {
+        auto lease = take(most_in_batch, deadline_after(timeout));
+        if (!lease) throw nb::stop_iteration();
+        return nb::cast(Batch(std::move(lease), source_));
+    }
+
+    void close() {
+        if (!fork_.is_here()) return;
+        const bool closed = [&] {
+            const WithoutGil outside;
+            return source_->close();
+        }();
+        if (!closed) check(State::looked_at);
+    }
+
+    [[nodiscard]] const RingSource& open() const {
+        fork_.check();
+        if (source_->is_closed()) check(State::closed);
+        return *source_;
+    }
+    [[nodiscard]] const RingSource& source() const noexcept { return *source_; }
+
+private:
+    using State = RingSource::State;
+
+    void check(State state) const {
+        switch (state) {
+            case State::damaged:
+                raise_input(
+                    fmt::format("ring {} is damaged: what stands there is no record; `mavloom shm remove` makes "
+                                "way for a new one",
+                                source_->name()));
+            case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", source_->name()));
+            case State::forked: raise_closed("opened before fork: open it again in this process");
+            case State::looked_at:
+                raise_buffer(
+                    "a view of the last record or batch is still alive (a memoryview, or an array made of one): "
+                    "release or delete it first");
+            case State::found:
+            case State::nothing:
+            case State::no_writer:
+            case State::removed: break;
+        }
+    }
+
+    const BeforeFork fork_;
+    std::shared_ptr<RingSource> source_;
+};
+
+struct Batches {
+    nb::object reader;  // has no reference to this: no cycle
+    nb::object timeout;
+
+    [[nodiscard]] nb::object next() const { return nb::inst_ptr<PyRingReader>(reader)->next_batch(timeout); }
+};
+
+template <class Of>
+auto of_record(Of of) {
+    return [of](const Record& record) { return of(record.get()); };
+}
+
+nb::object itself(nb::handle self) { return nb::borrow(self); }
+
+void bind_record(nb::module_& module) {
+    nb::class_<View>(module, "RecordView", nb::type_slots(view_slots), nb::is_final(), "Bytes of records, as a buffer.");
+    nb::class_<Record>(
+        module, "Record", nb::type_slots(record_slots), nb::is_final(),
+        "One record of a ring. Of a lossy reader a copy; of a lossless one a view into the ring, which ends "
+        "with the reader's next read: `data` raises from then on, and\n"
+        "a read while a memoryview of it (or a slice, or an array made of it) lives is a BufferError. Has a "
+        "buffer: `memoryview(record)`, `numpy.frombuffer(record)`.")
+        .def_prop_ro("data", &Record::data, nb::sig("def data(self) -> bytes | memoryview"),
+                     "bytes of a lossy reader; of a lossless one a new read-only memoryview at each access.")
+        .def_prop_ro("time_ns", of_record([](const shm::RingRecord& record) {
+                         return record.info.time.time_since_epoch().count();
+                     }),
+                     "When it was received, Unix time.")
+        .def_prop_ro("link", of_record([](const shm::RingRecord& record) { return record.info.link.value; }),
+                     "Where from: the writer's number.")
+        .def_prop_ro("kind", of_record([](const shm::RingRecord& record) { return record.info.kind; }),
+                     "What it is: the writer's number.")
+        .def_prop_ro("verdict", of_record([](const shm::RingRecord& record) { return record.info.verdict; }),
+                     "What the writer found out about it.")
+        .def_prop_ro("position", of_record([](const shm::RingRecord& record) { return record.position; }),
+                     "Bytes since the ring was made.")
+        .def("__repr__", of_record([](const shm::RingRecord& record) {
+                 return fmt::format("<Record of {} bytes, link {}, position {}>", record.data.size(),
+                                    record.info.link.value, record.position);
+             }));
+}
+
+void bind_batch(nb::module_& module) {
+    nb::class_<Batch>(
+        module, "RecordBatch", nb::is_final(),
+        "Records that were read together, at least one: index, iterate. Of a lossless reader they are views "
+        "that end together, with the next read or `release()`.")
+        .def("__len__", &Batch::size)
+        .def("__getitem__", &Batch::at, nb::arg("index"))
+        .def(
+            "__iter__", [](nb::handle self) { return nb::steal(PySeqIter_New(self.ptr())); },
+            nb::sig("def __iter__(self) -> collections.abc.Iterator[Record]"))
+        .def("array", &Batch::array, nb::arg("dtype"),
+             nb::sig("def array(self, dtype: typing.Any) -> numpy.typing.NDArray[typing.Any]"),
+             "The records as one read-only numpy array; each has as many bytes as the dtype, else ValueError. Of a "
+             "lossless "
+             "reader it is a view, and counts as one, unless\n"
+             "the ring's end lies between the records: then a copy.")
+        .def("release", &Batch::release,
+             "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
+    nb::class_<Batches>(module, "RecordBatches", nb::is_final(), "Iterator over batches.")
+        .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
+        .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"));
+}
+
+}  // namespace
+
+void bind_ring_reader(nb::module_& module) {
+    using namespace nb::literals;
+    bind_record(module);
+    bind_batch(module);
+    nb::class_<PyRingReader>(module, "RingReader", nb::is_final(),
+                             "A reader of the ring NAME in shared memory. Lossy: never holds the writer, gets copies, "
+                             "and `missed` counts what it "
+                             "was too slow for. Lossless: gets views, and\n"
+                             "the writer may not pass them. `start`: `newest` reads what comes from now on, `oldest` "
+                             "what the ring holds, too. "
+                             "Iterate over records until nobody writes any more.\n"
+                             "Any thread; two that read take turns.")
+        .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
+             "start"_a = "newest",
+             nb::sig(
+                 "def __init__(self, name: str, *, lossless: bool = False, start: typing.Literal['newest', 'oldest'] = "
+                 "'newest') -> None"),
+             "NotFoundError names the rings that there are; InputError for a file that is no ring of this version; "
+             "SystemFailure for a 65th lossless reader.")
+        .def("read", &PyRingReader::read, "timeout"_a = nb::none(),
+             nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
+             "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
+             "writer "
+             "is alive or the ring was removed. Releases the one\n"
+             "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
+        .def(
+            "batches",
+            [](nb::object self, nb::object timeout) {
+                return Batches{std::move(self), std::move(timeout)};
+            },
+            "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
+            "Iterates over what there is, up to 1024 records at a time (and 1 MiB, or an eighth of the ring), waiting "
+            "as "
+            "`read` does; ends where `read` gives None.")
+        .def("__iter__", itself, nb::sig("def __iter__(self) -> RingReader"))
+        .def("__next__", &PyRingReader::next, nb::sig("def __next__(self) -> Record"))
+        .def("close", &PyRingReader::close,
+             "Gives the ring back; BufferError while a view is alive. May be called again, later reads raise "
+             "ClosedError.")
+        .def("__enter__", itself, nb::sig("def __enter__(self) -> RingReader"))
+        .def(
+            "__exit__", [](PyRingReader& reader, const nb::args&) { reader.close(); },
+            nb::sig("def __exit__(self, *args: object) -> None"))
+        .def("__repr__",
+             [](const PyRingReader& reader) {
+                 return fmt::format("<RingReader {}{}>", reader.source().name(),
+                                    reader.source().is_lossless() ? ", lossless" : "");
+             })
+        .def_prop_ro("name", [](const PyRingReader& reader) { return reader.source().name(); })
+        .def_prop_ro("lossless", [](const PyRingReader& reader) { return reader.source().is_lossless(); })
+        .def_prop_ro(
+            "missed", [](const PyRingReader& reader) { return reader.source().missed(); },
+            "Records that the writer overwrote before this reader came to them, in all.")
+        .def_prop_ro("writer_alive", [](const PyRingReader& reader) { return reader.open().writer_alive(); })
+        .def_prop_ro(
+            "removed", [](const PyRingReader& reader) { return reader.open().is_removed(); },
+            "Whether the ring was removed or replaced: open the name again once all is read.")
+        .def_prop_ro(
+            "holds", [](const PyRingReader& reader) { return reader.open().holds(); },
+            "Whether what was read through the views in hand is what was written: False once a writer with "
+            "full=\"evict\" took them away. Copy, then ask.");
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "ring_writer.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <limits>
+
+#include "bindings.hpp"
+#include "encode.hpp"
+#include "errors.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/shm/ring_info.hpp"
+
+namespace mavloom::python {
+namespace {
+
+constexpr std::array<std::string_view, 3> policies{"wait", "drop_newest", "evict"};
+
+shm::WhenFull policy_of(const std::string& full) {
+    const auto found = std::ranges::find(policies, full);
+    if (found == policies.end())
+        raise_usage(fmt::format("full='{}': expected wait, drop_newest or evict{}", full, did_you_mean(full, policies)));
+    return static_cast<shm::WhenFull>(found - policies.begin());
+}
+
+template <class T>
+T in_range(const char* what, std::int64_t value) {
+    constexpr std::int64_t most = std::numeric_limits<T>::max();
+    if (value < 0 || value > most) raise_usage(fmt::format("{}: {} is out of range, 0 to {}", what, value, most));
+    return static_cast<T>(value);
+}
+
+}  // namespace
+
+PyRingWriter::PyRingWriter(const std::string& name, std::int64_t capacity, const std::string& full, std::int64_t mode)
+    : name_(name), when_full_(policy_of(full)) {
+    const shm::RingOptions options{.capacity = static_cast<std::uint64_t>(std::max<std::int64_t>(capacity, 0)),
+                                   .when_full = when_full_,
+                                   .mode = in_range<std::uint16_t>("mode", mode)};
+    auto opened = [&] {
+        const WithoutGil outside;  // a large ring takes its memory here
+        return shm::RingWriter::open(name, options);
+    }();
+    writer_ = value_or_raise(std::move(opened));
+    longest_ = writer_->longest();
+    created_ = writer_->created();
+}
+
+void PyRingWriter::check() const {
+    fork_.check();
+    if (closed_) raise_closed(fmt::format("the writer of ring {} is closed", name_));
+}
+
+bool PyRingWriter::write(const nb::object& data, std::optional<std::int64_t> time_ns, std::int64_t link,
+                         std::int64_t kind, std::int64_t verdict) {
+    check();
+    const Buffer bytes(data);
+    const shm::RecordInfo info{time_ns ? WallTime{Nanoseconds{*time_ns}} : wall_now(),
+                               LinkId{in_range<std::uint32_t>("link", link)}, in_range<std::uint16_t>("kind", kind),
+                               in_range<std::uint8_t>("verdict", verdict)};
+    for (;;) {
+        const auto written = put_or_wait(bytes.bytes(), info);
+        if (written) return true;
+        if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
+        if (!waits()) return false;
+        turns_.give_way();
+        check_signals();
+        check();
+    }
+}
+
+shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::RecordInfo& info) {
+    if (const auto lock = turns_.try_take(); lock.owns_lock()) {
+        const auto written = put_locked(data, info, MonoTime{});
+        if (written || written.error() != shm::WriteError::full || !waits()) return written;
+    }
+    const WithoutGil outside;
+    return put(data, info, mono_now() + longest_slice);
+}
+
+shm::WriteResult<void> PyRingWriter::put(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
+    const auto lock = waits() ? turns_.take_until(deadline) : turns_.take();
+    if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
+    return put_locked(data, info, deadline);
+}
+
+shm::WriteResult<void> PyRingWriter::put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
+    if (!writer_) return tl::unexpected(shm::WriteError::removed);
+    return writer_->write(data, info, deadline);
+}
+
+void PyRingWriter::raise(shm::WriteError error, std::size_t length) const {
+    if (error == shm::WriteError::too_long)
+        raise_usage(fmt::format("{} bytes: a record of ring {} has at most {}", length, name_, longest_));
+    check();
+    if (error == shm::WriteError::removed)
+        raise_closed(fmt::format("ring {} was removed or replaced: open it again", name_));
+    raise_closed(std::string(shm::to_text(error)));
+}
+
+void PyRingWriter::close(bool remove) {
+    if (!fork_.is_here()) return;
+    closed_ = true;
+    SetupResult<void> closed;
+    {
+        const WithoutGil outside;
+        const auto lock = turns_.take();
+        if (!writer_) return;
+        note_counters();
+        using Leave = shm::RingWriter::Leave;
+        closed = writer_->close(remove ? Leave::nothing : Leave::ring);
+        writer_.reset();
+    }
+    value_or_raise(std::move(closed));
+}
+
+void PyRingWriter::note_counters() {
+    if (!writer_) return;
+    records_ = writer_->records();
+    dropped_ = writer_->dropped();
+}
+
+bool PyRingWriter::is_removed() {
+    check();
+    const WithoutGil outside;
+    const auto lock = turns_.take();
+    return !writer_ || writer_->is_removed();
+}
+
+std::uint64_t PyRingWriter::records() {
+    fork_.check();
+    const WithoutGil outside;
+    const auto lock = turns_.take();
+    note_counters();
+    return records_;
+}
+
+std::uint64_t PyRingWriter::dropped() {
+    fork_.check();
+    const WithoutGil outside;
+    const auto lock = turns_.take();
+    note_counters();
+    return dropped_;
+}
+
+void bind_ring_writer(nb::module_& module) {
+    using namespace nb::literals;
+    nb::class_<PyRingWriter>(
+        module, "RingWriter", nb::is_final(),
+        "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "
+        "however "
+        "that one ended. Any thread.\n\n"
+        "`capacity` (bytes, a power of two) and `mode` are those of a new ring; a ring of another capacity that nobody "
+        "writes to is replaced. `full` says what\n"
+        "happens while lossless readers hold the ring: `wait` for room, `drop_newest` leaves the new record out, "
+        "`evict` "
+        "takes the hold away from the readers in the\n"
+        "way. Closing leaves the ring for its readers and for the next writer.")
+        .def(nb::init<const std::string&, std::int64_t, const std::string&, std::int64_t>(), "name"_a, nb::kw_only(),
+             "capacity"_a = shm::default_capacity, "full"_a = "wait", "mode"_a = 0600,
+             nb::sig("def __init__(self, name: str, *, capacity: int = 8388608, full: typing.Literal['wait', "
+                     "'drop_newest', 'evict'] = 'wait', mode: int = 0o600) -> None"),
+             "ValueError for a name or option that is none; SystemFailure (an OSError) where another writer is alive, "
+             "which names its process, or where /dev/shm is\n"
+             "full; InputError for a file that is no ring of this version, which stays as it is.")
+        .def(
+            "write", &PyRingWriter::write, "data"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0,
+            "kind"_a = 0, "verdict"_a = 0,
+            nb::sig("def write(self, data: Buffer | numpy.typing.NDArray[typing.Any], *, time_ns: int | None = None, "
+                    "link: int = 0, kind: int = 0, "
+                    "verdict: int = 0) -> bool"),
+            "Copies bytes, or whatever has a contiguous buffer, into the ring as one record, of at most `longest` "
+            "bytes. "
+            "`time_ns` is Unix time, now unless given. Waits\n"
+            "while lossless readers hold the ring. False: the record was left out, and counted in `dropped` (only with "
+            "full=\"drop_newest\"). ClosedError once the ring\n"
+            "was removed.")
+        .def(
+            "close", &PyRingWriter::close, "remove"_a = false,
+            "Ends writing; may be called again. With `remove` the ring goes too: its readers read what is left and are "
+            "told.")
+        .def(
+            "__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> RingWriter"))
+        .def(
+            "__exit__", [](PyRingWriter& writer, const nb::args&) { writer.close(false); },
+            nb::sig("def __exit__(self, *args: object) -> None"))
+        .def("__repr__", [](const PyRingWriter& writer) { return fmt::format("<RingWriter {}>", writer.name()); })
+        .def_prop_ro("name", &PyRingWriter::name)
+        .def_prop_ro("longest", &PyRingWriter::longest, "The longest record that the ring takes, bytes.")
+        .def_prop_ro("created", &PyRingWriter::created,
+                     "Whether this writer made the ring; False: it carries on in one that was there.")
+        .def_prop_ro("removed", &PyRingWriter::is_removed,
+                     "Whether somebody removed or replaced the ring, so that new readers do not find it.")
+        .def_prop_ro("records", &PyRingWriter::records, "Records since the ring was made, by all its writers.")
+        .def_prop_ro("dropped", &PyRingWriter::dropped, "Records that a full ring did not take since it was made.");
+
+    module.def(
+        "remove_ring",
+        [](const std::string& name) {
+            auto removed = [&] {
+                const WithoutGil outside;
+                return shm::remove_ring(name);
+            }();
+            value_or_raise(std::move(removed));
+        },
+        "name"_a,
+        "Takes a ring away, with its counter page. Who has it open is told, and nothing waits. NotFoundError names the "
+        "rings that there are.");
+    module.def("rings", &shm::ring_names, "Names of the rings of this machine (of this container), sorted.");
+}
+
+}  // namespace mavloom::python

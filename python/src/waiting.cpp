@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "waiting.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mavloom::python {
+
+static constexpr auto for_ever = Nanoseconds{std::chrono::hours{24 * 365}};
+
+Nanoseconds duration_of(const char* what, const nb::object& given) {
+    const double seconds = PyFloat_AsDouble(given.ptr());
+    if (PyErr_Occurred() != nullptr) throw nb::python_error();
+    if (std::isnan(seconds)) raise_usage(fmt::format("{}: NaN is no time", what));
+    if (seconds >= std::chrono::duration<double>(for_ever).count()) return for_ever;
+    return std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
+}
+
+MonoTime deadline_after(const nb::object& timeout) {
+    return timeout.is_none() ? MonoTime::max() : mono_now() + duration_of("timeout", timeout);
+}
+
+}  // namespace mavloom::python

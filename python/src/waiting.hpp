@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// How calls of Python wait: time-outs as users give them, threads that take turns, what a forked child must leave alone.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "errors.hpp"
+#include "gil.hpp"
+#include "hub.hpp"
+#include "mavloom/base/clock.hpp"
+
+namespace mavloom::python {
+
+// A wait ends after this time for a moment, so that signals and other threads get their turn.
+inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
+
+// Seconds as users give them; 0 for less, a year at most. `what` is the argument's name.
+[[nodiscard]] Nanoseconds duration_of(const char* what, const nb::object& given);
+// When a wait ends: None waits for ever.
+[[nodiscard]] MonoTime deadline_after(const nb::object& timeout);
+[[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
+
+// Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.
+class BeforeFork {
+public:
+    [[nodiscard]] bool is_here() const noexcept { return born_ == Hub::forks(); }
+    void check() const {
+        if (!is_here()) raise_closed("opened before fork: open it again in this process");
+    }
+
+private:
+    std::uint64_t born_ = Hub::forks();
+};
+
+// A mutex that is held while waiting, slice by slice; between two of them those who ask come first. Nobody holds it who needs the GIL.
+class Turns {
+public:
+    using Lock = std::unique_lock<std::timed_mutex>;
+
+    [[nodiscard]] Lock take() {
+        const Asking asking(asking_);
+        return Lock(mutex_);
+    }
+    // Those that come back without owning it say that it is not their turn: yet, or before the deadline and the slice's end.
+    [[nodiscard]] Lock try_take() { return Lock(mutex_, std::try_to_lock); }
+    [[nodiscard]] Lock take_until(MonoTime deadline) {
+        Lock lock = try_take();
+        if (lock.owns_lock()) return lock;
+        const Asking asking(asking_);
+        static_cast<void>(lock.try_lock_until(std::min(deadline, mono_now() + longest_slice)));
+        return lock;
+    }
+    // Between two slices, without the lock.
+    void give_way() const {
+        if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+
+private:
+    struct Asking {
+        explicit Asking(std::atomic<int>& asking) : count(asking) { count.fetch_add(1, std::memory_order_relaxed); }
+        Asking(const Asking&) = delete;
+        Asking& operator=(const Asking&) = delete;
+        ~Asking() { count.fetch_sub(1, std::memory_order_relaxed); }
+        std::atomic<int>& count;
+    };
+
+    std::timed_mutex mutex_;
+    std::atomic<int> asking_{0};
+};
+
+}  // namespace mavloom::python

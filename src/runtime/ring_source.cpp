@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/ring_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mavloom/shm/counter_page.hpp"
+#include "mavloom/shm/layout.hpp"
+
+namespace mavloom::runtime::detail {
+
+namespace {
+
+// How many records are read in a turn that hold no frame.
+constexpr std::size_t most_empty_records = 4096;
+// Bounds what a writer's link numbers can make us remember; the rest share one link.
+constexpr std::size_t most_links = 4096;
+constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
+
+shm::ReaderOptions reader_options(const EndpointOptions& options) {
+    using From = shm::ReaderOptions::From;
+    return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
+}
+
+}  // namespace
+
+RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids)
+    : endpoint_(endpoint),
+      id_{ids.next()},
+      table_(table),
+      ids_(ids),
+      follower_(endpoint.path, reader_options(endpoint.options)) {
+    copy_.reserve(shm::max_record_bytes);
+    found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
+}
+
+SetupResult<void> RingSource::open() {
+    if (follower_.try_open() || !endpoint_.options.required) return {};
+    return tl::unexpected(SetupError(*follower_.error()).within(endpoint_.label()));
+}
+
+std::size_t RingSource::play(LinkHandler& handler, std::size_t most) {
+    if (no_inlet_ && !std::exchange(told_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
+    std::size_t played = 0, empty_records = 0;
+    for (more_ = true; played < most && empty_records < most_empty_records;) {
+        if (next_found_ < found_.size()) {
+            hand_over(handler, found_[next_found_++]);
+            ++played;
+        } else if (more_ = read(handler); !more_) {
+            break;
+        } else {
+            empty_records += found_.empty();
+        }
+    }
+    return played;
+}
+
+bool RingSource::read(LinkHandler& handler) {
+    found_.clear();
+    next_found_ = 0;
+    if (next_look_ != MonoTime{} && mono_now() < next_look_) return false;
+    const auto record = follower_.poll();
+    if (!record) {
+        nothing_comes(record.error(), handler);
+        return false;
+    }
+    if (end_ && record->position >= *end_) return false;
+    take(*record, handler);
+    return true;
+}
+
+void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
+    const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
+    if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
+    const auto writers = follower_.reader()->writers();
+    if (std::exchange(writers_, writers) != writers || is_new) {
+        by_number_.clear();
+        names_.clear();
+        last_ = nullptr;
+        forget_sequences();
+    }
+    told_ = Told::nothing;
+    if (record.missed != 0) forget_sequences();
+    if (last_ == nullptr || last_number_ != record.info.link) {
+        last_ = &link_of(record.info.link, handler);
+        last_number_ = record.info.link;
+    }
+    time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
+    if (!lossless()) return parse(record.data);
+    copy_.assign(record.data.begin(), record.data.end());
+    if (follower_.reader()->holds()) return parse(copy_);
+    ++overwritten_;  // by a writer that evicts, while it was copied
+    forget_sequences();
+}
+
+void RingSource::parse(ByteView bytes) {
+    using Kind = wire::ParseEvent::Kind;
+    last_->parser.parse(bytes, [this](const wire::ParseEvent& event) {
+        if (event.kind == Kind::frame) found_.push_back({event.frame, event.info});
+        if (event.kind == Kind::bad_checksum) counters_.crc_error.add();
+        if (event.kind == Kind::junk) counters_.junk_bytes.add(event.bytes);
+        if (event.kind == Kind::unknown_flags) counters_.unknown_flags.add();
+    });
+    bad_records_ += found_.empty();
+}
+
+void RingSource::hand_over(LinkHandler& handler, const Found& found) {
+    if (sent_.knows(found.frame.system()) && sent_.takes_back(found.frame, mono_now())) {
+        ++echo_;
+        return;
+    }
+    const auto update = last_->tracker.update(found.frame);
+    counters_.lost.set(counters_.lost.value() + static_cast<std::uint64_t>(update.lost));
+    handler.on_frame({found.frame, found.info, last_->id, id_, time_, update});
+}
+
+void RingSource::nothing_comes(shm::ReadError why, LinkHandler& handler) {
+    next_look_ = {};
+    if (why == shm::ReadError::empty) {
+        told_ = Told::nothing;
+        return;
+    }
+    if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
+        next_look_ = mono_now() + look_distance;
+        return tell(handler, Told::damaged, "the ring is damaged; waiting for another ring of that name");
+    }
+    if (follower_.is_open()) return tell(handler, Told::unwritten, "nobody writes to it; waiting for a writer");
+    next_look_ = mono_now() + look_distance;
+    const auto* const error = follower_.error();
+    if (error == nullptr) return;
+    const bool absent = error->code == SetupCode::not_found;
+    awaited_ = awaited_ || absent;
+    tell(handler, absent ? Told::absent : Told::unreadable,
+         error->text + (absent ? "; waiting for it" : "; trying again"));
+}
+
+void RingSource::tell(LinkHandler& handler, Told what, std::string_view text) {
+    if (std::exchange(told_, what) == what) return;
+    handler.on_notice(id_, fmt::format("{}: {}", endpoint_.label(), text));
+}
+
+MonoTime RingSource::due(bool has_room, MonoTime now) {
+    if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
+    auto* const reader = follower_.reader();
+    if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
+    const Nanoseconds nap = reader->arm();
+    // A ring without writer is also looked at when it was removed, and then there is nothing to read.
+    if (nap == Nanoseconds{} && told_ == Told::unwritten) return now + look_distance;
+    return now + nap;
+}
+
+void RingSource::end_here() noexcept {
+    const auto* const reader = follower_.reader();
+    end_ = reader == nullptr ? 0 : reader->end_position();
+}
+
+void RingSource::forget_sequences() {
+    for (auto& [name, link] : by_name_) link->tracker = {};
+}
+
+RingSource::RingLink& RingSource::link_of(LinkId in_ring, LinkHandler& handler) {
+    if (const auto known = by_number_.find(in_ring); known != by_number_.end()) return *known->second;
+    if (by_number_.size() == most_links) return link_called(endpoint_.label() + "/others", handler);
+    auto& link = link_called(name_of(in_ring), handler);
+    by_number_.emplace(in_ring, &link);
+    return link;
+}
+
+RingSource::RingLink& RingSource::link_called(const std::string& name, LinkHandler& handler) {
+    auto& link = by_name_[name];
+    if (!link) {
+        link = std::make_unique<RingLink>(LinkId{ids_.next()}, table_);
+        handler.on_link_up(link->id, id_, name);
+    }
+    return *link;
+}
+
+std::string RingSource::name_of(LinkId in_ring) {
+    if (!names_.contains(in_ring))
+        if (auto page = shm::read_counters(follower_.name())) names_ = std::move(page->links);
+    const auto named = names_.find(in_ring);
+    return named != names_.end() ? named->second : fmt::format("{}/{}", endpoint_.label(), in_ring.value);
+}
+
+bool RingSource::send(Links& links, const wire::FrameView& frame) {
+    if (!inlet_ && !no_inlet_) {
+        Endpoint inlet = endpoint_;
+        inlet.options.from_oldest = false;
+        inlet.options.lossless.reset();
+        inlet.options.required = false;
+        auto added = links.add(inlet);
+        if (added) inlet_ = *added;
+        else no_inlet_ = std::move(added.error());
+    }
+    if (!inlet_ || links.send(*inlet_, frame) == 0) return false;
+    sent_.remember(frame, mono_now());
+    return true;
+}
+
+void RingSource::add_to(Totals& totals) const noexcept {
+    totals.add(counters_);
+    totals.lapped += follower_.missed() + overwritten_;
+    totals.bad_records += bad_records_;
+    totals.echo += echo_;
+}
+
+}  // namespace mavloom::runtime::detail

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// One ring as a source of frames: its records are parsed, what is no frame is counted, and the links that its writer heard them on become links here.
+// Private to module runtime; one owner thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/totals.hpp"
+#include "mavloom/shm/ring_follower.hpp"
+#include "mavloom/wire/datagram_parser.hpp"
+#include "runtime/echo_filter.hpp"
+
+namespace mavloom::runtime::detail {
+
+// Ids of rings and of their links lie above all that Links gives and above those of recordings.
+class RingLinkIds {
+public:
+    [[nodiscard]] std::uint32_t next() noexcept { return next_++; }
+
+private:
+    std::uint32_t next_ = 0xC000'0000;
+};
+
+class RingSource {
+public:
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids);
+
+    // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
+    [[nodiscard]] SetupResult<void> open();
+    // Hands over at most `most` frames; returns how many.
+    std::size_t play(LinkHandler& handler, std::size_t most);
+    // When to play next: at once while something waits that there was no room for. Asks the writer to wake this process before.
+    [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
+    void end_here() noexcept;
+
+    // To the inlet; true when it was taken.
+    bool send(Links& links, const wire::FrameView& frame);
+    void add_to(Totals& totals) const noexcept;
+
+    [[nodiscard]] const Endpoint& endpoint() const noexcept { return endpoint_; }
+    [[nodiscard]] bool lossless() const noexcept { return endpoint_.options.lossless.value_or(false); }
+    [[nodiscard]] shm::RingFollower& follower() noexcept { return follower_; }
+
+private:
+    struct RingLink {
+        RingLink(LinkId i, const wire::MessageTable& table) : id(i), parser(table) {}
+        LinkId id;
+        wire::DatagramParser parser;
+        wire::SequenceTracker tracker;
+    };
+    struct Found {
+        wire::FrameView frame;
+        const wire::MessageInfo* info;
+    };
+    // What was last said of it, so that it is said once.
+    enum class Told : std::uint8_t { nothing, absent, unreadable, unwritten, damaged };
+
+    [[nodiscard]] bool read(LinkHandler& handler);
+    void take(const shm::RingRecord& record, LinkHandler& handler);
+    void parse(ByteView bytes);
+    void hand_over(LinkHandler& handler, const Found& found);
+    void nothing_comes(shm::ReadError why, LinkHandler& handler);
+    void tell(LinkHandler& handler, Told what, std::string_view text);
+    // Others wrote meanwhile, or records were missed: what the links lost cannot be told from the numbers any longer.
+    void forget_sequences();
+    [[nodiscard]] RingLink& link_of(LinkId in_ring, LinkHandler& handler);
+    [[nodiscard]] RingLink& link_called(const std::string& name, LinkHandler& handler);
+    [[nodiscard]] std::string name_of(LinkId in_ring);
+
+    Endpoint endpoint_;
+    EndpointId id_;
+    const wire::MessageTable& table_;
+    RingLinkIds& ids_;
+    shm::RingFollower follower_;
+    Told told_ = Told::nothing;
+    MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
+    bool more_ = false;                       // the last turn ended for want of room
+    bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
+    std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
+    std::optional<std::uint64_t> end_;        // where reading stops
+
+    std::map<std::string, std::unique_ptr<RingLink>> by_name_;
+    std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring
+    std::map<LinkId, std::string> names_;              // of the counter page
+    LinkId last_number_{};
+    RingLink* last_ = nullptr;
+
+    std::vector<std::uint8_t> copy_;  // of a record that a writer could take away
+    std::vector<Found> found_;        // in the record that was read last
+    std::size_t next_found_ = 0;
+    WallTime time_{};
+
+    std::optional<EndpointId> inlet_;
+    std::optional<SetupError> no_inlet_;
+    bool told_no_inlet_ = false;
+    EchoFilter sent_;
+    LinkCounters counters_;
+    std::uint64_t overwritten_ = 0, bad_records_ = 0, echo_ = 0;
+};
+
+}  // namespace mavloom::runtime::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/shm/ring_waiter.hpp"
+
+#include <linux/futex.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+namespace mavloom::shm {
+
+// What an old kernel sleeps on one ring, and on the first of several, before it looks at all of them.
+static constexpr Nanoseconds nap_of_one = std::chrono::milliseconds(20), nap_of_many = std::chrono::milliseconds(1);
+
+namespace {
+
+struct Watched {
+    RingWaiter::WakeWord word;
+    std::uint32_t seen = 0;  // of what came up to here it is decided whether it is told
+};
+
+[[nodiscard]] bool sleep_on_all(std::span<futex_waitv> words) noexcept {
+    const auto woken = ::syscall(SYS_futex_waitv, words.data(), static_cast<unsigned>(words.size()), 0u, nullptr,
+                                 CLOCK_MONOTONIC);
+    return woken >= 0 || (errno != ENOSYS && errno != EPERM);
+}
+
+[[nodiscard]] futex_waitv sleep_on(const SharedWords::Word32& word, std::uint32_t value) noexcept {
+    return {value, reinterpret_cast<std::uintptr_t>(&word), FUTEX_32, 0};
+}
+
+}  // namespace
+
+class RingWaiter::Thread {
+public:
+    explicit Thread(const std::function<void()>& wake) : wake_(wake) {
+        sigset_t all, before;  // signals are for the other threads
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_SETMASK, &all, &before);
+        thread_ = std::thread([this] { run(); });
+        ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    }
+    Thread(const Thread&) = delete;
+    Thread& operator=(const Thread&) = delete;
+    ~Thread() {
+        ends_.store(true, std::memory_order_relaxed);
+        interrupt();
+        thread_.join();
+    }
+
+    void watch(std::vector<Watched> rings) {
+        {
+            const std::lock_guard lock(mutex_);
+            next_ = std::move(rings);
+        }
+        interrupt();
+    }
+    void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
+    void disarm() noexcept { armed_.store(false, std::memory_order_relaxed); }
+
+private:
+    void interrupt() noexcept {
+        changes_.fetch_add(1, std::memory_order_release);  // pairs with the acquire in run()
+        SharedWords::wake(changes_);
+    }
+
+    void run() {
+        std::uint32_t changes = 0;
+        while (!ends_.load(std::memory_order_relaxed)) {
+            if (const auto now = changes_.load(std::memory_order_acquire); now != changes) {
+                changes = now;
+                const std::lock_guard lock(mutex_);
+                if (next_) rings_ = std::move(*std::exchange(next_, std::nullopt));
+            }
+            if (look()) tell();
+            if (!ends_.load(std::memory_order_relaxed)) sleep(changes);
+        }
+    }
+
+    // Whether a word changed since the last look.
+    bool look() noexcept {
+        bool changed = false;
+        for (auto& [word, seen] : rings_) changed |= std::exchange(seen, word->load(std::memory_order_seq_cst)) != seen;
+        return changed;
+    }
+    void tell() {
+        if (armed_.exchange(false, std::memory_order_seq_cst)) wake_();
+    }
+
+    void sleep(std::uint32_t changes) noexcept {
+        std::array<futex_waitv, most_rings + 1> words;
+        std::size_t count = 0;
+        words[count++] = sleep_on(changes_, changes);
+        for (const auto& [word, seen] : rings_) words[count++] = sleep_on(*word, seen);
+        if (waits_for_all_ && (waits_for_all_ = sleep_on_all(std::span(words).first(count)))) return;
+        if (rings_.empty()) SharedWords::sleep(changes_, changes, nap_of_one);
+        else
+            SharedWords::sleep(*rings_.front().word, rings_.front().seen, rings_.size() == 1 ? nap_of_one : nap_of_many);
+    }
+
+    const std::function<void()>& wake_;
+    std::atomic<bool> ends_{false}, armed_{false};
+    SharedWords::Word32 changes_{0};
+    std::mutex mutex_;
+    std::optional<std::vector<Watched>> next_;  // guarded by mutex_
+    std::vector<Watched> rings_;                // the thread's
+    bool waits_for_all_ = true;                 // likewise: the kernel can
+    std::thread thread_;
+};
+
+RingWaiter::RingWaiter(std::function<void()> wake) : wake_(std::move(wake)) {}
+RingWaiter::~RingWaiter() = default;
+
+void RingWaiter::watch(std::vector<WakeWord> rings) {
+    if (!thread_ && rings.empty()) return;
+    if (!thread_) thread_ = std::make_unique<Thread>(wake_);
+    std::vector<Watched> watched;
+    for (std::size_t i = 0; i < std::min(rings.size(), most_rings); ++i) {
+        const auto seen = rings[i]->load(std::memory_order_seq_cst);
+        watched.push_back({std::move(rings[i]), seen});
+    }
+    thread_->watch(std::move(watched));
+}
+
+void RingWaiter::arm() noexcept {
+    if (thread_) thread_->arm();
+}
+
+void RingWaiter::disarm() noexcept {
+    if (thread_) thread_->disarm();
+}
+
+}  // namespace mavloom::shm

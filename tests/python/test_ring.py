@@ -1,0 +1,1092 @@
+# SPDX-License-Identifier: MIT
+"""RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory listed in docs/guide/python.md; other rows
+and examples: the wishes there."""
+import contextlib
+import ctypes
+import gc
+import json
+import os
+import pathlib
+import random
+import signal
+import socket
+import stat
+import struct
+import subprocess
+import sys
+import threading
+import time
+import uuid
+
+import numpy
+import pytest
+
+import mavloom
+from places import PROGRAM
+from tlogs import frames_of
+
+DEADLINE_S = 60
+SHM = pathlib.Path("/dev/shm")
+KIB = 1024
+as_root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root")
+NOBODY = 65534
+
+
+def path_of(name, suffix=""):
+    return SHM / f"mavloom.{name}{suffix}"
+
+
+@pytest.fixture
+def ring():
+    """A name of a ring that nobody else has, and nothing left of it."""
+    name = f"python-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+    yield name
+    for suffix in ("", ".stat"):
+        path_of(name, suffix).unlink(missing_ok=True)
+
+
+@pytest.fixture
+def writer(ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as made:
+        yield made
+
+
+@pytest.fixture
+def start(child_environment):
+    """start(code, *arguments) -> a Python process with mavloom imported, killed at the end of the test."""
+    processes = []
+
+    def call(code, *words, **options):
+        head = "import gc, os, signal, sys, threading, time\nimport mavloom\nring = sys.argv[1]\n"
+        processes.append(subprocess.Popen([sys.executable, "-c", head + code, *map(str, words)], text=True, start_new_session=True,
+                                          env={**child_environment, "PYTHONWARNINGS": "ignore"},
+                                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options))
+        return processes[-1]
+    yield call
+    for process in processes:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def ended(process):
+    """(status, stdout, stderr) of a process at its end."""
+    out, talk = process.communicate(timeout=DEADLINE_S)
+    return process.returncode, out, talk
+
+
+def until(condition):
+    end = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.005)
+
+
+def program(*words, **options):
+    done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=DEADLINE_S, **options)
+    assert done.returncode == 0, done
+    return done.stdout
+
+
+def status_of(name):
+    """What `mavloom shm stat` says."""
+    return json.loads(program("shm", "stat", name, "--json"))
+
+
+def fill(writer, count=10, first=0):
+    """Records "n" with n as their time."""
+    for number in range(first, first + count):
+        writer.write(b"%d" % number, time_ns=number)
+
+
+def numbers(records):
+    return [int(bytes(record.data)) for record in records]
+
+
+# ---- one process: what is written is read
+
+def test_what_a_record_says(writer, ring):
+    reader = mavloom.RingReader(ring)
+    before = time.time_ns()
+    assert writer.write(b"now") is True
+    for number, data in enumerate((b"bytes", bytearray(b"bytearray"), memoryview(b"a view")[2:], numpy.arange(3, dtype="<u2"), b"")):
+        writer.write(data, time_ns=-number, link=2**32 - 1, kind=2**16 - 1, verdict=255)
+    now = reader.read()
+    assert (now.data, now.link, now.kind, now.verdict, now.position) == (b"now", 0, 0, 0, 0) and before <= now.time_ns <= time.time_ns()
+    rest = [reader.read(0) for _ in range(5)]
+    assert [r.data for r in rest] == [b"bytes", b"bytearray", b"view", b"\0\0\1\0\2\0", b""]
+    assert all((r.time_ns, r.link, r.kind, r.verdict) == (-i, 2**32 - 1, 2**16 - 1, 255) for i, r in enumerate(rest))
+    assert [r.position for r in rest] == [32, 64, 104, 136, 168]
+    assert all(rest)  # also the empty one
+    assert reader.read(0) is None and now.data == b"now"  # a copy
+    assert (writer.records, writer.dropped, reader.missed) == (6, 0, 0)
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+def test_newest_and_oldest(writer, ring, lossless):
+    fill(writer, 3)
+    newest, oldest = (mavloom.RingReader(ring, lossless=lossless, start=start) for start in ("newest", "oldest"))
+    fill(writer, 3, first=3)
+    writer.close()
+    assert numbers(newest) == [3, 4, 5] and numbers(oldest) == [0, 1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+def test_batches_are_sequences(writer, ring, lossless):
+    reader = mavloom.RingReader(ring, lossless=lossless)
+    fill(writer, 1500)
+    sizes, found = [], []
+    for batch in reader.batches(timeout=0):
+        sizes.append(len(batch))
+        found += numbers(batch)
+        assert int(bytes(batch[-1].data)) == found[-1] == int(bytes(batch[len(batch) - 1].data))
+        with pytest.raises(IndexError):
+            batch[len(batch)]
+        batch.release()
+        batch.release()
+        with pytest.raises(ValueError, match="released"):
+            _ = batch[0].data
+        assert batch[0].time_ns == found[-len(batch)]
+    assert found == list(range(1500)) and max(sizes) > 100 and reader.missed == 0
+
+
+def test_a_wait_ends_in_time_or_with_the_writer(writer, ring):
+    reader = mavloom.RingReader(ring)
+    assert reader.read(timeout=0) is None and reader.read(timeout=0.01) is None and list(reader.batches(timeout=0.01)) == []
+    threading.Timer(0.02, writer.write, [b"late"]).start()
+    assert reader.read().data == b"late"
+    threading.Timer(0.02, writer.close).start()
+    assert reader.read() is None and not reader.writer_alive and list(reader) == [] and reader.read(timeout=1e9) is None
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+        assert not second.created and reader.writer_alive and not reader.removed
+        second.write(b"more")
+        assert reader.read().data == b"more"
+    with pytest.raises(ValueError, match="NaN"):
+        reader.read(float("nan"))
+
+
+# ---- views: rows 3.16 and 3.17
+
+LOOKS = {
+    "data": lambda record: record.data,
+    "memoryview": memoryview,
+    "slice": lambda record: record.data[1:3],
+    "cast": lambda record: record.data.cast("b"),
+    "iterator": lambda record: iter(record.data),
+    "frombuffer of the record": lambda record: numpy.frombuffer(record, "u1"),
+    "frombuffer": lambda record: numpy.frombuffer(record.data, "u1"),
+    "slice of an array": lambda record: numpy.frombuffer(record.data, "u1")[2:],
+    "asarray": lambda record: numpy.asarray(record.data),
+    "ndarray": lambda record: numpy.ndarray(4, "u1", buffer=record.data),
+    "ndarray of a slice": lambda record: numpy.ndarray(2, "u1", buffer=record.data[2:]),
+}
+
+
+@pytest.fixture
+def held(writer, ring):
+    reader = mavloom.RingReader(ring, lossless=True)
+    for _ in range(4):
+        writer.write(b"abcd")
+    return reader
+
+
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, look):
+    seen = look(held.read(0))
+    for go_on in (lambda: held.read(0), lambda: held.read(), lambda: next(held), lambda: next(held.batches()), held.close):
+        with pytest.raises(BufferError, match="still alive"):
+            go_on()
+    assert bytes(b"abcd").startswith(bytes(seen)) or b"abcd".endswith(bytes(seen)) or bytes(seen) == b"bc"
+    del seen
+    gc.collect()
+    assert held.read(0).position == 32
+    held.close()
+
+
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+def test_row_3_16_and_3_17_whatever_looks_at_a_batch_holds_it(held, look):
+    batch = next(held.batches())
+    seen = look(batch[1])
+    for go_on in (batch.release, lambda: held.read(0), held.close):
+        with pytest.raises(BufferError, match="still alive"):
+            go_on()
+    del seen
+    gc.collect()
+    batch.release()
+    assert held.read(0) is None
+
+
+def test_example_10_a_view_blocks_a_batch(held):
+    for batch in held.batches(timeout=0.01):
+        view = memoryview(batch[0])
+        with pytest.raises(BufferError):
+            batch.release()
+        assert view == b"abcd" and view.readonly
+        view.release()
+        batch.release()
+
+
+def test_row_3_16_what_was_released_raises(held):
+    first = held.read(0)
+    view = first.data
+    view.release()
+    held.read(0)
+    for look in LOOKS.values():
+        with pytest.raises(mavloom.UsageError, match="released"):
+            look(first)
+    with pytest.raises(ValueError):
+        _ = view[0]
+    last = held.read(0)
+    held.close()
+    with pytest.raises(mavloom.UsageError, match="released"):
+        _ = last.data
+    for call in (held.read, lambda: next(held), lambda: list(held.batches()), lambda: held.holds, lambda: held.removed):
+        with pytest.raises(mavloom.ClosedError, match="closed"):
+            call()
+    held.close()
+
+
+def test_row_3_16_views_outlive_a_reader_that_is_dropped(writer, ring):
+    """They hold the ring as long as they live, and not longer."""
+    reader = mavloom.RingReader(ring, lossless=True)
+    writer.write(b"abcd")
+    view = reader.read(0).data
+    del reader
+    gc.collect()
+    assert view == b"abcd" and [r["holds"] for r in status_of(ring)["readers"]] == [True]
+    del view
+    assert status_of(ring)["readers"] == []
+
+
+def test_row_3_16_an_array_that_numpy_takes_from_a_record_itself_reads_no_freed_memory(held):
+    """numpy.ndarray(buffer=) gives the buffer back at once and keeps the record only: it cannot be counted, but the ring stays mapped."""
+    array = numpy.ndarray(4, "u1", buffer=held.read(0))
+    held.read(0)
+    held.close()
+    del held
+    gc.collect()
+    assert bytes(array) == b"abcd"
+
+
+def test_numpy_arrays_of_batches(writer, ring):
+    """Structured, without a copy where the records lie side by side; a copy where the ring's end lies between."""
+    kind = numpy.dtype([("number", "<u8"), ("values", "<f4", 3)])
+    readers = [mavloom.RingReader(ring, lossless=lossless) for lossless in (False, True)]
+    found, views, sent = ([], []), 0, 0
+    for _ in range(40):
+        for _ in range(100):
+            writer.write(struct.pack("<Q3f", sent, sent, 1, -1))
+            sent += 1
+        for reader, kept in zip(readers, found):
+            batch = next(reader.batches())
+            array = batch.array(kind)
+            kept += array["number"].tolist()
+            assert array["values"].tolist() == [[number, 1, -1] for number in array["number"]] and not array.flags.writeable
+            if len(batch) > 1 and array.strides[0] != kind.itemsize:
+                views += 1
+                with pytest.raises(BufferError):
+                    batch.release()
+            del array
+            batch.release()
+            kept += [struct.unpack_from("<Q", record.data)[0] for record in iter(lambda: reader.read(0), None)]
+    assert found[0] == found[1] == list(range(sent)) and 20 < views
+    writer.write(b"12345678")
+    writer.write(b"1234")
+    batch = next(readers[0].batches())
+    with pytest.raises(ValueError, match="record 1 of the batch has 4 bytes, and the dtype 8"):
+        batch.array("u8")
+
+
+# ---- errors
+
+def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
+    with pytest.raises(ValueError, match="16361 bytes: a record of ring .* has at most 16360"):
+        writer.write(bytes(writer.longest + 1))
+    writer.write(bytes(writer.longest))
+    for options, what in (({"link": -1}, "link: -1 is out of range, 0 to 4294967295"), ({"kind": 65536}, "0 to 65535"), ({"verdict": 256}, "0 to 255")):
+        with pytest.raises(ValueError, match=what):
+            writer.write(b"", **options)
+    with pytest.raises(TypeError, match="bytes-like"):
+        writer.write("text")
+    for name in ("a/b", "", "x" * 65, "ü", "..", "a b", "a\0b"):
+        for call in (mavloom.RingWriter, mavloom.RingReader, mavloom.remove_ring):
+            with pytest.raises(mavloom.UsageError, match="is no name of a ring"):
+                call(name)
+    for options, what in (({"capacity": 100_000}, "power of two"), ({"capacity": -1}, "power of two"), ({"full": "wiat"}, "did you mean 'wait'"),
+                          ({"mode": 0o060}, "owner must"), ({"mode": -1}, "mode: -1")):
+        with pytest.raises(ValueError, match=what):
+            mavloom.RingWriter(ring + "x", **options)
+    with pytest.raises(ValueError, match="newest or oldest"):
+        mavloom.RingReader(ring, start="now")
+    assert writer.records == 1 and not path_of(ring + "x").exists()
+
+
+def test_two_writers_the_second_is_refused_with_the_first_ones_process(writer, ring):
+    with pytest.raises(OSError, match=f"ring {ring} has a writer already, process {os.getpid()}") as raised:
+        mavloom.RingWriter(ring, capacity=64 * KIB)
+    assert isinstance(raised.value, mavloom.Error)
+    refused = subprocess.run([PROGRAM, "shm", "write", ring], input="", capture_output=True, text=True)
+    assert refused.returncode == 1 and f"process {os.getpid()}" in refused.stderr
+    process = subprocess.Popen([PROGRAM, "shm", "write", ring + "b", "--remove"], stdin=subprocess.PIPE)
+    with process:
+        until(lambda: ring + "b" in mavloom.rings() and status_of(ring + "b")["writer_alive"])
+        with pytest.raises(mavloom.Error, match=f"process {process.pid}"):
+            mavloom.RingWriter(ring + "b")
+
+
+def test_row_3_20_an_absent_ring_is_named_beside_those_that_are_there(writer, ring):
+    for call in (mavloom.RingReader, mavloom.remove_ring):
+        with pytest.raises(FileNotFoundError, match=rf"there is no ring {ring}x; there (is|are) .*{ring}") as raised:
+            call(ring + "x")
+        assert isinstance(raised.value, mavloom.NotFoundError)
+    assert ring in mavloom.rings()
+
+
+def with_version(major, minor):
+    return lambda data: data[:8] + struct.pack("<HH", major, minor) + data[12:]
+
+
+@pytest.mark.parametrize("change, what", [
+    (with_version(2, 7), r"version 2\.7; this program knows 1\.0"),
+    (lambda data: data[:12] + data[12:16][::-1] + data[16:], "another byte order"),
+    (lambda data: data[:30_000], "truncated ring: 30000 bytes instead of 81920"),
+    (lambda data: data[:100], "truncated: 100 bytes"),
+    (lambda data: b"", "truncated: 0 bytes"),
+    (lambda data: random.Random(1).randbytes(len(data)), "no ring of Mavloom"),
+    (lambda data: data[:16] + struct.pack("<Q", 65537) + data[24:], "damaged"),
+    (lambda data: data[:128] + random.Random(2).randbytes(len(data) - 128), "damaged"),
+], ids=["version", "byte order", "shorter", "short", "empty", "random", "sizes", "contents"])
+def test_rows_3_3_3_5_and_3_19_what_is_no_ring_of_this_version_is_named_and_stays(writer, ring, change, what):
+    fill(writer)
+    writer.close()
+    wrong = change(path_of(ring).read_bytes())
+    path_of(ring).unlink()
+    path_of(ring).write_bytes(wrong)
+    for call in (lambda: mavloom.RingReader(ring, start="oldest", lossless=True).read(0), lambda: mavloom.RingReader(ring).read(0)):
+        with pytest.raises(mavloom.InputError, match=what):
+            call()
+    head = path_of(ring).read_bytes()[:64]
+    assert head == wrong[:64] and path_of(ring).stat().st_size == len(wrong)
+    mavloom.remove_ring(ring)
+    assert not path_of(ring).exists()
+
+
+def test_damage_under_a_reader_is_an_error(writer, ring):
+    reader, lossless = mavloom.RingReader(ring), mavloom.RingReader(ring, lossless=True)
+    fill(writer)
+    with path_of(ring).open("r+b") as file:
+        file.seek(16384)
+        file.write(struct.pack("<i", 2**30))
+    for each in (reader, lossless):
+        with pytest.raises(mavloom.InputError, match=f"ring {ring} is damaged"):
+            each.read(0)
+        with pytest.raises(mavloom.InputError, match=f"ring {ring} is damaged"):
+            next(each.batches())
+
+
+@as_root
+def test_row_3_2_a_small_shared_memory_is_an_error_with_the_numbers(start, ring):
+    process = start("""
+try:
+    mavloom.RingWriter(ring, capacity=8 << 20)
+except OSError as error:
+    import errno
+    assert isinstance(error, mavloom.Error) and error.errno == errno.ENOSPC
+    print(error, os.listdir("/dev/shm"))
+mavloom.RingWriter(ring, capacity=1 << 18).write(b"fits")
+""", ring, preexec_fn=private_shared_memory)
+    status, out, talk = ended(process)
+    assert (status, talk) == (0, "") and f"{(8 << 20) + 16384} bytes" in out and f"{1 << 20} bytes free" in out and "[]" in out
+
+
+def private_shared_memory():
+    """A /dev/shm of 1 MiB for this process."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    assert libc.unshare(0x00020000) == 0  # CLONE_NEWNS
+    assert libc.mount(b"none", b"/", None, 0x4000 | 0x40000, None) == 0  # MS_REC | MS_PRIVATE
+    assert libc.mount(b"tmpfs", b"/dev/shm", b"tmpfs", 0, b"size=1m") == 0
+
+
+# ---- permissions
+
+def test_row_3_13_the_umask_does_not_count(ring):
+    before = os.umask(0o077)
+    try:
+        with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o660):
+            assert stat.S_IMODE(path_of(ring).stat().st_mode) == 0o660
+    finally:
+        os.umask(before)
+
+
+AS_NOBODY = f"os.setgroups([]); os.setgid({NOBODY}); os.setuid({NOBODY})\n"
+
+
+@as_root
+def test_rows_3_11_and_3_12_another_users_ring_is_opened_and_not_removed(start, ring):
+    """Opened without O_CREAT, which the system may refuse there (fs.protected_regular); removed by its owner only."""
+    mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o666).close()
+    process = start(AS_NOBODY + """
+with mavloom.RingWriter(ring, capacity=1 << 16) as writer:
+    writer.write(b"of another user")
+for call in (mavloom.remove_ring, lambda name: mavloom.RingWriter(name, capacity=1 << 17)):
+    try:
+        call(ring)
+    except PermissionError as error:
+        assert isinstance(error, mavloom.Error) and "belongs to root" in str(error), error
+    else:
+        sys.exit("allowed")
+""", ring)
+    assert ended(process) == (0, "", "") and path_of(ring).exists()
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        assert reader.read(0).data == b"of another user"
+
+
+@as_root
+def test_row_3_23_who_may_only_read_polls_and_changes_nothing(start, ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
+        process = start(AS_NOBODY + """
+reader = mavloom.RingReader(ring)
+try:
+    mavloom.RingReader(ring, lossless=True)
+except PermissionError as error:
+    print(error, flush=True)
+print(*(int(reader.read().data) for _ in range(100)))
+""", ring)
+        assert "belongs to root, mode 0644" in process.stdout.readline()
+        assert status_of(ring)["readers"] == []
+        fill(writer, 100)
+        assert ended(process) == (0, " ".join(map(str, range(100))) + "\n", "")
+
+
+# ---- C++ and Python, both directions
+
+def test_example_10_python_writes_and_the_program_reads(writer, ring):
+    rng = random.Random(3)
+    sent = [(rng.randbytes(rng.randrange(300)), rng.randrange(2**62), rng.randrange(2**32), rng.randrange(2**16), rng.randrange(256)) for _ in range(200)]
+    for data, time_ns, link, kind, verdict in sent:
+        writer.write(data, time_ns=time_ns, link=link, kind=kind, verdict=verdict)
+    writer.close()
+    found = [json.loads(line) for line in program("shm", "read", ring, "--from", "oldest", "--drain", "--json").splitlines()]
+    assert [(bytes.fromhex(r["hex"]), r["time_ns"], r["link"], r["kind"], r["verdict"]) for r in found] == sent
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        assert [r.position for r in reader] == [r["position"] for r in found]
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+def test_example_10_the_program_writes_and_python_reads(writer, ring, lossless):
+    writer.close()
+    reader = mavloom.RingReader(ring, lossless=lossless)
+    lines = [f"line {number} {'x' * (number % 200)}" for number in range(5000)]
+    process = subprocess.Popen([PROGRAM, "shm", "write", ring, "--capacity", "64k", "--link", "7", "--kind", "300", "--verdict", "2"], stdin=subprocess.PIPE, text=True,
+                               stderr=subprocess.DEVNULL)
+    until(lambda: reader.writer_alive)
+    feeder = threading.Thread(target=process.communicate, args=["\n".join(lines) + "\n"])
+    feeder.start()
+    found = []
+    for batch in reader.batches():
+        found += [bytes(record.data).decode() for record in batch]
+        assert all((r.link, r.kind, r.verdict) == (7, 300, 2) for r in batch)
+    feeder.join()
+    assert len(found) + reader.missed == len(lines)
+    assert found == lines if lossless else set(found) <= set(lines)
+
+
+# ---- losses that are told
+
+def test_row_5_a_lapped_reader_is_told_by_how_many(writer, ring):
+    reader, sent, found = mavloom.RingReader(ring), 0, []
+    for _ in range(50):
+        fill(writer, 4000, first=sent)
+        sent += 4000
+        for _ in range(100):
+            found.append(int(reader.read(0).data))
+            assert found[-1] == len(found) - 1 + reader.missed
+    found += numbers(iter(lambda: reader.read(0), None))
+    assert len(found) + reader.missed == sent and reader.missed > sent / 2 and found == sorted(set(found))
+
+
+def test_what_a_full_ring_does_not_take_is_counted(ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
+        reader = mavloom.RingReader(ring, lossless=True)
+        taken = [writer.write(b"x" * 1000) for _ in range(200)]
+        assert taken.count(True) == len(list(iter(lambda: reader.read(0), None))) and taken.count(False) == writer.dropped == status_of(ring)["dropped"] > 100
+        assert writer.write(b"again") and reader.read(0).data == b"again"
+
+
+def test_row_3_15_one_who_is_stopped_under_evict_hurts_nobody_else(ring, start):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, full="evict") as writer:
+        stopped, other = mavloom.RingReader(ring, lossless=True), mavloom.RingReader(ring, lossless=True)
+        fill(writer, 1)
+        record, view = (lambda r: (r, r.data))(stopped.read(0))
+        found, sent = [], 1
+        assert stopped.holds and view == b"0"
+        while stopped.holds:
+            fill(writer, 100, first=sent)
+            sent += 100
+            found += numbers(iter(lambda: other.read(0), None))
+        assert found == list(range(sent)) and other.missed == 0 and writer.dropped == 0
+        with pytest.raises(mavloom.Error, match="took the record away"):
+            _ = record.data
+        del view
+        late = numbers(iter(lambda: stopped.read(0), None))
+        assert late[-1] == sent - 1 and late[0] == stopped.missed + 1 and len(late) + 1 + stopped.missed == sent
+
+
+# ---- kills: rows 3.6, 3.9, 3.10, 3.14
+
+FORK_WRITERS = """
+import random
+generations, rng = int(sys.argv[2]), random.Random(4)
+def write_for_ever(generation):
+    writer = mavloom.RingWriter(ring, capacity=1 << 16)
+    number = 0
+    while True:
+        writer.write(f"{generation} {number} ".encode() + bytes([number % 256]) * (number * 7 % 400))
+        number += 1
+for generation in range(generations):
+    pid = os.fork()
+    if pid == 0:
+        write_for_ever(generation)
+    time.sleep(rng.random() * 0.004)
+    os.kill(pid, signal.SIGKILL)
+    assert os.waitpid(pid, 0)[1] == signal.SIGKILL
+"""
+
+
+def check_generation(data, last):
+    """A record of FORK_WRITERS is whole and the next one; (generation, number)."""
+    generation, number, rest = bytes(data).split(b" ", 2)
+    generation, number = int(generation), int(number)
+    assert rest == bytes([number % 256]) * (number * 7 % 400)
+    assert number == (last[1] + 1 if generation == last[0] else 0) and generation >= last[0]
+    return generation, number
+
+
+@pytest.mark.parametrize("kills", [150, pytest.param(1000, marks=pytest.mark.long)])
+def test_rows_3_4_and_3_6_writers_that_are_killed(writer, ring, start, kills):
+    """At any instant, without anything removed between them: what they committed comes whole and in order, the next one carries on."""
+    writer.close()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        process = start(FORK_WRITERS, ring, kills)
+        last, count = (-1, -1), 0
+        running = True
+        while running:
+            running = process.poll() is None
+            for record in iter(lambda: reader.read(0), None):
+                last = check_generation(record.data, last)
+                count += 1
+            time.sleep(0.0005)
+        assert ended(process) == (0, "", "")
+        assert last[0] > kills // 2 and count > kills and reader.missed == 0
+        with mavloom.RingWriter(ring, capacity=64 * KIB) as next_writer:
+            next_writer.write(b"the end")
+            assert reader.read().data == b"the end"
+    assert [path.name for path in SHM.iterdir() if ring in path.name] == [path_of(ring).name]
+
+
+def test_rows_3_8_and_3_14_lossless_readers_that_are_killed_let_go(writer, ring, start):
+    for _ in range(5):
+        process = start("""
+reader = mavloom.RingReader(ring, lossless=True)
+print("open", flush=True)
+view = reader.read().data
+print(bytes(view).decode(), flush=True)
+time.sleep(3600)
+""", ring)
+        assert process.stdout.readline() == "open\n"
+        writer.write(b"held")
+        assert process.stdout.readline() == "held\n"
+        threading.Timer(0.02, process.kill).start()
+        for _ in range(100):
+            writer.write(bytes(2000))  # three times the ring: waits until the kill
+        assert process.wait(DEADLINE_S) == -signal.SIGKILL
+    assert status_of(ring)["readers"] == [] and writer.dropped == 0
+
+
+def test_example_10_the_program_is_killed_while_it_reads(writer, ring):
+    """Between its read and its release: it holds the ring, and prints to a pipe that nobody empties."""
+    for _ in range(5):
+        process = subprocess.Popen([PROGRAM, "shm", "read", ring, "--lossless"], stdout=subprocess.PIPE)
+        with process:
+            until(lambda: [r["pid"] for r in status_of(ring)["readers"]] == [process.pid])
+            threading.Timer(0.1, process.kill).start()
+            for _ in range(1000):
+                writer.write(bytes(2000))
+    assert writer.records == 5000 and writer.dropped == 0 and status_of(ring)["readers"] == []
+
+
+def test_example_10_the_program_is_killed_while_it_writes(writer, ring):
+    writer.close()
+    rng = random.Random(5)
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        for _ in range(20):
+            process = subprocess.Popen([PROGRAM, "shm", "write", ring, "--capacity", "64k"], stdin=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            feeder = threading.Thread(target=feed, args=[process.stdin], daemon=True)
+            feeder.start()
+            until(lambda: reader.writer_alive)
+            found = [int(bytes(reader.read(DEADLINE_S).data).rstrip(b"."))]
+            threading.Timer(rng.random() * 0.01, process.kill).start()
+            for record in reader:
+                number, dots = bytes(record.data).split(b".", 1)
+                assert dots == b"." * (int(number) % 50)
+                found.append(int(number))
+            assert process.wait(DEADLINE_S) == -signal.SIGKILL and found == list(range(len(found))) and found
+            feeder.join()
+        with mavloom.RingWriter(ring, capacity=64 * KIB) as following:
+            following.write(b"on")
+            assert reader.read().data == b"on" and not following.created
+
+
+def feed(pipe):
+    """Numbered lines until nobody takes them."""
+    with contextlib.suppress(OSError), pipe:
+        for number in range(10**9):
+            pipe.write(b"%d.%s\n" % (number, b"." * (number % 50)))
+
+
+def test_row_3_9_a_stopped_reader_is_not_dead(ring, start):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
+        process = start("""
+reader = mavloom.RingReader(ring, lossless=True)
+print("open", flush=True)
+print(len(list(reader)))
+""", ring)
+        assert process.stdout.readline() == "open\n"
+        process.send_signal(signal.SIGSTOP)
+        until(lambda: pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "T")
+        taken = sum(writer.write(bytes(1000)) for _ in range(100))
+        time.sleep(0.5)
+        assert not writer.write(bytes(1000)) and [r["pid"] for r in status_of(ring)["readers"]] == [process.pid]
+        process.send_signal(signal.SIGCONT)
+        until(lambda: status_of(ring)["readers"][0]["behind_records"] == 0)
+        writer.close()
+        assert ended(process) == (0, f"{taken}\n", "")
+
+
+def test_row_3_10_a_forked_child_keeps_neither_lock(ring, start):
+    process = start("""
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=True)
+writer.write(b"x")
+view = reader.read().data
+pid = os.fork()
+if pid == 0:
+    time.sleep(3600)
+print(pid, flush=True)
+time.sleep(3600)
+""", ring)
+    child = int(process.stdout.readline())
+    process.kill()
+    assert process.wait(DEADLINE_S) == -signal.SIGKILL
+    os.kill(child, 0)
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
+        for _ in range(100):
+            writer.write(bytes(2000))
+        assert status_of(ring)["readers"] == [] and writer.records == 101
+    os.kill(child, 0)
+
+
+def test_row_3_7_files_that_somebody_takes_away(writer, ring):
+    reader = mavloom.RingReader(ring, lossless=True)
+    fill(writer, 5)
+    path_of(ring, ".stat").write_bytes(b"")
+    path_of(ring).unlink()
+    fill(writer, 5, first=5)
+    assert writer.removed and reader.removed and numbers(reader.read(0) for _ in range(10)) == list(range(10))
+    writer.close(remove=True)
+    assert reader.read() is None
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+        assert second.created and not second.removed
+        second.write(b"new")
+        assert reader.read(0) is None
+        with mavloom.RingReader(ring, start="oldest") as again:
+            assert again.read(0).data == b"new"
+
+
+def test_removing(writer, ring):
+    reader = mavloom.RingReader(ring)
+    fill(writer, 3)
+    path_of(ring, ".stat").write_bytes(b"")
+    mavloom.remove_ring(ring)
+    assert ring not in mavloom.rings() and not path_of(ring, ".stat").exists()
+    assert numbers(reader) == [0, 1, 2] and reader.removed and writer.removed
+    with pytest.raises(mavloom.ClosedError, match="removed or replaced: open it again"):
+        writer.write(b"x")
+    other = mavloom.RingWriter(ring, capacity=128 * KIB)
+    other.close(remove=True)
+    other.close(remove=True)
+    assert not path_of(ring).exists()
+
+
+# ---- exits and forks: rows 3.1, 3.22, example 11
+
+EXITS = """
+import multiprocessing
+kinds = {
+    "end": lambda reader: None,
+    "sys.exit": lambda reader: sys.exit(0),
+    "os._exit": lambda reader: os._exit(0),
+    "exception": lambda reader: 1 / 0,
+    "SIGTERM": lambda reader: os.kill(os.getpid(), signal.SIGTERM),
+    "SIGKILL": lambda reader: os.kill(os.getpid(), signal.SIGKILL),
+    "abort": lambda reader: os.abort(),
+    "global": lambda reader: setattr(sys, "kept", reader),
+    "cycle": lambda reader: cycle(reader),
+    "closed": lambda reader: reader.close(),
+    "waiting": lambda reader: threading.Thread(target=reader.read, daemon=True).start(),
+}
+def cycle(reader):
+    around = [reader]
+    around.append(around)
+sys.stderr = open(os.devnull, "w")
+for number in range(110):
+    pid = os.fork()
+    if pid == 0:
+        reader = mavloom.RingReader(ring, lossless=number // len(kinds) % 2 == 0, start="oldest")
+        view = reader.read(0).data if number % 3 == 0 else None
+        if view is not None and number % len(kinds) == 9:
+            view = None
+        list(kinds.values())[number % len(kinds)](reader)
+        sys.exit(0)
+    os.waitpid(pid, 0)
+    print(number, flush=True)
+    sys.stdin.readline()
+"""
+
+
+def test_row_3_1_exits_of_every_kind_leave_the_ring_in_use(writer, ring, start):
+    reader = mavloom.RingReader(ring)
+    process = start(EXITS, ring)
+    writer.write(b"first")
+    assert reader.read().data == b"first"
+    for number in range(110):
+        assert process.stdout.readline() == f"{number}\n", ended(process)
+        for _ in range(40):  # the ring, and a quarter: nobody holds it any more
+            writer.write(b"%d" % number + bytes(2000))
+            assert reader.read().data == b"%d" % number + bytes(2000)
+        process.stdin.write("\n")
+        process.stdin.flush()
+    assert process.wait(DEADLINE_S) == 0 and path_of(ring).exists()
+    assert [r["pid"] for r in status_of(ring)["readers"]] == [os.getpid()]
+
+
+@pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
+def test_row_3_22_and_example_11_an_exit_with_all_of_it_open_is_silent(ring, start, leaks):
+    process = start(f"""
+if {leaks}:
+    mavloom._core.set_leak_warnings(True)
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+lossless, lossy = mavloom.RingReader(ring, lossless=True), mavloom.RingReader(ring)
+for _ in range(5):
+    writer.write(b"abcd")
+record = lossless.read()
+batches = lossy.batches()
+batch = next(batches)
+around = [writer, lossless, lossy, batches, batch]
+around.append(around)
+class Holder: pass
+holder = Holder()
+holder.reader, holder.itself = mavloom.RingReader(ring), holder
+if not {leaks}:
+    view, array = record.data, batch.array("S4")
+    for work in (lossy.read, lambda: list(holder.reader), lambda: [writer.write(bytes(1000)) for _ in range(1000)]):
+        threading.Thread(target=work, daemon=True).start()
+""", ring)
+    assert ended(process) == (0, "", "")
+    assert status_of(ring)["readers"] == [] and not status_of(ring)["writer_alive"]
+
+
+def test_example_11_a_forked_child_is_refused_and_the_parent_untouched(ring, start):
+    process = start("""
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=True)
+lossy = mavloom.RingReader(ring)
+batches = reader.batches()
+for number in range(3):
+    writer.write(b"%d" % number)
+batch = next(batches)
+for gone in (lossy.read, lambda: list(lossy)):
+    threading.Thread(target=gone, daemon=True).start()
+pid = os.fork()
+if pid == 0:
+    for call in (reader.read, lambda: next(batches), lambda: next(reader), lambda: reader.read(0), lambda: lossy.read(0), lambda: reader.writer_alive,
+                 batch.release, lambda: writer.write(b"x"), lambda: writer.records, lambda: writer.removed):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    writer.close(remove=True)
+    reader.close()
+    with mavloom.RingReader(ring, start="oldest") as own:
+        assert own.read(0).data == b"0"
+    del batch, batches, writer, reader, lossy
+    gc.collect()
+    sys.exit(0)
+print(os.waitpid(pid, 0)[1], [int(bytes(r.data)) for r in batch])
+batch.release()
+writer.write(b"on")
+print(bytes(reader.read(0).data), writer.removed)
+""", ring)
+    assert ended(process) == (0, "0 [0, 1, 2]\nb'on' False\n", "")
+
+
+WAITS = ["reader.read()", "next(reader)", "list(lossy)", "next(lossy.batches())", "next(reader.batches(1e6))", "list(iter(lambda: writer.write(bytes(1000)), None))"]
+
+
+@pytest.mark.parametrize("wait", WAITS)
+def test_example_11_ctrl_c_ends_a_wait(ring, start, wait):
+    process = start(f"""
+writer, reader, lossy = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=True), mavloom.RingReader(ring)
+print("ready", flush=True)
+{wait}
+""", ring)
+    assert process.stdout.readline() == "ready\n"
+    process.send_signal(signal.SIGINT)
+    _, _, talk = ended(process)
+    assert "KeyboardInterrupt" in talk
+
+
+# ---- threads
+
+def test_row_17_any_thread_may_write(writer, ring):
+    reader, threads, count = mavloom.RingReader(ring, lossless=True), 8, 2000
+
+    def write(thread):
+        for number in range(count):
+            writer.write(struct.pack("<II", thread, number))
+    workers = [threading.Thread(target=write, args=[thread], daemon=True) for thread in range(threads)]
+    for worker in workers:
+        worker.start()
+    last, found = [-1] * threads, 0
+    while found < threads * count:
+        record = reader.read(DEADLINE_S)
+        thread, number = struct.unpack("<II", record.data)
+        assert number == last[thread] + 1
+        last[thread] = number
+        found += 1
+    for worker in workers:
+        worker.join()
+    assert writer.records == found and reader.read(0) is None
+
+
+def test_row_17_readers_of_several_threads_take_turns(writer, ring):
+    reader, found = mavloom.RingReader(ring), [[] for _ in range(4)]
+    threads = [threading.Thread(target=lambda mine=mine: [mine.append(int(record.data)) for record in reader], daemon=True) for mine in found]
+    for thread in threads:
+        thread.start()
+    fill(writer, 1000)
+    until(lambda: sum(map(len, found)) == 1000)
+    assert reader.read(0) is None and reader.missed == 0
+    writer.close()
+    for thread in threads:
+        thread.join(DEADLINE_S)
+    assert sorted(sum(found, [])) == list(range(1000)) and all(mine == sorted(mine) for mine in found)
+
+
+def test_row_26_who_waits_wakes_when_it_is_closed(ring):
+    writer, reader, full = mavloom.RingWriter(ring, capacity=64 * KIB), mavloom.RingReader(ring), mavloom.RingReader(ring, lossless=True)
+    raised = []
+
+    def until_closed(call):
+        with pytest.raises(mavloom.ClosedError):
+            while True:
+                call()
+        raised.append(call)
+    threads = [threading.Thread(target=until_closed, args=[call], daemon=True) for call in (lambda: writer.write(bytes(1000)), lambda: reader.read(3600))]
+    for thread in threads:
+        thread.start()
+    until(lambda: status_of(ring)["readers"][1]["behind_bytes"] > 40_000)
+    reader.close()
+    writer.close()
+    for thread in threads:
+        thread.join(DEADLINE_S)
+    assert len(raised) == 2 and status_of(ring)["writer_pid"] == 0
+    full.close()
+
+
+def test_row_6_other_threads_run_while_one_waits(writer, ring):
+    """With the GIL held in `read` nothing would ever be written, and with it held in `write` nothing read."""
+    reader = mavloom.RingReader(ring, lossless=True)
+    found = []
+    thread = threading.Thread(target=lambda: [found.append(len(reader.read().data)) for _ in range(300)], daemon=True)
+    thread.start()
+    for number in range(300):
+        writer.write(bytes(number * 10))
+    thread.join(DEADLINE_S)
+    assert found == [number * 10 for number in range(300)]
+
+
+def test_64_readers_come_and_go(ring, start):
+    process = start("""
+import random
+def read(seed):
+    rng = random.Random(seed)
+    for _ in range(rng.randrange(1, 6)):
+        with mavloom.RingReader(ring, lossless=rng.random() < 0.5, start=rng.choice(["newest", "oldest"])) as reader:
+            last, missed = None, 0
+            for _ in range(rng.randrange(2000)):
+                record = reader.read(1)
+                if record is None:
+                    continue
+                number = record.time_ns
+                try:
+                    data = bytes(record.data)
+                    assert not reader.holds or int(data) == number, (data, number)
+                except mavloom.Error as error:
+                    assert reader.lossless and "took the record away" in str(error), error
+                assert last is None or number == last + 1 + reader.missed - missed, (last, number, missed, reader.missed)
+                last, missed = number, reader.missed
+            record = None
+pids = []
+for seed in range(64):
+    pid = os.fork()
+    if pid == 0:
+        try:
+            read(seed)
+        except BaseException as error:
+            print(repr(error), file=sys.stderr, flush=True)
+            os._exit(1)
+        os._exit(0)
+    pids.append(pid)
+print([os.waitpid(pid, 0)[1] for pid in pids].count(0))
+""", ring)
+    with mavloom.RingWriter(ring, capacity=1 << 20, full="evict") as writer:
+        number = 0
+        while process.poll() is None:
+            for number in range(number, number + 200):
+                writer.write(b"%d" % number, time_ns=number)
+            number += 1
+            time.sleep(0.001)
+        assert ended(process) == (0, "64\n", "")
+        until(lambda: status_of(ring)["readers"] == [])
+
+
+def test_a_65th_lossless_reader_is_refused_and_a_lossy_one_is_not(writer, ring):
+    readers = [mavloom.RingReader(ring, lossless=number % 2 == 0) for number in range(64)]
+    with pytest.raises(OSError, match="has 64 readers already") as raised:
+        mavloom.RingReader(ring, lossless=True)
+    assert isinstance(raised.value, mavloom.Error)
+    polling = mavloom.RingReader(ring)
+    writer.write(b"to all")
+    assert [bytes(r.read().data) for r in [*readers, polling]] == [b"to all"] * 65
+    readers.pop().close()
+    mavloom.RingReader(ring, lossless=True).close()
+
+
+# ---- links into rings
+
+@pytest.fixture
+def frames(flight):
+    return [frame for _, frame in frames_of(flight)][:5000]
+
+
+def send(port, frames):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
+        for at in range(0, len(frames), 10):
+            sock.sendto(b"".join(frames[at:at + 10]), ("127.0.0.1", port))
+            if at % 500 == 0:
+                time.sleep(0.002)
+
+
+def test_pump_moves_frames_byte_for_byte(ring, frames):
+    writer = mavloom.RingWriter(ring)
+    with mavloom.connect("udpin://127.0.0.1:0") as link, mavloom.RingReader(ring, lossless=True) as reader:
+        attitudes = link.subscribe("ATTITUDE")
+        before = time.time_ns()
+        send(link.port, frames)
+        until(lambda: link.stats.frames_in == len(frames))
+        found, thread = [], threading.Thread(target=lambda: found.extend((bytes(r.data), r.time_ns, r.link, r.kind, r.verdict) for r in reader), daemon=True)
+        thread.start()
+        assert link.pump(writer, timeout=0) == len(frames) and link.recv(timeout=0) is None
+        assert attitudes.pump(writer, 0) == sum(frame[7:10] == b"\x1e\0\0" for frame in frames)
+        writer.close()
+        thread.join(DEADLINE_S)
+        assert [data for data, *_ in found[:len(frames)]] == frames
+        assert all(before < t < time.time_ns() and (kind, verdict) == (0, 0) for _, t, _, kind, verdict in found) and len({link for _, _, link, _, _ in found}) == 1
+        assert [data for data, *_ in found[len(frames):]] == [frame for frame in frames if frame[7:10] == b"\x1e\0\0"]
+        with pytest.raises(mavloom.ClosedError, match="writer"):
+            link.pump(writer, 0)
+    with mavloom.RingWriter(ring) as second:
+        assert link.pump(second) == 0  # the link is closed: its end
+
+
+def test_pump_keeps_what_a_full_ring_has_no_room_for(writer, ring, frames):
+    with mavloom.connect("udpin://127.0.0.1:0") as link, mavloom.RingReader(ring, lossless=True) as reader:
+        send(link.port, frames)
+        until(lambda: link.stats.frames_in == len(frames))
+        moved, found = 0, []
+        while len(found) < len(frames):
+            moved += link.pump(writer, 0.001)
+            found += [bytes(record.data) for record in iter(lambda: reader.read(0), None)]
+            assert moved == len(found)
+        assert found == frames and link.stats.missed == 0
+
+
+@pytest.fixture
+def hear(child_environment):
+    """hear(words) -> a running `python -m mavloom.hear` that listens, and its port."""
+    processes = []
+
+    def call(*words, url=None):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        processes.append(subprocess.Popen([sys.executable, "-m", "mavloom.hear", url or f"udpin://127.0.0.1:{port}", *words], env=child_environment,
+                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True))
+        return processes[-1], port
+    yield call
+    for process in processes:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_hear_writes_what_it_hears_and_takes_its_ring_away(hear, ring, frames, number):
+    process, port = hear("--ring", ring)
+    assert f"writing to ring {ring}\n" in process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        send(port, frames)
+        assert [bytes(reader.read(DEADLINE_S).data) for _ in frames] == frames
+        process.send_signal(number)
+        assert ended(process) == (128 + number, "", f"{ring}: {len(frames)} frames heard, {len(frames)} written\n")
+        assert reader.read() is None and reader.removed and ring not in mavloom.rings()
+
+
+def test_hear_leaves_a_ring_that_was_there_unless_told(hear, ring):
+    for words, made_before, stays in (([], True, True), (["--remove"], True, False), (["--keep"], False, True), (["--remove"], False, False), ([], False, False)):
+        if made_before:
+            mavloom.RingWriter(ring, capacity=64 * KIB).close()
+        elif path_of(ring).exists():
+            mavloom.remove_ring(ring)
+        process, _ = hear("--ring", ring, "--capacity", "64k", *words)
+        assert ("which was there before" in process.stderr.readline()) == made_before
+        process.send_signal(signal.SIGINT)
+        assert ended(process)[0] == 130 and path_of(ring).exists() == stays
+
+
+def test_hear_tells_what_it_missed(hear, ring, frames):
+    process, port = hear("--ring", ring, "--capacity", "64k")
+    process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        send(port, frames[:1000])
+        until(lambda: status_of(ring)["readers"][0]["behind_bytes"] > 60_000)
+        process.send_signal(signal.SIGINT)
+        status, _, talk = ended(process)
+        written = len([None for _ in iter(lambda: reader.read(0), None)])
+        assert status == 130 and f"; {1000 - written} not written: the ring was full" in talk and 100 < written < 1000
+
+
+def test_hear_says_what_is_wrong(hear, writer, ring):
+    for words, status, what in ((["--ring", ring], 1, f"ring {ring} has a writer already, process {os.getpid()}"), ([], 2, "--ring"), (["--ring", "a/b"], 2, "no name"),
+                                (["--ring", ring, "--capacity", "8X"], 2, "expected a size"), (["--ring", ring, "--capacity", "100k"], 2, "power of two"),
+                                (["--ring", ring, "--mode", "9"], 2, "octal"), (["--ring", ring, "--keep", "--remove"], 2, "not allowed")):
+        process, _ = hear(*words)
+        found, _, talk = ended(process)
+        assert (found, what in talk, "Traceback" in talk) == (status, True, False), talk
+    process, _ = hear("--ring", ring + "x", url="udp://:1")
+    assert ended(process)[0] == 2 and not path_of(ring + "x").exists()
+    path_of(ring + "x").write_bytes(b"text" * 10_000)
+    process, _ = hear("--ring", ring + "x")
+    found, _, talk = ended(process)
+    assert found == 3 and "is no ring of Mavloom" in talk
+    path_of(ring + "x").unlink()
