@@ -25,6 +25,7 @@ LOADS = [
 ]
 LINKS = Load("links", "250 systems of 5 components on 64 links, 1,000 frames/s in, each to the 63 other links", 1_000, outs=0, links=64,
              systems=250, components=5)
+TAP = Load("tap", "1 to 1, 100,000 single-frame datagrams/s, every frame into a ring as well", 100_000)
 HIGHEST = Load("highest", "1 to 1, highest rate of single-frame datagrams without loss", 50_000)
 HIGHEST_CEILING, PROBES = 1_600_000, 14
 BARE, OURS = "bare loop", "mavloom"
@@ -40,6 +41,11 @@ FILTERS = ['in_block = "PARAM_VALUE,MISSION_ITEM_INT,FILE_TRANSFER_PROTOCOL,sys:
 def link_routers(program):
     return [routers.MavloomConfigured(program, OURS, [], []),
             routers.MavloomConfigured(program, "mavloom, filters and dedup", ["dedup_ms = 500"], FILTERS)]
+
+
+def taps(program):
+    return [routers.Mavloom(program), routers.MavloomWithRing(program, "mavloom --ring"),
+            routers.MavloomWithRing(program, "mavloom --ring, 3 readers", readers=3)]
 
 
 # ---- the turns
@@ -205,7 +211,7 @@ def parse_options():
     parser.add_argument("--quick", action="store_true", help="2 s and 2 rounds, the highest rate within 10 %%: a look, no figures to publish")
     parser.add_argument("--seconds", type=float, help="length of each load; default 10")
     parser.add_argument("--rounds", type=int, help="default 5")
-    parser.add_argument("--only", default="", help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{HIGHEST.key}")
+    parser.add_argument("--only", default="", help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{TAP.key},{HIGHEST.key}")
     parser.add_argument("--without", default="", help="peers to leave out: mavrouter,mavproxy")
     parser.add_argument("--nice", type=int, default=0, help="priority of load, routers and far side alike: -10 (root) on a machine that does other things")
     parser.add_argument("--json", action="store_true", help="one JSON object a line: each measurement, then ratios; the tables on standard error")
@@ -214,7 +220,7 @@ def parse_options():
     options.tools = options.tools or options.program.parent.parent / "bench" / "bin"
     options.seconds = options.seconds or (2 if options.quick else 10)
     options.rounds = options.rounds or (2 if options.quick else 5)
-    keys = [load.key for load in (*LOADS, LINKS, HIGHEST)]
+    keys = [load.key for load in (*LOADS, LINKS, TAP, HIGHEST)]
     options.only = [word for word in options.only.split(",") if word] or keys
     if unknown := set(options.only) - set(keys):
         parser.error(f"no load {', '.join(sorted(unknown))}; there are {', '.join(keys)}")
@@ -233,6 +239,8 @@ def main():
             run_table(bench, load, peers, BARE)
     if LINKS.key in options.only:
         run_table(bench, LINKS, link_routers(options.program), OURS)
+    if TAP.key in options.only:
+        run_table(bench, TAP, taps(options.program), OURS)
     if HIGHEST.key in options.only:
         find_highest(bench, peers, 1.1 if options.quick else 1.05)
     return 4 if bench.failed else 0

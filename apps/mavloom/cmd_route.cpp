@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <set>
 #include <string_view>
-#include <system_error>
 
 #include "command.hpp"
 #include "counted.hpp"
@@ -34,7 +33,8 @@ struct Options {
     std::string config;
     std::string duration;
     std::string explain;  // a message's name or id; "*": all
-    std::string name;     // empty: "router"
+    std::string ring;     // instead of the file's
+    std::string name;     // empty: the ring's name, else "router"
     std::string metrics;  // HOST:PORT
 };
 
@@ -72,6 +72,21 @@ SetupResult<runtime::Config> read_config(const std::string& file, const dialect:
     return config;
 }
 
+// The file, with what the command line says instead.
+SetupResult<runtime::Config> effective_config(const Options& options, const dialect::Dialect& dialect) {
+    auto config = read_config(options.config, dialect);
+    if (config && !options.ring.empty()) config->ring.name = options.ring;
+    return config;
+}
+
+SetupResult<void> check_endpoints(const runtime::Config& config, const std::string& file) {
+    for (const auto& endpoint : config.endpoints)
+        if (endpoint.scheme == runtime::Scheme::shm)
+            return setup_error(SetupCode::bad_input,
+                               fmt::format("{}: {}", file, runtime::ring_is_no_endpoint(endpoint)));
+    return {};
+}
+
 SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
     Plan plan;
     if (runtime::parse_endpoint(options.explain))
@@ -83,17 +98,16 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         plan.from_command_line.push_back(std::move(*endpoint));
     }
-    auto config = read_config(options.config, dialect);
+    auto config = effective_config(options, dialect);
     if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
+    if (auto good = check_endpoints(*config, options.config); !good) return tl::unexpected(std::move(good.error()));
     plan.config = std::move(*config);
     const auto endpoints = plan.endpoints();
     if (endpoints.empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
     std::set<std::filesystem::path> recordings;
-    std::error_code unknown;
     for (const auto& e : endpoints)
-        if (e.scheme == runtime::Scheme::tlog &&
-            !recordings.insert(std::filesystem::weakly_canonical(e.path, unknown)).second)
+        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(runtime::same_file(e.path)).second)
             return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
     return plan;
 }
@@ -219,12 +233,14 @@ private:
         if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
             return tell(fmt::format("mavloom: {} is a pipe or a terminal, which is read once; nothing was changed",
                                     options_.config));
-        auto config = read_config(options_.config, dialect_);
+        auto config = effective_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
             return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
         const bool same_rules = config->router == plan_.config.router;
+        if (config->ring != plan_.config.ring) tell("mavloom: [ring] stays as it is until the router starts anew");
+        config->ring = plan_.config.ring;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
         if (!same_rules) router_.configure(plan_.config.router);
@@ -242,9 +258,19 @@ private:
     runtime::ServiceManager manager_ = runtime::ServiceManager::from_environment();
 };
 
+// The ring, and the way back from its readers. Without a folder for sockets there is no way back.
+SetupResult<void> open_ring(const Common& common, const runtime::RingConfig& ring, runtime::Router& router) {
+    if (ring.name.empty()) return {};
+    if (auto opened = router.open_ring(ring); !opened) return opened;
+    const auto path = runtime::inlet_path(ring.name);
+    if (path) return router.open_inlet(ring, *path);
+    say(common, fmt::format("{}; programs cannot send by ring {}", path.error().text, ring.name));
+    return {};
+}
+
 // Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.
 SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common, const Options& options,
-                                                            runtime::Router& router) {
+                                                            const std::string& ring, runtime::Router& router) {
     runtime::ControlOptions control;
     if (!options.metrics.empty()) {
         const auto address = runtime::parse_endpoint("tcpin://" + options.metrics);
@@ -254,7 +280,8 @@ SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common
                 fmt::format("--metrics takes HOST:PORT, as in 127.0.0.1:9090, not '{}'", options.metrics));
         control.metrics = address->address;
     }
-    auto path = runtime::control_path(options.name.empty() ? "router" : options.name);
+    const std::string_view usual_name = ring.empty() ? "router" : std::string_view(ring);
+    auto path = runtime::control_path(options.name.empty() ? usual_name : options.name);
     if (path) control.socket = *path;
     else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
     else say(common, path.error().text);
@@ -289,8 +316,9 @@ Exit route(const Common& common, const Options& options) {
         if (!id) return fail(id.error());
         explain.emplace(common, *dialect, (*router)->links(), *id);
     }
+    if (auto opened = open_ring(common, plan->config.ring, **router); !opened) return fail(opened.error());
     if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
-    const auto control = open_control(common, options, **router);
+    const auto control = open_control(common, options, plan->config.ring.name, **router);
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
@@ -313,7 +341,15 @@ Run declare_route(Arguments command, const Common& common) {
         .expected(0, 1)
         .default_str("*")
         .type_name("[MESSAGE]");
-    command.add_option("--name", options->name, "what `mavloom ctl` and `stat` call it by: A-Z a-z 0-9 _ - (router)")
+    command
+        .add_option(
+            "--ring", options->ring,
+            "write every good frame into this ring, /dev/shm/mavloom.NAME, for programs of this machine, and take "
+            "what they send there")
+        .type_name("NAME");
+    command
+        .add_option("--name", options->name,
+                    "what `mavloom ctl` and `stat` call it by: A-Z a-z 0-9 _ - (the ring's name, else router)")
         .type_name("NAME");
     command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
         .type_name("HOST:PORT");
@@ -325,6 +361,7 @@ Run declare_route(Arguments command, const Common& common) {
         "arrives.\n\nExamples:\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550\n"
         "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"
+        "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550 --ring px4\n"
         "  mavloom route --config router.toml --explain COMMAND_LONG");
     return [options, &common] { return route(common, *options); };
 }

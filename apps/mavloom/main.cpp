@@ -28,7 +28,7 @@ constexpr std::array commands{
     Command{"record", "write what arrives to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
     Command{"ctl", "look at a running router and change its endpoints", declare_ctl, false},
-    Command{"stat", "the counters of a running router", declare_stat, false},
+    Command{"stat", "the counters of a running router or a ring", declare_stat, false},
     Command{"shm", "look after shared-memory rings: list, stat, write, read, remove", declare_shm, false},
     Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},

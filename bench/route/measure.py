@@ -174,7 +174,9 @@ def measure(kit, peer, load, seconds, rate=None):
         out_ports = [sock.getsockname()[1] for sock in receivers] if load.outs else []
         log = open(pathlib.Path(folder, "log"), "w+")
         router = start(peer.command(in_port, out_ports, folder), cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        beside = []
         try:
+            beside = [start(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log) for command in peer.beside()]
             wait_until_up(router, senders, receivers)
             measured = run_load(kit, load, rate, seconds, router.pid, senders, receivers)
             if router.poll() is not None:
@@ -185,7 +187,8 @@ def measure(kit, peer, load, seconds, rate=None):
             log.seek(0)
             raise NoAnswer(f"{peer.name}: {why}; it said: {log.read()[-400:].strip()!r}") from None
         finally:
-            end(router)
+            for process in (*beside, router):
+                end(process)
             log.close()
             for sock in {*senders, *receivers}:
                 sock.close()

@@ -25,6 +25,10 @@ class Peer:
     def command(self, in_port, out_ports, folder):
         raise NotImplementedError
 
+    def beside(self):
+        """Programs that run while it does."""
+        return []
+
 
 class BareLoop(Peer):
     def __init__(self, name, program, mode):
@@ -49,6 +53,20 @@ class Mavloom(Peer):
 
     def command(self, in_port, out_ports, folder):
         return self.route(f"udpin://127.0.0.1:{in_port}", *(f"udpout://127.0.0.1:{port}" for port in out_ports))
+
+
+class MavloomWithRing(Mavloom):
+    """`mavloom route --ring`, with `readers` that follow the ring beside it."""
+
+    def __init__(self, program, name, readers=0):
+        super().__init__(program, name)
+        self.ring, self.readers = f"bench-{os.getpid()}", readers
+
+    def command(self, in_port, out_ports, folder):
+        return [*super().command(in_port, out_ports, folder), "--ring", self.ring]
+
+    def beside(self):
+        return [[self.program, "shm", "read", self.ring, "--data"]] * self.readers
 
 
 class MavloomConfigured(Mavloom):

@@ -56,10 +56,10 @@ SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
 }
 
 SetupResult<void> set_capacity(Config& config, std::string_view text) {
-    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 40;  // records have up to 64 KiB
+    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 36;
     const auto size = parse_size(text);
     if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
-        return usage(fmt::format("{} is no power of two from 64k to 1024G", in_quotes(text)));
+        return usage(fmt::format("{} is no power of two from 64k to 64G", in_quotes(text)));
     return put(size, config.ring.capacity_bytes);
 }
 
@@ -67,6 +67,16 @@ SetupResult<void> set_ring_name(Config& config, std::string_view text) {
     if (!is_ring_name(text))
         return usage(fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
     config.ring.name = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_full(Config& config, std::string_view text) {
+    if (text == "wait")
+        return usage("a router waits for no reader: type evict, which tells the reader what it missed, or drop_newest");
+    constexpr std::array<std::string_view, 2> choices{"evict", "drop_newest"};
+    bool drops = false;
+    if (auto chosen = put_choice(text, choices, drops); !chosen) return chosen;
+    config.ring.full = drops ? WhenFull::drop_newest : WhenFull::evict;
     return {};
 }
 
@@ -90,7 +100,6 @@ SetupResult<void> set_record_path(Config& config, std::string_view text) {
 
 constexpr std::array<std::string_view, 2> components{"system", "drop"};
 constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
-constexpr std::array<std::string_view, 3> fulls{"wait", "drop_newest", "evict"};
 constexpr std::array<std::string_view, 4> levels{"debug", "info", "warning", "error"};
 
 constexpr std::array keys{
@@ -105,7 +114,7 @@ constexpr std::array keys{
     ConfigKey{"router", "request_streams", "off", set_request_streams},
     ConfigKey{"ring", "name", "", set_ring_name},
     ConfigKey{"ring", "capacity", "8MiB", set_capacity},
-    ConfigKey{"ring", "full", "evict", [](Config& c, std::string_view t) { return put_choice(t, fulls, c.ring.full); }},
+    ConfigKey{"ring", "full", "evict", set_full},
     ConfigKey{"ring", "mode", "0600", set_mode},
     ConfigKey{"record", "path", "", set_record_path},
     ConfigKey{"record", "rotate_bytes", "",

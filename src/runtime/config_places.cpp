@@ -100,10 +100,7 @@ SetupResult<void> detail::check_ports(const Config& config, std::string_view fil
 
 SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
     std::set<std::filesystem::path> paths;
-    const auto is_new = [&paths](const std::string& path) {
-        std::error_code unknown;
-        return paths.insert(std::filesystem::weakly_canonical(path, unknown)).second;
-    };
+    const auto is_new = [&paths](const std::string& path) { return paths.insert(same_file(path)).second; };
     if (!config.record.path.empty()) (void)is_new(config.record.path);
     return each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         static constexpr std::array<std::string_view, 2> own{"path", "url"};

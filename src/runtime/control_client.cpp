@@ -28,15 +28,10 @@ bool is_router_name(std::string_view name) noexcept {
     return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, good);
 }
 
-static SetupResult<std::filesystem::path> checked_length(std::filesystem::path path) {
+// RUN/NAME.SUFFIX; `what` for people.
+static SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
+                                                   std::string_view what) {
     constexpr std::size_t most = sizeof(sockaddr_un::sun_path) - 1;
-    if (path.native().size() <= most) return path;
-    return setup_error(SetupCode::permission, fmt::format("control socket {}: a socket's path has at most {} bytes; a "
-                                                          "shorter --name or XDG_RUNTIME_DIR helps",
-                                                          path.string(), most));
-}
-
-SetupResult<std::filesystem::path> control_path(std::string_view name) {
     if (!is_router_name(name))
         return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
     std::vector<std::filesystem::path> folders{"/run/mavloom"};
@@ -44,11 +39,24 @@ SetupResult<std::filesystem::path> control_path(std::string_view name) {
         folders.push_back(std::filesystem::path(own) / "mavloom");
     for (const auto& folder : folders) {
         ::mkdir(folder.c_str(), 0755);
-        if (::access(folder.c_str(), W_OK | X_OK) == 0) return checked_length(folder / fmt::format("{}.ctl", name));
+        if (::access(folder.c_str(), W_OK | X_OK) != 0) continue;
+        auto path = folder / fmt::format("{}.{}", name, suffix);
+        if (path.native().size() <= most) return path;
+        return setup_error(SetupCode::permission,
+                           fmt::format("{} {}: a socket's path has at most {} bytes; a shorter name or XDG_RUNTIME_DIR "
+                                       "helps",
+                                       what, path.string(), most));
     }
-    return setup_error(SetupCode::permission,
-                       "no folder for the control socket: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set");
+    return setup_error(
+        SetupCode::permission,
+        fmt::format("no folder for the {}: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set", what));
 }
+
+SetupResult<std::filesystem::path> control_path(std::string_view name) {
+    return run_path(name, "ctl", "control socket");
+}
+
+SetupResult<std::filesystem::path> inlet_path(std::string_view ring) { return run_path(ring, "in", "inlet"); }
 
 namespace {
 

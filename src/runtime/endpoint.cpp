@@ -221,6 +221,13 @@ std::optional<std::string_view> detail::query_of(std::string_view endpoint) {
     return endpoint.substr(question + 1);
 }
 
+std::filesystem::path same_file(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const auto whole = std::filesystem::absolute(path, unknown);
+    const auto real = std::filesystem::weakly_canonical(whole, unknown);
+    return unknown ? path : real;
+}
+
 std::string Endpoint::label() const {
     if (!options.name.empty()) return options.name;
     const bool has_address = (set_of(scheme) & address_schemes) != 0;

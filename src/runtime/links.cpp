@@ -7,6 +7,7 @@
 #include <map>
 
 #include "runtime/links_core.hpp"
+#include "runtime/links_inlet.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_serial.hpp"
 #include "runtime/links_shm.hpp"
@@ -113,6 +114,18 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     impl_->endpoints.push_back(std::move(*opened));
     impl_->signs_as.try_emplace(endpoint.label(), id);
     impl_->choose_coalescing();
+    return id;
+}
+
+SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::filesystem::path& socket, unsigned mode) {
+    impl_->core.refresh_now();
+    Endpoint endpoint;
+    endpoint.scheme = Scheme::shm;
+    endpoint.path = ring;
+    const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
+    auto opened = open_inlet({impl_->core, endpoint, id, nullptr}, socket, mode);
+    if (!opened) return tl::unexpected(std::move(opened).error());
+    impl_->endpoints.push_back(std::move(*opened));
     return id;
 }
 

@@ -236,6 +236,11 @@ void Core::count_sequence(Link& link, wire::SequenceTracker::Update update) noex
 }
 
 bool Core::queue(Link& link, const wire::FrameView& frame) {
+    if (link.finds_in_ring) {
+        link.counters.frames_out.add();
+        link.counters.bytes_out.add(frame.size());
+        return true;
+    }
     const MessageClasses::Rule rule = classes_.of(frame.id());
     const auto pushed = link.queue.push(frame.bytes(), rule.block_class, MessageClasses::key(frame, rule), now_);
     if (pushed.dropped != 0) [[unlikely]]

@@ -55,7 +55,8 @@ struct Link {
     std::string name;
     bool up = false;
     bool told_up = false;
-    bool queued = false;  // waits in its outlet
+    bool queued = false;         // waits in its outlet
+    bool finds_in_ring = false;  // what goes to it is in the ring: counted, never queued
     Signature* signature = nullptr;
     LinkCounters counters;
     net::BlockQueue queue;

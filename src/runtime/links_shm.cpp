@@ -18,10 +18,6 @@ constexpr std::size_t one_frame = 1;  // a datagram has room for no second one
 // What a frame can lie in: the queue's memory is one piece.
 constexpr std::size_t most_pieces = 2;
 
-SetupResult<std::filesystem::path> path_of_inlet(std::string_view ring) {
-    return control_path(ring).map([](std::filesystem::path path) { return path.replace_extension(".in"); });
-}
-
 class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
     InletSender(Opening& opening, std::filesystem::path path)
@@ -181,7 +177,7 @@ SetupResult<void> check_inlet(const Endpoint& endpoint) {
 SetupResult<std::unique_ptr<OpenEndpoint>> open_shm(Opening opening) {
     const Endpoint& endpoint = opening.endpoint;
     if (auto checked = check_inlet(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
-    auto path = path_of_inlet(endpoint.path);
+    auto path = inlet_path(endpoint.path);
     if (!path) return tl::unexpected(std::move(path.error()));
     auto inlet = std::make_unique<InletSender>(opening, std::move(*path));
     if (!endpoint.options.required) inlet->connect_or_retry();

@@ -135,11 +135,7 @@ std::optional<KeyState> parse_key_state(std::string_view text) {
     return state;
 }
 
-KeyFile::KeyFile(const std::filesystem::path& key) {
-    std::error_code unknown;
-    const auto real = std::filesystem::weakly_canonical(key, unknown);
-    path_ = (unknown ? key : real).string() + ".state";
-}
+KeyFile::KeyFile(const std::filesystem::path& key) : path_(same_file(key).string() + ".state") {}
 
 SetupResult<void> KeyFile::load() {
     const auto text = read_file(path_);

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 
-namespace mavloom::runtime::detail {
+#include "runtime/links_peer_room.hpp"
 
-// A peer that was heard more than once and was heard this lately does not give way to a newcomer: a flood of strangers cannot push out
-// those who send heartbeats (1 Hz).
-static constexpr std::chrono::seconds protected_for{2};
+namespace mavloom::runtime::detail {
 
 UdpPeers::~UdpPeers() {
     core_.loop().cancel_timer(expiry_);
@@ -68,16 +66,10 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     return peers_.back().get();
 }
 
-// The longest idle goes first: of those heard once, else of all that are not protected.
 bool UdpPeers::make_room() {
     if (peers_.size() < endpoint_.info.endpoint.options.max_peers) return true;
-    const auto rank = [](const std::unique_ptr<UdpPeer>& peer) {
-        return std::pair(peer->datagrams > 1, peer->last_heard);
-    };
-    const auto first = std::min_element(peers_.begin(), peers_.end(),
-                                        [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    const auto first = gives_way(peers_, core_.now());
     if (first == peers_.end()) return false;
-    if ((*first)->datagrams > 1 && core_.now() - (*first)->last_heard < protected_for) return false;
     endpoint_.counters.peers_evicted.add();
     drop(static_cast<std::size_t>(first - peers_.begin()),
          "more peers than max_peers, and this one was silent for longest");

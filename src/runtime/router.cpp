@@ -11,6 +11,7 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/request_data_stream.hpp"
 #include "mavloom/wire/frame_writer.hpp"
+#include "runtime/ring_tap.hpp"
 #include "runtime/stream_requests.hpp"
 
 namespace mavloom::runtime {
@@ -73,8 +74,16 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
 
 // ---- endpoints -------------------------------------------------------------------------------------------------------
 
+std::string ring_is_no_endpoint(const Endpoint& endpoint) {
+    return fmt::format(
+        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
+        "send there",
+        endpoint.label(), endpoint.path);
+}
+
 SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (endpoint.scheme == Scheme::tlog) return add_recording(endpoint);
+    if (endpoint.scheme == Scheme::shm) return setup_error(SetupCode::usage, ring_is_no_endpoint(endpoint));
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
     const auto id = links_->add(endpoint);
@@ -82,13 +91,37 @@ SetupResult<void> Router::add(const Endpoint& endpoint) {
     endpoints_.push_back(std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy)}));
     endpoints_.back()->verifies = !endpoint.options.verify_key_file.empty();
     any_signs_ = any_signs_ || !endpoint.options.sign_key_file.empty();
-    if (by_id_.size() <= id->value) by_id_.resize(id->value + 1);
-    by_id_[id->value] = endpoints_.back().get();
+    register_endpoint(*endpoints_.back());
+    return {};
+}
+
+void Router::register_endpoint(OpenedEndpoint& opened) {
+    if (by_id_.size() <= opened.id.value) by_id_.resize(opened.id.value + 1);
+    by_id_[opened.id.value] = &opened;
+}
+
+SetupResult<void> Router::open_ring(const RingConfig& config) {
+    auto opened = RingTap::open(config);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    ring_ = std::move(*opened);
+    return {};
+}
+
+SetupResult<void> Router::open_inlet(const RingConfig& config, const std::filesystem::path& socket) {
+    const auto id = links_->add_inlet(config.name, socket, config.mode & 0666u);
+    if (!id) return tl::unexpected(id.error());
+    inlet_ = std::make_unique<OpenedEndpoint>();
+    inlet_->id = *id;
+    inlet_->endpoint.scheme = Scheme::shm;
+    inlet_->endpoint.path = config.name;
+    register_endpoint(*inlet_);
     return {};
 }
 
 SetupResult<void> Router::add_recording(const Endpoint& endpoint) {
-    const auto same = [&](const Endpoint& e) { return e.path == endpoint.path || e.label() == endpoint.label(); };
+    const auto same = [&](const Endpoint& e) {
+        return same_file(e.path) == same_file(endpoint.path) || e.label() == endpoint.label();
+    };
     if (std::ranges::any_of(recordings_, same))
         return setup_error(SetupCode::usage, fmt::format("{} is recorded already", endpoint.label()));
     if (endpoint.options.speed)
@@ -228,13 +261,17 @@ void Router::on_frame(const RxFrame& rx) {
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
     traffic_.add(rx.link, rx.frame, rx.time);
     if (config_.request_streams_hz != 0 && rx.frame.id() == msg::Heartbeat::id) ask_for_streams(rx);
-    if (explainer_) [[unlikely]] {
-        const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_->now(), why_);
-        explainer_(rx, decision, why_);
-        send(rx, decision.links);
-    } else {
-        send(rx, engine_.route(rx.frame, mark, rx.info, rx.link, links_->now()).links);
-    }
+    const auto decision = decide(rx, mark);
+    if (ring_) ring_->write(rx, decision.verdict, by_id_[rx.endpoint.value]->verifies);
+    send(rx, decision.links);
+}
+
+route::Decision Router::decide(const RxFrame& rx, std::uint64_t mark) {
+    if (!explainer_) [[likely]]
+        return engine_.route(rx.frame, mark, rx.info, rx.link, links_->now());
+    const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_->now(), why_);
+    explainer_(rx, decision, why_);
+    return decision;
 }
 
 // A frame gets our signature only if it came with one that we verified: nobody shall have us vouch for what he sends.
@@ -250,6 +287,7 @@ void Router::send(const RxFrame& rx, std::span<const LinkId> links) {
 }
 
 void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name) {
+    if (ring_) ring_->on_link_up(link, name);
     if (!engine_.add_link(link, by_id_[endpoint.value]->policy))
         return notice_(LogLevel::warning,
                        fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
@@ -257,8 +295,11 @@ void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name)
     if (may_tell_of_link(endpoint)) notice_(LogLevel::info, fmt::format("{}: up", name));
 }
 
+// What the router itself sends is in no ring: those who would find it there get none.
 void Router::begin_to_beat(LinkId link, EndpointId endpoint) {
-    if (config_.heartbeat && !by_id_[endpoint.value]->policy.tap) heartbeats_.push_back({link, links_->now()});
+    const OpenedEndpoint* const opened = by_id_[endpoint.value];
+    if (config_.heartbeat && !opened->policy.tap && opened != inlet_.get())
+        heartbeats_.push_back({link, links_->now()});
 }
 
 bool Router::may_tell_of_link(EndpointId endpoint) noexcept {
@@ -278,6 +319,7 @@ void Router::on_link_down(LinkId link, EndpointId endpoint, std::string_view why
 }
 
 void Router::forget_link(LinkId link) {
+    if (ring_) ring_->on_link_down(link);
     engine_.remove_link(link);
     std::erase_if(heartbeats_, [&](const HeartbeatLink& h) { return h.link == link; });
     stream_requests_->forget(link);
@@ -288,10 +330,15 @@ void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::in
 // ---- turns -----------------------------------------------------------------------------------------------------------
 
 void Router::turn(MonoTime deadline) {
-    if (links_->turn(*this,
-                     has_posted_.load(std::memory_order_acquire) ? MonoTime{} : std::min(deadline, next_due())) != 0)
-        for (const auto& recorder : recorders_) recorder->publish();
+    const std::size_t frames = links_->turn(
+        *this, has_posted_.load(std::memory_order_acquire) ? MonoTime{} : std::min(deadline, next_due()));
     const MonoTime now = mono_now();
+    if (frames != 0)
+        for (const auto& recorder : recorders_) recorder->publish();
+    if (ring_) {
+        ring_->note_turn(frames, now);
+        if (now >= ring_->page_due()) refresh_page();
+    }
     if (has_posted_.load(std::memory_order_acquire)) run_posted();
     for (auto& link : heartbeats_)
         if (now >= link.due) beat(link, now);
@@ -299,7 +346,7 @@ void Router::turn(MonoTime deadline) {
 }
 
 MonoTime Router::next_due() const noexcept {
-    MonoTime due = look_due_;
+    MonoTime due = ring_ ? std::min(look_due_, ring_->page_due()) : look_due_;
     for (const auto& link : heartbeats_) due = std::min(due, link.due);
     return due;
 }
@@ -310,6 +357,8 @@ void Router::finish(Nanoseconds limit) {
     for (const auto& recorder : recorders_) recorder->stop();
     for (const auto& recorder : ending_recorders_) recorder->stop();
     while (has_posted_.load(std::memory_order_acquire)) run_posted();
+    if (inlet_) links_->remove(inlet_->id);
+    ring_.reset();
 }
 
 void Router::post(std::function<void(Router&)> work) {
@@ -379,10 +428,11 @@ void Router::ask_for_streams(const RxFrame& rx) {
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
-    for (const auto& e : endpoints_) {
-        e->may_tell = std::min(most_told, e->may_tell + told_each_look);
-        if (const auto more = std::exchange(e->not_told, 0); more != 0)
-            notice_(LogLevel::info, fmt::format("{}: {} more times a link came or went", e->endpoint.label(), more));
+    for (const auto& e : endpoints_) tell_more_links(*e);
+    if (inlet_) tell_more_links(*inlet_);
+    if (ring_) {
+        for (const auto& text : ring_->look_after(*links_)) notice_(LogLevel::warning, text);
+        refresh_page();
     }
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
@@ -399,6 +449,14 @@ void Router::look_after(MonoTime now) {
             fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
                         d.source.system.value, d.source.component.value, name(d.first), name(d.second)));
     }
+}
+
+void Router::refresh_page() { ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt); }
+
+void Router::tell_more_links(OpenedEndpoint& opened) {
+    opened.may_tell = std::min(most_told, opened.may_tell + told_each_look);
+    if (const auto more = std::exchange(opened.not_told, 0); more != 0)
+        notice_(LogLevel::info, fmt::format("{}: {} more times a link came or went", opened.endpoint.label(), more));
 }
 
 }  // namespace mavloom::runtime

@@ -57,7 +57,7 @@ SetupResult<Endpoint> parse_router_endpoint(std::string_view text) {
     auto endpoint = parse_endpoint(text);
     if (!endpoint) return endpoint;
     const bool has_port = endpoint->scheme != Scheme::tlog && endpoint->scheme != Scheme::serial &&
-                          endpoint->scheme != Scheme::shm;
+                          endpoint->scheme != Scheme::shm;  // which Router::add refuses
     if (has_port && endpoint->address.port == 0)
         return setup_error(SetupCode::usage,
                            fmt::format("{}: a router's port is known to others; name one", endpoint->label()));

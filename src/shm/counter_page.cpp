@@ -237,6 +237,8 @@ void CounterPage::forget_link(LinkId link) {
     links_.erase(known);
 }
 
+bool CounterPage::is_removed() const noexcept { return !segment_->is_named(); }
+
 SetupResult<CounterSnapshot> read_counters(std::string_view name) {
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
     const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes);

@@ -53,6 +53,8 @@ def runnable(line):
         words[words.index("--for") + 1] = "300ms"
     if words[0] == "shm":
         words = [f"docs-{os.getpid()}" if word == "px4" else word for word in words]
+    if words[0] == "route":
+        words = [f"docs-{os.getpid()}-{harness.free_port()}" if word == "px4" else word for word in words]
     if words[0] == "replay" and "--no-wait" not in words:
         words.append("--no-wait")
     return words
@@ -78,16 +80,18 @@ def folder(tmp_path, run):
 @pytest.fixture
 def router_name(spawn):
     name = f"docs-{os.getpid()}-{harness.free_port()}"
-    router = spawn("route", f"udpout://127.0.0.1:{harness.free_port()}?name=tablet", "--name", name)
+    router = spawn("route", f"udpout://127.0.0.1:{harness.free_port()}?name=tablet", "--ring", name)
     router.wait_output("tablet: up")
-    return name
+    yield name
+    router.process.terminate()
+    router.wait()
 
 
 @pytest.mark.parametrize("line", list(page_examples()))
 def test_example_of_a_page(run, folder, request, line):
     words = runnable(line)
     if words[0] in ASKING:
-        words = [request.getfixturevalue("router_name") if word == "router" else word.replace("=tablet", "=other") for word in words]
+        words = [request.getfixturevalue("router_name") if word in ("router", "px4") else word.replace("=tablet", "=other") for word in words]
     done = run(*words, cwd=folder)
 
     assert done.status == 0, done

@@ -16,12 +16,13 @@
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/runtime/endpoint.hpp"
+#include "mavloom/shm/record.hpp"
 
 namespace mavloom::runtime {
 
 using route::UnknownComponent;
 using route::UnknownTarget;
-enum class RingFull : std::uint8_t { wait, drop_newest, evict };
+using shm::WhenFull;
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
 struct RouterConfig {
@@ -37,8 +38,9 @@ struct RouterConfig {
 struct RingConfig {
     std::string name;  // empty: no ring
     std::uint64_t capacity_bytes = 0;
-    RingFull full = RingFull::evict;
+    WhenFull full = WhenFull::evict;  // never `wait`: routing waits for nobody
     std::uint16_t mode = 0;
+    friend bool operator==(const RingConfig&, const RingConfig&) = default;
 };
 
 struct RecordConfig {

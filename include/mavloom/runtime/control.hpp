@@ -25,6 +25,9 @@ class Router;
 // RUN/NAME.ctl; makes the folder RUN where it is missing.
 [[nodiscard]] SetupResult<std::filesystem::path> control_path(std::string_view name);
 
+// RUN/NAME.in, where the router that writes the ring NAME takes frames from programs of this machine; makes the folder likewise.
+[[nodiscard]] SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
+
 struct ControlOptions {
     std::filesystem::path socket;  // empty: none
     std::optional<HostPort> metrics;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,6 +84,9 @@ struct Endpoint {
     [[nodiscard]] std::string label() const;
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
+
+// The path by which a file is known however it is spelt; it need not exist.
+[[nodiscard]] std::filesystem::path same_file(const std::filesystem::path& path);
 
 // "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, pymavlink's among them. Errors are `usage`, name what is wrong with this
 // text and the spelling to type.

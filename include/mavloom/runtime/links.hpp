@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -121,6 +122,11 @@ public:
     // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
     // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
     [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
+    // The inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` that may be sent to as `mode` says. Each sender of a
+    // valid frame is a link, all that are not bound are one; what is sent to these links is counted and goes nowhere, for they find it in the ring.
+    // A socket that nobody serves any more is replaced; `in_use` where somebody does.
+    [[nodiscard]] SetupResult<EndpointId> add_inlet(const std::string& ring, const std::filesystem::path& socket,
+                                                    unsigned mode);
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
     // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,7 +25,11 @@
 
 namespace mavloom::runtime {
 
+class RingTap;
 class StreamRequests;
+
+// Why a router refuses shm://NAME, for who types it.
+[[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
 
 class Router : private LinkHandler {
 public:
@@ -42,6 +47,12 @@ public:
 
     // A link endpoint, or tlog://PATH: a recording of every frame that arrives, taken before routing.
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
+    // Every good frame that arrives is written once into a ring, whatever becomes of it, and a counter page tells of the links (docs/formats/ring.md).
+    // Carries on in a ring whose router was killed; errors as of shm::RingWriter::open. At the end ring and page are removed. Once, before the
+    // first turn.
+    [[nodiscard]] SetupResult<void> open_ring(const RingConfig& config);
+    // The socket by which who reads that ring sends frames: Links::add_inlet.
+    [[nodiscard]] SetupResult<void> open_inlet(const RingConfig& config, const std::filesystem::path& socket);
     // By its label (`name=`, else the URL without its query). False when there is none.
     bool remove(std::string_view label);
     // Other [router] values. Links stay, and so does what was learned and counted.
@@ -57,7 +68,7 @@ public:
 
     // One turn of the links; then what was posted, and what is due.
     void turn(MonoTime deadline);
-    // Sends what is queued for at most `limit`, and closes the recordings.
+    // Sends what is queued for at most `limit`, closes the recordings, and removes the ring.
     void finish(Nanoseconds limit);
 
     // Async-signal-safe.
@@ -101,8 +112,10 @@ private:
     void on_notice(EndpointId endpoint, std::string_view text) override;
 
     [[nodiscard]] SetupResult<void> add_recording(const Endpoint& endpoint);
+    [[nodiscard]] route::Decision decide(const RxFrame& rx, std::uint64_t mark);
     [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const Endpoint& endpoint);
     [[nodiscard]] route::GroupId group_id(const std::string& name);
+    void register_endpoint(OpenedEndpoint& opened);
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
     void order_as(const std::vector<Endpoint>& endpoints);
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
@@ -117,6 +130,8 @@ private:
     bool send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now);
     void ask_for_streams(const RxFrame& rx);
     void look_after(MonoTime now);
+    void refresh_page();
+    void tell_more_links(OpenedEndpoint& opened);
     [[nodiscard]] MonoTime next_due() const noexcept;
 
     const dialect::Dialect& dialect_;
@@ -133,6 +148,8 @@ private:
     std::vector<std::unique_ptr<Recorder>> recorders_;
     std::vector<std::unique_ptr<Recorder>> ending_recorders_;  // removed, and still writing
     std::vector<Endpoint> recordings_;                         // what each recorder was made from
+    std::unique_ptr<OpenedEndpoint> inlet_;                    // null: none
+    std::unique_ptr<RingTap> ring_;                            // null: none
     std::vector<HeartbeatLink> heartbeats_;
     std::unique_ptr<StreamRequests> stream_requests_;  // never null
     bool any_signs_ = false;

@@ -54,6 +54,9 @@ public:
     bool name_link(LinkId link, std::string_view name);
     void forget_link(LinkId link);
 
+    // Whether somebody removed or replaced the page: who looks now does not find it. Two system calls.
+    [[nodiscard]] bool is_removed() const noexcept;
+
 private:
     CounterPage(std::unique_ptr<Segment> segment, const CounterPageOptions& options);
     void end() noexcept;

@@ -43,7 +43,7 @@ TEST(Config, AnEmptyFileGivesTheDefaults) {
     EXPECT_EQ(config.router.route_timeout, 60s);
     EXPECT_FALSE(config.router.heartbeat.has_value());
     EXPECT_EQ(config.ring.capacity_bytes, 8388608u);
-    EXPECT_EQ(config.ring.full, RingFull::evict);
+    EXPECT_EQ(config.ring.full, WhenFull::evict);
     EXPECT_EQ(config.ring.mode, 0600);
     EXPECT_EQ(config.log_level, LogLevel::info);
     EXPECT_EQ(config.web.listen, (HostPort{"127.0.0.1", 8088}));
@@ -180,7 +180,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[router]\nroute_timeout = 2024-01-01\n", "of a kind that it cannot have"},
         Bad{"[router]\nheartbeat = \"255\"\n", "neither off nor SYS/COMP"},
         Bad{"[ring]\ncapacity = 3000000\n", "no power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
-        Bad{"[ring]\nname = \"a b\"\n", "no ring name"}, Bad{"[record]\nrotate_every = \"10ms\"\n", "1s is the least"},
+        Bad{"[ring]\nfull = \"wait\"\n", "a router waits for no reader: type evict"},
+        Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "no ring name"},
+        Bad{"[record]\nrotate_every = \"10ms\"\n", "1s is the least"},
         Bad{"[record]\nrotate_bytes = 1\n", "out of range (4096 to"},
         Bad{"[web]\nlisten = \"8088\"\n", "the host is missing"},
         Bad{"[[endpoint]]\nname = \"x\"\n", "r.toml:1: an endpoint needs url"},
@@ -263,7 +265,10 @@ TEST(Config, MessagesAreLookedUpWithFileAndLine) {
 }
 
 TEST(Config, TwoRecordingsInOneFileAreAnErrorOfTheSecond) {
-    const auto error_of = [](std::string_view text) { return parse_config(text, "r.toml").error().text; };
+    const auto error_of = [](std::string_view text) {
+        const auto config = parse_config(text, "r.toml");
+        return config ? std::string("good") : config.error().text;
+    };
     EXPECT_EQ(error_of("[record]\npath = \"a.tlog\"\n[[endpoint]]\nurl = \"tlog://./a.tlog?name=b\"\n"),
               "r.toml:4: './a.tlog' is recorded already");
     EXPECT_EQ(error_of("[[endpoint]]\nurl = \"tlog://a.tlog\"\n[[endpoint]]\nscheme = \"tlog\"\nname = \"b\"\npath = "

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Counts operator new: in steady state the way of a frame from socket to parser to queue to socket must not allocate.
+#include <sys/un.h>
+
 #include "support/count_allocations.hpp"
+#include "support/temp_dir.hpp"
 #include "unit/runtime/links_fixture.hpp"
+
+namespace mavloom::test {
+std::size_t allocations_so_far() noexcept;
+std::size_t allocations_so_far() noexcept { return allocations; }
+}  // namespace mavloom::test
 
 namespace mavloom::runtime {
 namespace {
@@ -64,6 +72,36 @@ TEST(LinksAllocation, TcpInSteadyStateAllocatesNothing) {
     };
     for (int i = 0; i < 3; ++i) (void)allocations_of(node, forwarder, burst, 50);
     for (int i = 0; i < 20; ++i) EXPECT_EQ(allocations_of(node, forwarder, burst, 50), 0u);
+}
+
+TEST(LinksAllocation, TheInletInSteadyStateAllocatesNothing) {
+    const test::TempDir dir;
+    Node node;
+    Forwarder forwarder;
+    const auto far = PlainSocket::udp();
+    forwarder.links = node.links.get();
+    forwarder.out = node.add(fmt::format("udpout://127.0.0.1:{}", far.port()));
+    ASSERT_TRUE(node.links->add_inlet("ring", dir / "ring.in", 0600));
+    sockaddr_un inlet{};
+    inlet.sun_family = AF_UNIX;
+    (dir / "ring.in").string().copy(inlet.sun_path, sizeof inlet.sun_path - 1);
+    const int a = ::socket(AF_UNIX, SOCK_DGRAM, 0), b = ::socket(AF_UNIX, SOCK_DGRAM, 0);
+    const sa_family_t by_itself = AF_UNIX;  // an abstract address of the kernel's choice
+    ASSERT_EQ(::bind(a, reinterpret_cast<const sockaddr*>(&by_itself), sizeof by_itself), 0);
+    std::uint8_t sequence = 0;
+    const auto burst = [&] {
+        for (int i = 0; i < 4; ++i, ++sequence)
+            for (const int fd : {a, b}) {
+                const Bytes frame = attitude(sequence, fd == a ? 1 : 2);
+                EXPECT_EQ(::sendto(fd, frame.data(), frame.size(), MSG_DONTWAIT,
+                                   reinterpret_cast<const sockaddr*>(&inlet), sizeof inlet),
+                          static_cast<ssize_t>(frame.size()));
+            }
+    };
+    for (int i = 0; i < 3; ++i) (void)allocations_of(node, forwarder, burst, 8);
+    for (int i = 0; i < 20; ++i) EXPECT_EQ(allocations_of(node, forwarder, burst, 8), 0u);
+    ::close(a);
+    ::close(b);
 }
 
 }  // namespace

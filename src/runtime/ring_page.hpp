@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The counter page of a router's ring: the names of links, and copies of their counters, written now and then by the router's thread for whoever
+// looks. Private to module runtime; one owner thread.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/runtime/links.hpp"
+#include "mavloom/shm/counter_page.hpp"
+
+namespace mavloom::runtime {
+
+// The counters of a link that stand in the page, under these labels.
+struct PagedCounter {
+    std::string_view label;
+    Counter LinkCounters::*word;
+};
+inline constexpr std::array<PagedCounter, 11> paged_counters{{{"frames_in", &LinkCounters::frames_in},
+                                                              {"bytes_in", &LinkCounters::bytes_in},
+                                                              {"frames_out", &LinkCounters::frames_out},
+                                                              {"bytes_out", &LinkCounters::bytes_out},
+                                                              {"lost", &LinkCounters::lost},
+                                                              {"crc_error", &LinkCounters::crc_error},
+                                                              {"junk_bytes", &LinkCounters::junk_bytes},
+                                                              {"bad_signature", &LinkCounters::bad_signature},
+                                                              {"queue_bytes", &LinkCounters::queue_bytes},
+                                                              {"queue_age", &LinkCounters::queue_age},
+                                                              {"frames_not_sent", &LinkCounters::frames_not_sent}}};
+
+class RingPage {
+public:
+    static constexpr std::size_t most_rows = 256;  // links with counters of their own: the busiest
+    // Names of links that are gone, for their records that the ring still holds.
+    static constexpr std::size_t most_gone = 1024;
+
+    [[nodiscard]] static SetupResult<RingPage> create(const std::string& ring, unsigned mode);
+
+    void name_link(LinkId link, std::string_view name);
+    void link_went(LinkId link);
+
+    struct OfRing {
+        std::uint64_t records = 0, dropped = 0;
+    };
+    // Copies what was counted. `inlet`: which of the endpoints it is.
+    void refresh(const std::vector<LinkInfo>& links, const std::vector<EndpointInfo>& endpoints,
+                 std::optional<EndpointId> inlet, const OfRing& ring);
+    // Somebody took the page's name away. Two system calls.
+    [[nodiscard]] bool is_removed() const noexcept { return page_.is_removed(); }
+
+private:
+    using Words = std::array<Counter*, paged_counters.size()>;
+
+    explicit RingPage(shm::CounterPage page);
+    [[nodiscard]] Words add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link);
+    void choose_rows(const std::vector<const LinkInfo*>& busiest);
+    void add_row(LinkId link);
+    void remove_row(std::map<LinkId, Words>::iterator row);
+
+    shm::CounterPage page_;
+    std::map<LinkId, Words> rows_;
+    std::deque<LinkId> gone_;  // the longest gone first
+    Words others_{};
+    Counter *records_, *dropped_, *links_, *stray_bytes_, *refused_, *evicted_;
+};
+
+// The busiest links, at most `most`, by id. For tests.
+[[nodiscard]] std::vector<const LinkInfo*> busiest_links(const std::vector<LinkInfo>& links, std::size_t most);
+
+}  // namespace mavloom::runtime

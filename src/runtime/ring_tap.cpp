@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/ring_tap.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mavloom::runtime {
+
+RingTap::RingTap(RingConfig config, shm::RingWriter writer, RingPage page)
+    : config_(std::move(config)), writer_(std::move(writer)), page_(std::move(page)) {}
+
+// The writer's lock comes first: who has it owns the page as well.
+SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config) {
+    auto writer = shm::RingWriter::open(config.name, {config.capacity_bytes, config.full, config.mode});
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    auto page = RingPage::create(config.name, config.mode);
+    if (!page) {
+        (void)writer->close(shm::RingWriter::Leave::nothing);
+        return tl::unexpected(std::move(page.error()));
+    }
+    return std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page)));
+}
+
+RingTap::~RingTap() { (void)writer_.close(shm::RingWriter::Leave::nothing); }
+
+void RingTap::refresh_page(const Links& links, std::optional<EndpointId> inlet) {
+    page_due_ = MonoTime::max();
+    if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {writer_.records(), dropped_.value()});
+}
+
+std::vector<std::string> RingTap::look_after(const Links& links) {
+    std::vector<std::string> notices;
+    if (writer_.is_removed()) {
+        const auto anew = writer_.reopen();
+        if (anew) notices.push_back(fmt::format("ring {} was removed, and is made anew", config_.name));
+        else if (!told_ring_)
+            notices.push_back(
+                fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted "
+                            "as dropped",
+                            config_.name, anew.error().text));
+        told_ring_ = !anew;
+    }
+    if (!page_ || page_->is_removed()) make_page_anew(links, notices);
+    return notices;
+}
+
+void RingTap::make_page_anew(const Links& links, std::vector<std::string>& notices) {
+    auto anew = RingPage::create(config_.name, config_.mode);
+    if (!anew) {
+        if (!std::exchange(told_page_, true))
+            notices.push_back(fmt::format("no counter page of ring {}: {}", config_.name, anew.error().text));
+        page_.reset();
+        return;
+    }
+    told_page_ = false;
+    page_.emplace(std::move(*anew));
+    for (const auto& link : links.links()) page_->name_link(link.id, link.name);
+    page_due_ = MonoTime{};
+}
+
+}  // namespace mavloom::runtime

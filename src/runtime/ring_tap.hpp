@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The router's end of a ring: every good frame once, as it was received, with link and verdict; and the ring's counter page. Nobody who reads can
+// hold up or end the routing. Private to module runtime; one owner thread. Per frame it neither allocates, locks nor makes a system call, but for
+// one a millisecond while a reader sleeps.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mavloom/runtime/config.hpp"
+#include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/ring_frames.hpp"
+#include "mavloom/shm/ring_writer.hpp"
+#include "runtime/ring_page.hpp"
+
+namespace mavloom::runtime {
+
+class RingTap {
+public:
+    // Carries on in a ring whose writer was killed. Errors as of RingWriter::open.
+    [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(const RingConfig& config);
+    RingTap(const RingTap&) = delete;
+    RingTap& operator=(const RingTap&) = delete;
+    ~RingTap();  // removes the ring and its page
+
+    // `verified`: came by an endpoint with verify=.
+    void write(const RxFrame& rx, route::Verdict verdict, bool verified) noexcept {
+        const auto signature = !rx.frame.is_signed() ? FrameSignature::none
+                               : verified            ? FrameSignature::good
+                                                     : FrameSignature::unchecked;
+        const shm::RecordInfo info{rx.time, rx.link, ring_kind_frame, ring_verdict(verdict, signature)};
+        if (!writer_.write(rx.frame.bytes(), info, MonoTime{})) [[unlikely]]
+            dropped_.add();
+    }
+
+    void on_link_up(LinkId link, std::string_view name) {
+        links_changed_ = true;
+        if (page_) page_->name_link(link, name);
+    }
+    void on_link_down(LinkId link) {
+        links_changed_ = true;
+        if (page_) page_->link_went(link);
+    }
+
+    // Behind each turn: the page is due soon where there is something new.
+    void note_turn(std::size_t frames, MonoTime now) noexcept {
+        const bool is_new = std::exchange(links_changed_, false) || frames != 0;
+        if (is_new && page_due_ == MonoTime::max()) page_due_ = now + page_interval;
+    }
+    [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
+    void refresh_page(const Links& links, std::optional<EndpointId> inlet);
+
+    // About once a second: a ring or page that somebody removed is made anew. What is to be said.
+    [[nodiscard]] std::vector<std::string> look_after(const Links& links);
+
+private:
+    static constexpr std::chrono::milliseconds page_interval{250};
+
+    RingTap(RingConfig config, shm::RingWriter writer, RingPage page);
+    void make_page_anew(const Links& links, std::vector<std::string>& notices);
+
+    RingConfig config_;
+    shm::RingWriter writer_;
+    std::optional<RingPage> page_;
+    Counter dropped_;  // frames that are not in the ring
+    MonoTime page_due_{};
+    bool links_changed_ = false;
+    bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
+};
+
+}  // namespace mavloom::runtime

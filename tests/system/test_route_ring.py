@@ -1,0 +1,621 @@
+# SPDX-License-Identifier: MIT
+"""mavloom route --ring: the tap, its counter page, and the inlet. The ring is read here by docs/formats/ring.md; frames are pymavlink's."""
+import array
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import time
+import types
+import uuid
+
+import pytest
+
+import frames
+import harness
+import routers
+from routers import Router, UdpEnd, attitude, command, damaged, heartbeat, make, unknown
+from frames import mavlink
+
+pytestmark = pytest.mark.short
+
+GCS, VEHICLE = (255, 190), (1, 1)
+HOST = ("127.0.0.1",)
+
+# The verdict byte of docs/formats/ring.md.
+FORWARDED, NOWHERE, FILTERED, RATE_LIMITED, DUPLICATE, ECHO, UNKNOWN_TARGET, CONSUMED, TAP, PRIVATE = range(1, 11)
+UNCHECKED, GOOD = 1 << 4, 2 << 4
+
+
+# ---- reading by the documented bytes ---------------------------------------------------------------------------------
+
+def is_mark(frame) -> bool:
+    return frame[5 if frame[0] == 0xFD else 3] == 0
+
+
+def next_from(end) -> bytes:
+    """The next frame that came there, marks left out."""
+    while is_mark(frame := end.next()):
+        pass
+    return frame
+
+
+def shared(name, suffix="") -> pathlib.Path:
+    return pathlib.Path(f"/dev/shm/mavloom.{name}{suffix}")
+
+
+def records(name) -> list:
+    """All that the ring holds, which must not have gone round."""
+    data = shared(name).read_bytes()
+    assert data[:8] == b"MVLRING\0" and struct.unpack_from("<HH", data, 8) == (1, 0)
+    capacity, = struct.unpack_from("<Q", data, 16)
+    tail, = struct.unpack_from("<Q", data, 128)
+    assert tail < capacity, "the ring went round: what began it is overwritten"
+    found, position = [], 0
+    while position < tail:
+        length, kind, verdict, flags, link, sequence, time_ns = struct.unpack_from("<iHBBIIq", data, 16384 + position)
+        assert length >= 0 and flags == 0
+        begin = 16384 + position + 24
+        found.append(types.SimpleNamespace(data=data[begin:begin + length], kind=kind, verdict=verdict, link=link, sequence=sequence, time_ns=time_ns))
+        position += (24 + length + 7) // 8 * 8
+    assert [record.sequence for record in found] == list(range(len(found)))
+    return found
+
+
+class Tapped:
+    """A router with a ring, a vehicle and a ground station; a mark tells that all that was sent before is in the ring."""
+
+    def __init__(self, spawn, ring, *extra, vehicle="", ground="", rules=None, options=("--ring",)):
+        self.ring = ring
+        port = routers.udp_port()
+        self.vehicle = UdpEnd((*HOST, port), "vehicle")
+        near = routers.udp_port()
+        self.ground = UdpEnd((*HOST, near), "ground")
+        urls = [f"udpin://127.0.0.1:{port}?name=vehicle{vehicle}",
+                f"udpout://127.0.0.1:{self.ground.port}?bind=127.0.0.1:{near}&name=ground{ground}"]
+        self.router = Router(spawn, *urls, *extra, *([*options, ring] if options else []), rules=rules)
+
+    def close(self):
+        self.vehicle.close()
+        self.ground.close()
+
+    @property
+    def inlet(self) -> str:
+        paths = [f"{run}/{self.ring}.in" for run in ("/run/mavloom", f"{routers.runtime_dir()}/mavloom")]
+        return harness.wait_for(lambda: next((p for p in paths if os.path.exists(p)), None), what="the inlet")
+
+    def settled(self) -> list:
+        """The records so far, without those of marks. Marks come by the ground station's link, which is always up."""
+        mark = heartbeat((0, 0))
+        self.ground.send(mark)
+        harness.wait_for(lambda: any(r.data == mark for r in records(self.ring)), what="the mark in the ring")
+        return [r for r in records(self.ring) if not is_mark(r.data)]
+
+    def sent_by(self, end, *all_frames) -> list:
+        """Their records, once the last is in the ring."""
+        for frame in all_frames:
+            end.send(frame)
+        harness.wait_for(lambda: any(r.data == all_frames[-1] for r in records(self.ring)), what="the last frame in the ring")
+        return self.settled()
+
+    def page(self, run) -> list:
+        done = run("stat", self.ring, "--json", env=self.router.env)
+        assert done.status == 0, done
+        return [json.loads(line) for line in done.lines]
+
+    def names(self, run) -> dict:
+        return {line["id"]: line["link"] for line in self.page(run) if line["kind"] == "link"}
+
+
+@pytest.fixture
+def ring():
+    name = f"tap-{os.getpid()}-{uuid.uuid4().hex[:8]}"
+    yield name
+    for path in (shared(name), shared(name, ".stat"), *(pathlib.Path(run) / f"{name}.in" for run in ("/run/mavloom", f"{routers.runtime_dir()}/mavloom"))):
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+@pytest.fixture
+def tapped(spawn, ring):
+    made = []
+
+    def build(*extra, **options):
+        made.append(Tapped(spawn, ring, *extra, **options))
+        return made[-1]
+    yield build
+    for one in made:
+        one.close()
+
+
+@pytest.fixture
+def app():
+    """app(inlet) -> a bound local socket, app(inlet, None) an unbound one; closed at the end."""
+    made = []
+
+    def build(inlet, name=""):
+        sock = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+        made.append(sock)
+        if name is not None:
+            sock.bind(name)  # "": an abstract name of the kernel's choice
+        sock.connect(inlet)
+        sock.settimeout(harness.DEFAULT_TIMEOUT_S)
+        return sock
+    yield build
+    for sock in made:
+        sock.close()
+
+
+# ---- the tap ---------------------------------------------------------------------------------------------------------
+
+def test_every_good_frame_once_byte_for_byte(tapped, run):
+    net = tapped()
+    signed = make(mavlink.MAVLink_heartbeat_message(2, 12, 81, 1, 4, 3), (4, 1), signing=(bytes(32), 3, 1 << 40))
+    from_vehicle = [heartbeat(), attitude(), attitude(version=1), unknown(), signed, command(VEHICLE, (9, 9)), *(attitude() for _ in range(300))]
+    before = time.time_ns()
+    net.vehicle.send(heartbeat((3, 1)))
+    net.vehicle.send(damaged())
+    found = net.sent_by(net.vehicle, *from_vehicle)
+    found = net.sent_by(net.ground, heartbeat(GCS), command(GCS, VEHICLE))
+    after = time.time_ns()
+
+    by_vehicle = [r for r in found if r.data in from_vehicle]
+    assert [r.data for r in by_vehicle] == from_vehicle
+    assert len(found) == 1 + len(from_vehicle) + 2 and len({r.data for r in found}) == len(found)
+    assert {r.kind for r in found} == {1}
+    assert all(before <= r.time_ns <= after for r in found)
+    assert [r.time_ns for r in by_vehicle] == sorted(r.time_ns for r in by_vehicle)
+    verdicts = {r.data: r.verdict for r in found}
+    assert verdicts[signed] == FORWARDED | UNCHECKED
+    assert verdicts[from_vehicle[5]] == UNKNOWN_TARGET
+    assert verdicts[from_vehicle[0]] == verdicts[from_vehicle[3]] == FORWARDED
+    names = net.names(run)
+    assert {names[r.link] for r in by_vehicle} == {f"vehicle#127.0.0.1:{net.vehicle.port}"}
+    assert names[found[-1].link] == "ground"
+    # pymavlink takes them apart as it would from a socket, and finds what shm read prints.
+    parsed = mavlink.MAVLink(None).parse_buffer(b"".join(r.data for r in by_vehicle[-300:]))
+    assert [m.get_type() for m in parsed] == ["ATTITUDE"] * 300
+    printed = run("shm", "read", net.ring, "--from", "oldest", "--count", len(records(net.ring)), "--json")
+    assert [bytes.fromhex(json.loads(line)["hex"]) for line in printed.lines] == [r.data for r in records(net.ring)]
+
+
+def test_what_is_not_forwarded_is_there_with_its_verdict(tapped):
+    net = tapped(f"tcpin://127.0.0.1:{routers.tcp_port()}", vehicle="&in_block=ATTITUDE&max_rate=SCALED_PRESSURE:1", ground="&max_rate=SYS_STATUS:0.01",
+                 rules={"dedup_ms": 2000, "heartbeat": "77/66"})
+    blocked = attitude()
+    twice = make(mavlink.MAVLink_vfr_hud_message(1, 2, 3, 4, routers.unique(), 6))
+    mine = command(VEHICLE, (77, 66))
+    status = [make(mavlink.MAVLink_sys_status_message(0, 0, 0, routers.unique(), 0, 0, 0, 0, 0, 0, 0, 0, 0)) for _ in range(2)]
+    net.vehicle.send(heartbeat())
+    found = net.sent_by(net.vehicle, blocked, twice, *status, mine)
+    verdicts = {r.data: r.verdict for r in found}
+    assert verdicts[blocked] == FILTERED and verdicts[twice] == FORWARDED and verdicts[mine] == CONSUMED
+    assert [verdicts[frame] for frame in status] == [FORWARDED, RATE_LIMITED]
+    net.ground.send(twice)
+    net.vehicle.send(twice)
+    harness.wait_for(lambda: len([r for r in records(net.ring) if r.data == twice]) == 3, what="three copies")
+    assert {r.verdict for r in net.settled() if r.data == twice} - {FORWARDED} <= {DUPLICATE, ECHO}
+    assert [r.verdict for r in net.settled() if r.data == twice].count(FORWARDED) == 1
+
+
+def test_signatures_that_were_checked(tapped, tmp_path, run):
+    key_file = tmp_path / "link.key"
+    assert run("key", "new", key_file).status == 0
+    key = bytes.fromhex(key_file.read_text().strip())
+    net = tapped(vehicle=f"&verify={key_file}")
+    ticks = int((time.time() - 1420070400) * 100_000)
+    good = make(mavlink.MAVLink_heartbeat_message(2, 12, 81, routers.unique(), 4, 3), signing=(key, 1, ticks))
+    forged = make(mavlink.MAVLink_heartbeat_message(2, 12, 81, routers.unique(), 4, 3), signing=(hashlib.sha256(b"x").digest(), 1, ticks + 1))
+    last = make(mavlink.MAVLink_heartbeat_message(2, 12, 81, routers.unique(), 4, 3), signing=(key, 1, ticks + 2))
+    found = net.sent_by(net.vehicle, good, forged, last)
+    assert [(r.data, r.verdict) for r in found] == [(good, FORWARDED | GOOD), (last, FORWARDED | GOOD)]
+
+
+def test_readers_follow_and_sleep(tapped, spawn):
+    """A reader that sleeps is woken; one that is lossless and stalls does not hold up the routing."""
+    net = tapped()
+    follower = spawn("shm", "read", net.ring, "--json", "--count", "200")
+    stalled = spawn("shm", "read", net.ring, "--lossless", stdout=subprocess.PIPE)
+    harness.wait_for(lambda: len(json.loads(subprocess.check_output([str(harness.program_path()), "shm", "stat", net.ring, "--json"]))["readers"]) == 2,
+                     what="two readers")
+    sent = []
+    for _ in range(200):
+        sent.append(attitude())
+        net.vehicle.send(sent[-1])
+        time.sleep(0.001)
+    done = follower.wait()
+    assert done.status == 0
+    assert [bytes.fromhex(json.loads(line)["hex"]) for line in done.stdout.splitlines()] == sent
+    stalled.kill()
+
+
+# ---- its life --------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("number, status", [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_a_clean_end_removes_everything(tapped, number, status):
+    net = tapped()
+    inlet = net.inlet
+    assert shared(net.ring).stat().st_mode & 0o777 == 0o600 and os.stat(inlet).st_mode & 0o777 == 0o600
+    assert shared(net.ring, ".stat").exists()
+    net.router.process.process.send_signal(number)
+    assert net.router.process.wait().status == status
+    assert not shared(net.ring).exists() and not shared(net.ring, ".stat").exists() and not os.path.exists(inlet)
+
+
+def test_killed_it_carries_on(tapped, spawn, run):
+    net = tapped()
+    first = [heartbeat(), *(attitude() for _ in range(50))]
+    net.sent_by(net.vehicle, *first)
+    held = records(net.ring)
+    net.router.process.process.kill()
+    net.router.process.wait()
+    inlet = net.inlet
+    left = run("stat", net.ring, env=net.router.env)
+    assert left.status == 0 and "which was killed" in left.stdout
+    net.close()
+
+    again = tapped()
+    assert again.inlet == inlet
+    later = [heartbeat(), *(attitude() for _ in range(50))]
+    again.sent_by(again.vehicle, *later)
+    both = records(again.ring)
+    assert [r.data for r in both[:len(held)]] == [r.data for r in held]
+    assert [r.data for r in both if r.data in later] == later
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
+        sender.sendto(heartbeat((9, 9)), inlet)
+    harness.wait_for(lambda: again.router.stats("endpoint") and any(link["link"].endswith("#unbound") for link in again.router.links()), what="the sender")
+    again.router.process.process.terminate()
+    assert again.router.process.wait().status == 143
+    assert not shared(again.ring).exists() and not os.path.exists(inlet)
+
+
+def test_a_second_writer_is_refused(tapped, run):
+    net = tapped()
+    done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--ring", net.ring, "--name", "second", env=net.router.env)
+    assert done.status == 1 and f"ring {net.ring} has a writer already, process {net.router.process.pid}" in done.stderr
+    frame = attitude()
+    assert frame in [r.data for r in net.sent_by(net.vehicle, heartbeat(), frame)]
+    assert os.path.exists(net.inlet) and shared(net.ring, ".stat").exists()
+
+
+def test_the_inlet_of_somebody_who_lives_is_left_alone(run, ring, tmp_path):
+    env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
+    args = ("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--ring", ring, "--for", "100ms")
+    folder = "/run/mavloom" if os.access("/run/mavloom", os.W_OK) or os.geteuid() == 0 else f"{routers.runtime_dir()}/mavloom"
+    os.makedirs(folder, exist_ok=True)
+    place = f"{folder}/{ring}.in"
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
+        other.bind(place)
+        done = run(*args, env=env)
+        assert done.status == 1 and f"{place} is served by a router that runs" in done.stderr
+        assert not shared(ring).exists() and not shared(ring, ".stat").exists()
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
+            sender.sendto(b"still here", place)
+        other.settimeout(harness.DEFAULT_TIMEOUT_S)
+        assert other.recv(100) == b"still here"
+    assert run(*args, env=env).status == 0, "nobody serves it any more"
+    assert not os.path.exists(place)
+    pathlib.Path(place).write_text("a file of somebody's")
+    done = run(*args, env=env)
+    assert done.status == 1 and "cannot make a socket at" in done.stderr and pathlib.Path(place).read_text() == "a file of somebody's"
+
+
+@pytest.mark.parametrize("how", ["rm", "shm remove"])
+def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat(), attitude())
+    number = shared(net.ring).stat().st_ino
+    if how == "rm":
+        shared(net.ring).unlink()
+        shared(net.ring, ".stat").unlink()
+    else:
+        assert run("shm", "remove", "--force", net.ring).status == 0
+    harness.wait_for(lambda: shared(net.ring).exists() and shared(net.ring, ".stat").exists(), what="a new ring")
+    assert shared(net.ring).stat().st_ino != number
+    net.router.process.wait_output(f"ring {net.ring} was removed, and is made anew")
+    frame = attitude()
+    assert [r.data for r in net.sent_by(net.vehicle, frame)] == [frame]
+    assert f"vehicle#127.0.0.1:{net.vehicle.port}" in harness.wait_for(lambda: net.names(run), what="the links' names").values()
+
+
+def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    place = net.inlet
+    os.unlink(place)
+    net.router.process.wait_output(f"inlet {place} was removed, and is made anew")
+    frame = heartbeat((30, 1))
+    app(net.inlet).send(frame)
+    assert next_from(net.vehicle) == frame
+    # Somebody else's is left alone, and told once.
+    os.unlink(place)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
+        other.bind(place)
+        net.router.process.wait_output(f"inlet {place} was removed: {place} is served by a router that runs")
+        net.router.process.process.terminate()
+        assert net.router.process.wait().status == 143
+        assert os.path.exists(place)
+
+
+def test_a_name_that_another_writer_took_meanwhile(tapped, spawn, run):
+    """The frames are counted as dropped, and the ring is the router's again when the other one is gone."""
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat(), attitude())
+    name = f"{net.ring}-other"
+    other = spawn("shm", "write", name, stdin=subprocess.PIPE)
+    harness.wait_for(lambda: shared(name).exists(), what="the other ring")
+    shared(name).rename(shared(net.ring))
+    net.router.process.wait_output(f"ring {net.ring} was removed: ring {net.ring} has a writer already, process {other.pid}; tried again every second")
+    for _ in range(3):
+        net.vehicle.send(attitude())
+    harness.wait_for(lambda: net.page(run)[0]["ring_dropped"] == 3, what="three frames counted")
+    other.process.stdin.close()
+    assert other.wait().status == 0
+    net.router.process.wait_output(f"ring {net.ring} was removed, and is made anew")
+    frame = attitude()
+    assert [r.data for r in net.sent_by(net.vehicle, frame)] == [frame]
+    assert net.router.process.stderr.count("tried again every second") == 1
+
+
+def test_own_heartbeats_are_not_for_who_reads_the_ring(tapped, app):
+    net = tapped(rules={"heartbeat": "77/66"})
+    app(net.inlet).send(heartbeat((30, 1)))
+    harness.wait_for(lambda: any("#@" in link["link"] for link in net.router.links()), what="the sender")
+    own = [frame for frame in (net.ground.next() for _ in range(5)) if frame[5] == 77]
+    assert len(own) >= 4, "the ground station gets them"
+    link, = [link for link in net.router.links() if "#@" in link["link"]]
+    assert link["frames_out"] == 0 and all(r.data not in own for r in records(net.ring))
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare"), reason="a small /dev/shm needs root and unshare")
+@pytest.mark.parametrize("size, what", [("1m", "mavloom.full of "), ("8300k", "mavloom.full.stat of ")])
+def test_a_full_dev_shm(program, size, what):
+    script = (f'mount -t tmpfs -o size={size} none /dev/shm && "$0" route udpin://127.0.0.1:{routers.udp_port()} --ring full --for 1s; echo "status $?"; '
+              'ls -A /dev/shm; ls /run/mavloom/full.in 2>/dev/null')
+    done = subprocess.run(["unshare", "--mount", "sh", "-c", script, str(program)], capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S)
+    if "status" not in done.stdout:
+        pytest.skip(f"no mount namespace here: {done.stderr.strip()}")
+    assert done.stdout == "status 1\n", "nothing is left"
+    assert f"cannot make /dev/shm/{what}" in done.stderr and "No space left on device" in done.stderr
+
+
+def test_rings_that_cannot_be(run, ring, tmp_path):
+    port = routers.udp_port()
+    for name in ("a/b", "x" * 65, "a.b"):
+        done = run("route", f"udpin://127.0.0.1:{port}", "--ring", name)
+        assert done.status == 2 and "is no name of a ring" in done.stderr, done
+    shared(ring).write_bytes(bytes(100_000))
+    done = run("route", f"udpin://127.0.0.1:{port}", "--ring", ring)
+    assert done.status == 3 and f"mavloom.{ring}" in done.stderr, done
+    assert shared(ring).read_bytes() == bytes(100_000), "left as it was"
+    done = run("route", f"udpin://127.0.0.1:{port}", f"shm://{ring}")
+    assert done.status == 2 and f"a ring is no endpoint of a router: --ring {ring}" in done.stderr
+    file = tmp_path / "r.toml"
+    file.write_text(f'[[endpoint]]\nurl = "shm://{ring}"\n')
+    done = run("route", "--config", file)
+    assert done.status == 3 and "a ring is no endpoint of a router" in done.stderr
+
+
+def test_a_start_that_fails_leaves_nothing(run, ring):
+    taken = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    with taken:
+        taken.bind((*HOST, 0))
+        done = run("route", f"udpin://127.0.0.1:{taken.getsockname()[1]}", "--ring", ring)
+    assert done.status == 1 and not shared(ring).exists() and not shared(ring, ".stat").exists()
+
+
+# ---- the file --------------------------------------------------------------------------------------------------------
+
+def test_the_file_names_the_ring(spawn, run, ring, tmp_path):
+    file = tmp_path / "r.toml"
+    file.write_text(f'[ring]\nname = "{ring}"\ncapacity = "64k"\nmode = "0660"\n[[endpoint]]\nurl = "udpin://127.0.0.1:{routers.udp_port()}"\n')
+    printed = run("check", file)
+    assert printed.status == 0 and all(word in printed.stdout for word in (ring, "64k", "0660", "evict"))
+    env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
+    process = spawn("route", "--config", file, env=env)
+    harness.wait_for(lambda: shared(ring, ".stat").exists(), what="the page")
+    assert struct.unpack_from("<Q", shared(ring).read_bytes(), 16) == (65536,)
+    assert shared(ring).stat().st_mode & 0o777 == shared(ring, ".stat").stat().st_mode & 0o777 == 0o660
+    # --name is the ring's name unless it is given.
+    links = harness.wait_for(lambda: (done := run("ctl", ring, "stats", env=env)).status == 0 and done, what="the control socket")
+    assert '"kind":"router"' in links.stdout
+    file.write_text(file.read_text().replace("64k", "128k"))
+    process.process.send_signal(signal.SIGHUP)
+    process.wait_output(r"\[ring\] stays as it is until the router starts anew")
+    process.process.terminate()
+    assert process.wait().status == 143
+
+
+@pytest.mark.parametrize("lines, what", [("nam = 'x'", "did you mean 'name'?"), ("capacity = 100", "power of two"), ("full = 'wait'", "a router waits for no reader"),
+                                         ("mode = 600", "in quotes"), ("size = 1", "[ring] has name, capacity, full, mode")])
+def test_keys_that_are_wrong(run, tmp_path, lines, what):
+    file = tmp_path / "r.toml"
+    file.write_text(f"[ring]\n{lines}\n")
+    done = run("check", file)
+    assert done.status == 3 and what in done.stderr + done.stdout, done
+
+
+# ---- the counter page ------------------------------------------------------------------------------------------------
+
+def test_stat_agrees_with_ctl(tapped, run):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat(), damaged(), *(attitude() for _ in range(20)))
+    count = len(records(net.ring))
+
+    def page():
+        lines = net.page(run)
+        return lines if lines[0].get("ring_records") == count and any(line.get("frames_in") == 21 for line in lines) else None
+    lines = harness.wait_for(page, what="the page to tell all")
+    assert lines[0]["kind"] == "page" and lines[0]["alive"] and lines[0]["pid"] == net.router.process.pid
+    assert lines[0]["ring_dropped"] == 0 and lines[0]["links"] == 2
+    asked = {link["link"]: link for link in net.router.ask("links")}
+    for line in (line for line in lines if line["kind"] == "link"):
+        for key in line.keys() - {"kind", "id", "link", "frames_out", "bytes_out"}:
+            assert line[key] == asked[line["link"]][key], key
+    assert [line["crc_error"] for line in lines if line.get("link", "").startswith("vehicle#")] == [1]
+    said = run("stat", net.ring, env=net.router.env).stdout
+    assert f"{net.ring}, counters of process {net.router.process.pid}" in said and "link ground\n" in said and "in 21 frames" in said
+    by_name = run("stat", net.router.name, "--json", env=net.router.env)
+    assert by_name.status == 0 and '"kind":"router"' in by_name.stdout, "a name that is no ring's is asked"
+
+
+def test_more_links_than_the_page_has_rows(tapped, run):
+    net = tapped(f"udpin://127.0.0.1:{(port := routers.udp_port())}?name=many&max_peers=400")
+    ends = [UdpEnd((*HOST, port)) for _ in range(300)]
+    try:
+        for number, end in enumerate(ends, 1):
+            end.send(heartbeat((number % 250 + 1, number // 250 + 1)))
+        net.router.wait_links(301)
+        for end in ends[:10]:
+            end.send(heartbeat((1, 100)))
+
+        def rows():
+            lines = net.page(run)
+            return lines if sum(line.get("frames_in", 0) for line in lines if line["kind"] in ("link", "others")) == 310 else None
+        lines = harness.wait_for(rows, what="310 frames in the page")
+        assert lines[0]["links"] == 301
+        links = [line for line in lines if line["kind"] == "link"]
+        others = [line for line in lines if line["kind"] == "others"]
+        assert len(links) == 256 and len(others) == 1 and others[0]["frames_in"] > 0
+    finally:
+        for end in ends:
+            end.close()
+
+
+# ---- the inlet -------------------------------------------------------------------------------------------------------
+
+def test_a_command_reaches_the_vehicle_and_its_answer_is_in_the_ring(tapped, app, run):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    sender = app(net.inlet)
+    asked = command(GCS, VEHICLE)
+    sender.send(asked)
+    assert next_from(net.vehicle) == asked
+    answer = make(mavlink.MAVLink_command_ack_message(400, 0, 0, routers.unique(), *GCS))
+    found = net.sent_by(net.vehicle, answer)
+    assert [r.verdict for r in found if r.data in (asked, answer)] == [FORWARDED, FORWARDED]
+    assert asked not in net.ground.now() and answer not in net.ground.now(), "targeted ones go to their target alone"
+    names = harness.wait_for(lambda: len(found := net.names(run)) == 3 and found, what="three links")
+    link, = {r.link for r in found if r.data == asked}
+    assert names[link].startswith(f"shm://{net.ring}#@")
+    # Broadcasts go to the others, and nothing is sent to who reads the ring.
+    greeting = heartbeat(GCS)
+    sender.send(greeting)
+    assert next_from(net.ground) == greeting and next_from(net.vehicle) == greeting
+    net.sent_by(net.vehicle, *(attitude() for _ in range(50)))
+    sender.setblocking(False)
+    with pytest.raises(BlockingIOError):
+        sender.recv(100)
+    counted, = [link for link in net.router.links() if link["endpoint"] == f"shm://{net.ring}"]
+    assert counted["frames_in"] == 2 and counted["frames_out"] >= 51 and counted["queue_bytes"] == counted["queue_age"] == 0
+
+
+def test_senders_are_links_by_their_address(tapped, app, tmp_path, run):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    place = str(tmp_path / "app.sock")
+    bound, unbound, unbound_too = app(net.inlet, place), app(net.inlet, None), app(net.inlet, None)
+    sent = [heartbeat((21, 1)), heartbeat((22, 1)), heartbeat((23, 1))]
+    for sock, frame in zip((bound, unbound, unbound_too), sent):
+        sock.send(frame)
+    harness.wait_for(lambda: all(frame in [r.data for r in records(net.ring)] for frame in sent), what="their frames")
+    names = harness.wait_for(lambda: len(found := net.names(run)) == 4 and found, what="four links")
+    by_frame = {r.data: names[r.link] for r in net.settled() if r.data in sent}
+    assert [by_frame[frame] for frame in sent] == [f"shm://{net.ring}#{place}", f"shm://{net.ring}#unbound", f"shm://{net.ring}#unbound"]
+    # Several frames in one datagram.
+    several = [heartbeat((21, 2)), attitude((21, 2)), attitude((21, 2))]
+    bound.send(b"".join(several))
+    harness.wait_for(lambda: several[-1] in [r.data for r in records(net.ring)], what="the last of several")
+    assert [r.data for r in net.settled() if r.data in several] == several
+    # What one app sends another one finds in the ring; and a target that lives behind the inlet is known by what it sent.
+    question = command((21, 1), (22, 1))
+    bound.send(question)
+    harness.wait_for(lambda: question in [r.data for r in records(net.ring)], what="the question")
+    assert [r.verdict for r in records(net.ring) if r.data == question] == [FORWARDED]
+
+
+def test_garbage_is_counted_and_never_forwarded(tapped, app):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    stranger, friend = app(net.inlet), app(net.inlet)
+    frame = attitude((30, 1))
+    plain = random.Random(1).choices([b for b in range(256) if b not in (0xFD, 0xFE)], k=1000)
+    pieces = [bytes(plain), frame[:-1], b"", damaged()]
+    for piece in pieces:
+        stranger.send(piece)
+
+    def inlet():
+        return next(e for e in net.router.stats("endpoint") if e["endpoint"] == f"shm://{net.ring}")
+    harness.wait_for(lambda: inlet()["stray_bytes"] == sum(map(len, pieces)), what="the stranger's bytes counted")
+    good = heartbeat((30, 1))
+    for piece in (good, bytes(plain), frame[:20], frame[20:], damaged(), frame + bytes(plain[:10])):
+        friend.send(piece)
+    harness.wait_for(lambda: frame in [r.data for r in records(net.ring)], what="the good frame")
+    link, = [link for link in net.router.links() if link["endpoint"] == f"shm://{net.ring}"]
+    assert link["frames_in"] == 2 and link["crc_error"] == 1
+    assert link["junk_bytes"] >= len(plain) + 10
+    assert [r.data for r in net.settled()][-2:] == [good, frame]
+    assert next_from(net.vehicle) == good and next_from(net.vehicle) == frame, "and nothing else came"
+
+
+def test_a_datagram_longer_than_any_slot(tapped, app):
+    net = tapped()
+    sender = app(net.inlet)
+    sender.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
+    good = heartbeat((30, 1))
+    sender.send(good)
+    try:
+        sender.send(bytes(100_000))
+    except OSError as error:
+        pytest.skip(f"this system sends none so long: {error}")
+    harness.wait_for(lambda: [link["junk_bytes"] for link in net.router.links() if "#@" in link["link"]] == [100_000], what="all its bytes counted")
+
+
+def test_descriptors_that_are_sent_along_are_closed(tapped, app):
+    net = tapped()
+    sender = app(net.inlet)
+    sender.send(heartbeat((30, 1)))
+    harness.wait_for(lambda: any("#@" in link["link"] for link in net.router.links()), what="the sender")
+    descriptors = f"/proc/{net.router.process.pid}/fd"
+    before = len(os.listdir(descriptors))
+    with open("/dev/null") as file:
+        for count in (1, 4, 50):
+            sender.sendmsg([heartbeat((30, 1))], [(socket.SOL_SOCKET, socket.SCM_RIGHTS, array.array("i", [file.fileno()] * count))])
+    last = heartbeat((30, 1))
+    sender.send(last)
+    harness.wait_for(lambda: last in [r.data for r in records(net.ring)], what="the last frame")
+    assert len(os.listdir(descriptors)) == before
+
+
+def test_two_hundred_senders_come_and_go(tapped):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    sent = []
+    for number in range(200):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sock:
+            sock.bind(f"\0{net.ring}-{number}")
+            sock.connect(net.inlet)
+            sent.append(heartbeat((number % 250 + 1, 7)))
+            sock.send(sent[-1])
+    harness.wait_for(lambda: sent[-1] in [r.data for r in records(net.ring)], what="the last one's frame")
+    found = [r for r in net.settled() if r.data in sent]
+    assert [r.data for r in found] == sent and len({r.link for r in found}) == 200
+    # Beyond 256 the longest idle gives way.
+    for number in range(200, 400):
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sock:
+            sock.bind(f"\0{net.ring}-{number}")
+            sock.connect(net.inlet)
+            sent.append(heartbeat((number % 250 + 1, 8)))
+            sock.send(sent[-1])
+    harness.wait_for(lambda: sent[-1] in [r.data for r in records(net.ring)], what="the last one's frame")
+    assert [r.data for r in net.settled() if r.data in sent] == sent
+    endpoint, = [e for e in net.router.stats("endpoint") if e["endpoint"] == f"shm://{net.ring}"]
+    assert endpoint["peers_evicted"] == 400 - 256 and endpoint["peers_refused"] == 0
+    assert len([link for link in net.router.links() if link["endpoint"] == f"shm://{net.ring}"]) == 256
