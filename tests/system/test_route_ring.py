@@ -192,7 +192,7 @@ def test_what_is_not_forwarded_is_there_with_its_verdict(tapped):
     blocked = attitude()
     twice = make(mavlink.MAVLink_vfr_hud_message(1, 2, 3, 4, routers.unique(), 6))
     mine = command(VEHICLE, (77, 66))
-    status = [make(mavlink.MAVLink_sys_status_message(0, 0, 0, routers.unique(), 0, 0, 0, 0, 0, 0, 0, 0, 0)) for _ in range(2)]
+    status = [make(mavlink.MAVLink_sys_status_message(routers.unique(), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)) for _ in range(2)]
     net.vehicle.send(heartbeat())
     found = net.sent_by(net.vehicle, blocked, twice, *status, mine)
     verdicts = {r.data: r.verdict for r in found}

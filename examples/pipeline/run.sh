@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# From a UDP port through shared memory to a ground station:
+#
+#   vehicle ──udp──▶ python -m mavloom.hear ──ring px4──▶ mavloom relay ──udp──▶ ground station
+#
+#   examples/pipeline/run.sh                 a vehicle that sends to port 5058 of this machine, until Ctrl-C
+#   examples/pipeline/run.sh FLIGHT.tlog     a recorded flight at its own pace, to its end; SPEED=10 is faster
+#
+# LISTEN, TO and RING change where it comes from, where it goes, and the ring's name. Each of the two programs can be ended and started again by
+# itself; other readers, in C++ or Python, may follow the ring at any time (docs/guide/python.md, docs/guide/shm.md).
+set -euo pipefail
+
+here=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
+mavloom=${MAVLOOM_PROGRAM:-$here/build/release/bin/mavloom}
+python=${PYTHON:-$here/build/venv/bin/python}
+listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring=${RING:-px4}
+
+[ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
+
+"$python" -m mavloom.hear "$listen" --ring "$ring" &
+hear=$!
+"$mavloom" relay "shm://$ring?from=oldest" --to "$to" &
+relay=$!
+# The signal ends both: the relay when it has sent what the ring holds.
+end() {
+  trap - INT TERM EXIT
+  kill -TERM "$hear" 2>/dev/null || true
+  wait "$hear" || true
+  kill -TERM "$relay" 2>/dev/null || true
+  wait "$relay" || true
+}
+trap end EXIT
+trap 'end; exit 130' INT
+trap 'end; exit 143' TERM
+
+if [ $# -gt 0 ]; then
+  until [ -e "/dev/shm/mavloom.$ring" ] && kill -0 "$hear"; do sleep 0.1; done
+  "$mavloom" replay "$1" --to "${listen/udpin/udpout}" --speed "${SPEED:-1}"
+else
+  wait -n "$hear" "$relay" # neither ends by itself
+fi
