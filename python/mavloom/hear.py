@@ -12,8 +12,8 @@ LOOK_AT_SIGNALS_S = 0.1
 UNITS = {"k": 1 << 10, "m": 1 << 20, "g": 1 << 30}
 
 EPILOG = """\
-Each record is one good frame, byte for byte, with its receive time (the kernel's) and the number of its link; the verdict is 0 unsigned,
-1 signed and verified (verify= in URL), 3 signed and not checked. Other processes read it from there at memory speed:
+Each record is one good frame, byte for byte, of kind 1, with its receive time (the kernel's) and the number of its link; the verdict is 0 unsigned,
+16 signed and not checked, 32 signed and verified (verify= in URL). Other processes read it from there at memory speed:
 
   python -m mavloom.hear udpin://0.0.0.0:14550 --ring px4
   mavloom shm read px4 --json

@@ -15,6 +15,7 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "hub.hpp"
+#include "mavloom/runtime/ring_frames.hpp"
 #include "ring_writer.hpp"
 #include "waiting.hpp"
 
@@ -151,7 +152,8 @@ private:
         const auto frame = batch_.frame(item);
         const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
                                    .link = LinkId{item.link},
-                                   .verdict = verdict_of(frame, item.verified)};
+                                   .kind = runtime::ring_kind_frame,
+                                   .verdict = runtime::ring_verdict(signature_of(frame, item.verified))};
         const auto written = writer.put(frame.bytes(), info, deadline);
         pumped.full = !written && written.error() == shm::WriteError::full;
         if (written) return ++pumped.count, true;
@@ -161,10 +163,10 @@ private:
         return false;
     }
 
-    // docs/guide/python.md has the numbers.
-    static std::uint8_t verdict_of(const wire::FrameView& frame, bool verified) noexcept {
-        if (!frame.is_signed()) return 0;
-        return verified ? 1 : 3;
+    static runtime::FrameSignature signature_of(const wire::FrameView& frame, bool verified) noexcept {
+        using runtime::FrameSignature;
+        if (!frame.is_signed()) return FrameSignature::none;
+        return verified ? FrameSignature::good : FrameSignature::unchecked;
     }
 
     nb::object or_closed(const Filter& filter, const nb::object& condition, MonoTime deadline) {
@@ -418,15 +420,15 @@ void bind_link(nb::module_& module) {
              "The next message of these types for which `condition(message)` is true; what comes before it is passed "
              "over. None when there is none: at once,\n"
              "or with `blocking` after `timeout` seconds.")
-        .def("pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
-             nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
-             "Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: "
-             "until the "
-             "link is closed). Returns how many. Each record is a\n"
-             "whole frame with its receive time and link; `verdict` is 0 unsigned, 1 signed and verified, 3 signed and "
-             "not "
-             "checked. What a full ring has no room for stays with\n"
-             "the reader.")
+        .def(
+            "pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
+            nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
+            "Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: "
+            "until the "
+            "link is closed). Returns how many. Each record is a\n"
+            "whole frame of kind 1 with its receive time and link; `verdict` is 0 unsigned, 16 signed and not checked, "
+            "32 signed and verified, as docs/formats/ring.md has it. What a full ring has no room for stays with\n"
+            "the reader.")
         .def("event_fd", &Subscription::event_fd)
         .def_prop_ro("missed", &Subscription::missed,
                      "Frames of the link that were overwritten before this reader came to them.")

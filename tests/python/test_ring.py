@@ -988,6 +988,19 @@ def send(port, frames):
                 time.sleep(0.002)
 
 
+@pytest.mark.parametrize("verify, verdict", [(False, 0x10), (True, 0x20)])
+def test_pump_says_of_signatures_what_the_format_says(ring, tmp_path, verify, verdict):
+    key = tmp_path / "link.key"
+    key.write_text("07" * 32)
+    key.chmod(0o600)
+    with mavloom.RingWriter(ring) as writer, mavloom.connect("udpin://127.0.0.1:0" + (f"?verify={key}" if verify else "")) as link, \
+            mavloom.RingReader(ring) as reader, mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={key}") as signer:
+        signer.send("HEARTBEAT")
+        until(lambda: link.pump(writer, 0.01))
+        record = reader.read(timeout=DEADLINE_S)
+        assert (record.kind, record.verdict) == (1, verdict)
+
+
 def test_pump_moves_frames_byte_for_byte(ring, frames):
     writer = mavloom.RingWriter(ring)
     with mavloom.connect("udpin://127.0.0.1:0") as link, mavloom.RingReader(ring, lossless=True) as reader:
@@ -1002,7 +1015,7 @@ def test_pump_moves_frames_byte_for_byte(ring, frames):
         writer.close()
         thread.join(DEADLINE_S)
         assert [data for data, *_ in found[:len(frames)]] == frames
-        assert all(before < t < time.time_ns() and (kind, verdict) == (0, 0) for _, t, _, kind, verdict in found) and len({link for _, _, link, _, _ in found}) == 1
+        assert all(before < t < time.time_ns() and (kind, verdict) == (1, 0) for _, t, _, kind, verdict in found) and len({link for _, _, link, _, _ in found}) == 1
         assert [data for data, *_ in found[len(frames):]] == [frame for frame in frames if frame[7:10] == b"\x1e\0\0"]
         with pytest.raises(mavloom.ClosedError, match="writer"):
             link.pump(writer, 0)

@@ -19,9 +19,12 @@ enum class FrameSignature : std::uint8_t {
     bad,        // it does not agree: a router never writes that, for it drops such frames
 };
 
-// The record's verdict byte: bits 0 to 3 what became of the frame, bits 4 and 5 its signature.
+// The record's verdict byte: bits 0 to 3 what became of the frame (0: the writer does not say), bits 4 and 5 its signature.
+[[nodiscard]] constexpr std::uint8_t ring_verdict(FrameSignature signature) noexcept {
+    return static_cast<std::uint8_t>(static_cast<unsigned>(signature) << 4u);
+}
 [[nodiscard]] constexpr std::uint8_t ring_verdict(route::Verdict verdict, FrameSignature signature) noexcept {
-    return static_cast<std::uint8_t>(static_cast<unsigned>(verdict) + 1u + (static_cast<unsigned>(signature) << 4u));
+    return static_cast<std::uint8_t>(ring_verdict(signature) | (static_cast<unsigned>(verdict) + 1u));
 }
 // What became of the frame; nothing where the writer did not say (mavloom.hear, `shm write`), or says what this version does not know.
 [[nodiscard]] constexpr std::optional<route::Verdict> verdict_of(std::uint8_t ring_verdict) noexcept {
