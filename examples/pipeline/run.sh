@@ -13,11 +13,12 @@ set -euo pipefail
 here=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 mavloom=${MAVLOOM_PROGRAM:-$here/build/release/bin/mavloom}
 python=${PYTHON:-$here/build/venv/bin/python}
+log=$(mktemp)
 listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring=${RING:-px4}
 
 [ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
 
-"$python" -m mavloom.hear "$listen" --ring "$ring" &
+"$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(tee "$log" >&2) &
 hear=$!
 "$mavloom" relay "shm://$ring?from=oldest" --to "$to" &
 relay=$!
@@ -28,13 +29,17 @@ end() {
   wait "$hear" || true
   kill -TERM "$relay" 2>/dev/null || true
   wait "$relay" || true
+  rm -f "$log"
 }
 trap end EXIT
 trap 'end; exit 130' INT
 trap 'end; exit 143' TERM
 
 if [ $# -gt 0 ]; then
-  until [ -e "/dev/shm/mavloom.$ring" ] && kill -0 "$hear"; do sleep 0.1; done
+  until grep -q "writing to ring" "$log"; do
+    kill -0 "$hear" 2>/dev/null || exit 1 # it has said why
+    sleep 0.1
+  done
   "$mavloom" replay "$1" --to "${listen/udpin/udpout}" --speed "${SPEED:-1}"
 else
   wait -n "$hear" "$relay" # neither ends by itself

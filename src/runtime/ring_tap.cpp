@@ -16,13 +16,16 @@ SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config) {
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(config.name, config.mode);
     if (!page) {
-        (void)writer->close(shm::RingWriter::Leave::nothing);
+        (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
     }
     return std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page)));
 }
 
-RingTap::~RingTap() { (void)writer_.close(shm::RingWriter::Leave::nothing); }
+RingTap::~RingTap() {
+    const bool removes = ran_ || writer_.created();
+    (void)writer_.close(removes ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
+}
 
 void RingTap::refresh_page(const Links& links, std::optional<EndpointId> inlet) {
     page_due_ = MonoTime::max();

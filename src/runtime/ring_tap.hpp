@@ -24,7 +24,7 @@ public:
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(const RingConfig& config);
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
-    ~RingTap();  // removes the ring and its page
+    ~RingTap();  // removes the ring and its page; a router that could not start leaves a ring that was there before
 
     // `verified`: came by an endpoint with verify=.
     void write(const RxFrame& rx, route::Verdict verdict, bool verified) noexcept {
@@ -47,6 +47,7 @@ public:
 
     // Behind each turn: the page is due soon where there is something new.
     void note_turn(std::size_t frames, MonoTime now) noexcept {
+        ran_ = true;
         const bool is_new = std::exchange(links_changed_, false) || frames != 0;
         if (is_new && page_due_ == MonoTime::max()) page_due_ = now + page_interval;
     }
@@ -67,7 +68,7 @@ private:
     std::optional<RingPage> page_;
     Counter dropped_;  // frames that are not in the ring
     MonoTime page_due_{};
-    bool links_changed_ = false;
+    bool ran_ = false, links_changed_ = false;
     bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
 };
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <utility>
 
+#include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/ring_info.hpp"
 #include "shm/ring_file.hpp"
 
@@ -157,13 +158,19 @@ void RingWriter::end() noexcept {
     segment_.reset();
 }
 
+// Of a program that lives on: it may count more than this ring.
+static bool page_is_of_another(const std::string& name) {
+    const auto page = read_counters(name);
+    return page && page->owner_alive && page->owner_pid != static_cast<std::uint32_t>(::getpid());
+}
+
 SetupResult<void> RingWriter::close(Leave leave) {
     SetupResult<void> removed;
     if (leave == Leave::nothing && segment_ && !segment_->forked()) {
         const bool named = segment_->is_named();  // else the counter page is of whoever has the name now
         removed = segment_->unlink();
         if (removed) retire(*segment_);
-        if (removed && named) removed = remove_counter_page(name_);
+        if (removed && named && !page_is_of_another(name_)) removed = remove_counter_page(name_);
     }
     end();
     return removed;

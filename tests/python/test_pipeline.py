@@ -148,6 +148,15 @@ def test_the_script_passes_a_recorded_flight_byte_for_byte(start, ring, port, gr
     assert got == b"".join(sent)
 
 
+def test_the_script_ends_when_the_port_is_taken(start, ring, ground, flight):
+    with udp() as taken:
+        script = start(SCRIPT, flight, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=f"udpin://127.0.0.1:{taken.getsockname()[1]}", RING=ring,
+                       TO=f"udpout://127.0.0.1:{ground.getsockname()[1]}")
+        done = script.wait()
+
+    assert done.status == 1 and "in use" in done.stderr, done
+
+
 @pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_the_script_ends_with_a_signal(start, ring, port, ground, number, status):
     script = start(SCRIPT, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=f"udpin://127.0.0.1:{port}", RING=ring,

@@ -411,6 +411,26 @@ def test_a_start_that_fails_leaves_nothing(run, ring):
     assert done.status == 1 and not shared(ring).exists() and not shared(ring, ".stat").exists()
 
 
+def test_a_start_that_fails_leaves_the_ring_of_an_earlier_writer(run, ring):
+    assert run("shm", "write", ring, input="one\ntwo\n").status == 0
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind((*HOST, 0))
+        assert run("route", f"udpin://127.0.0.1:{taken.getsockname()[1]}", "--ring", ring).status == 1
+    found = run("shm", "read", ring, "--from", "oldest", "--drain", "--data")
+    shared(ring).unlink()
+
+    assert "one" in found.stdout and "two" in found.stdout, found
+
+
+def test_a_writer_that_fails_leaves_another_ones_page(run, tapped, ring):
+    tapped()
+    shared(ring).unlink()
+    again = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--ring", ring)
+
+    assert again.status == 1, again
+    assert shared(ring, ".stat").exists()
+
+
 # ---- the file --------------------------------------------------------------------------------------------------------
 
 def test_the_file_names_the_ring(spawn, run, ring, tmp_path):
