@@ -80,7 +80,7 @@ public:
     void keep_times() const;
     // Whether the files hold other keys now; not so while one of them cannot be read.
     [[nodiscard]] bool has_other_keys() const;
-    [[nodiscard]] bool verifies() const noexcept { return verifier_ != nullptr; }
+    [[nodiscard]] bool verifies() const noexcept { return judge_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
     // `accepts` ahead of the parser that will find the same bytes once more: that second look is not taken for a replay.
@@ -100,13 +100,13 @@ private:
         [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
     };
     [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
-    void judge(const OpenKey& with, bool alone);
-    [[nodiscard]] bool is_late(const wire::FrameView& frame) noexcept;
+    void judge(const OpenKey& with, bool in_group);
+    [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
 
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
-    std::shared_ptr<wire::Verifier> verifier_;  // null without verify=
-    std::shared_ptr<wire::Verifier> common_;    // of all with the key: in a group, where each judges for itself
+    std::shared_ptr<KeyJudge> judge_;    // null without verify=
+    std::optional<wire::Verifier> own_;  // in a group
     std::optional<wire::Signer> signer_;
     const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};

@@ -34,30 +34,23 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 }
 
 // What one endpoint took is a replay at the others with its key. In a group the same frame comes by several links, and late by one of them: there each
-// judges alone, within what may be late.
-void Signature::judge(const OpenKey& with, bool alone) {
-    auto common = with.times->verifier.lock();
-    if (!common) {
-        common = std::make_shared<wire::Verifier>(with.key);
-        for (const auto& stream : with.times->state.heard) common->restore(stream);
-        with.times->verifier = common;
-    }
-    if (!alone) {
-        verifier_ = std::move(common);
-        return;
-    }
-    verifier_ = std::make_shared<wire::Verifier>(with.key);
-    for (const auto& stream : common->streams()) verifier_->restore(stream);
-    common_ = std::move(common);
+// judges for itself, and together they tell what is too late.
+void Signature::judge(const OpenKey& with, bool in_group) {
+    judge_ = states_.judge_of(with.key);
+    for (const auto& stream : with.times->state.heard) judge_->verifier.restore(stream);
+    if (!in_group) return;
+    own_.emplace(with.key);
+    for (const auto& stream : judge_->verifier.streams()) own_->restore(stream);
 }
 
-// Of a frame of a group's link that its own verifier took: whether another link brought later ones long ago.
-bool Signature::is_late(const wire::FrameView& frame) noexcept {
-    constexpr std::uint64_t latest_ticks = 5 * 100'000;  // five seconds between two ways to one place are no way to fly
+bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
+    using enum wire::Verifier::Verdict;
+    if (!own_) return judge_->verifier.verify(frame, now) == good;
+    if (own_->verify(frame, now) != good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
-    if (stream.last.ticks + latest_ticks < common_->last(stream.key).ticks) return true;
-    common_->restore(stream);
-    return false;
+    if (judge_->late.is_too_late(stream.key, stream.last, judge_->verifier.last(stream.key), mono_now())) return false;
+    judge_->verifier.restore(stream);
+    return true;
 }
 
 Signature::~Signature() {
@@ -78,7 +71,7 @@ bool Signature::has_other_keys() const {
 
 // Another endpoint may have been opened meanwhile with another key from the same file.
 void Signature::keep_times() const {
-    if (verifier_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(verifier_->streams()))
+    if (judge_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(judge_->verifier.streams()))
         verify_with_->times->changed = true;
     if (signer_ && signer_->last() > sign_with_->times->state.last_signed) {
         sign_with_->times->state.last_signed = signer_->last();
@@ -87,13 +80,12 @@ void Signature::keep_times() const {
 }
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!verifier_) return true;
+    if (!judge_) return true;
     if (vouched_ == frame.bytes().data()) {
         vouched_ = nullptr;
         return true;
     }
-    if (verifier_->verify(frame, wire::SigningTime::from(now)) != wire::Verifier::Verdict::good) return false;
-    return common_ == nullptr || !is_late(frame);
+    return takes(frame, wire::SigningTime::from(now));
 }
 
 bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {

@@ -198,10 +198,7 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
     auto file = std::make_shared<KeyFile>(path);
     const auto open = std::ranges::find_if(files_, [&](const auto& f) { return f->path() == file->path(); });
     if (open != files_.end()) {
-        if ((*open)->state.belong_to(key)) {
-            (*open)->changed = true;
-            (*open)->verifier.reset();
-        }
+        (*open)->changed = (*open)->state.belong_to(key) || (*open)->changed;
         return *open;
     }
     const auto now = wire::SigningTime::from(wall_now());
@@ -214,6 +211,13 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
     files_.push_back(file);
     due_ = std::min(due_, mono_now() + save_interval);
     return file;
+}
+
+std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
+    auto& known = judges_[key.fingerprint()];
+    auto judge = known.lock();
+    if (!judge) known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}});
+    return judge;
 }
 
 void KeyStates::begin_signing(KeyFile& file) {

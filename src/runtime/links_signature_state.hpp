@@ -8,6 +8,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/wire/signing.hpp"
+#include "runtime/late_frames.hpp"
 
 namespace mavloom::runtime::detail {
 
@@ -53,13 +55,18 @@ public:
     [[nodiscard]] SetupResult<void> write(KeyState wanted);
 
     KeyState state;
-    bool changed = false;                    // since it was given to the writer
-    std::weak_ptr<wire::Verifier> verifier;  // that endpoints with this key share
+    bool changed = false;  // since it was given to the writer
 
 private:
     std::filesystem::path path_;
     std::mutex mutex_;
     wire::SigningTime written_;  // guarded by mutex_
+};
+
+// What the endpoints with one key know together, whichever files they have it from.
+struct KeyJudge {
+    wire::Verifier verifier;
+    LateFrames late;
 };
 
 class KeyStates {
@@ -77,6 +84,7 @@ public:
     // The state of the key in file `path`; the first time it is read from its file, and written, and `notices` gets what a person should know of it.
     [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& path, const wire::SigningKey& key,
                                                 std::vector<std::string>& notices);
+    [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
     // To be called before the first frame is signed with the key.
     static void begin_signing(KeyFile& file);
     void add(const Signature& signature) { signatures_.push_back(&signature); }
@@ -98,6 +106,7 @@ private:
     void do_job(const Job& job);
 
     std::vector<std::shared_ptr<KeyFile>> files_;
+    std::map<std::uint64_t, std::weak_ptr<KeyJudge>> judges_;  // by the keys' fingerprints
     std::vector<const Signature*> signatures_;
     MonoTime due_ = MonoTime::max();
 

@@ -972,25 +972,26 @@ def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
 
 def test_in_a_group_what_came_by_another_link_long_ago_is_a_replay(net, run, tmp_path):
     key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key&group=air"
-    sut, second = net(("udpout", "udpout", "udpout"), options={1: options, 2: options}), 100_000
-    first, later, late, latest = (attitude(VEHICLE, signing=(key, 1, ticks_now() + t * second)) for t in (0, 20, 16, 40))
-    sut[1].send(first)
-    assert sut[3].next() == first
-    for frame in (later, latest):
-        sut[2].send(frame)
-        assert sut[3].next() == frame
-    sut[1].send(late)  # this link heard nothing since the first
-    mark = attitude(VEHICLE, signing=(key, 1, ticks_now() + 36 * second))
-    sut[1].send(mark)
+    sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options})
+    begin = ticks_now()
+    stream = [attitude(VEHICLE, signing=(key, 1, begin + number)) for number in range(6)]  # a clock that hardly runs
+    sut[1].send(stream[0])
+    assert sut[3].next() == stream[0]
+    time.sleep(2.1)  # longer than bytes are remembered
+    sut[1].send(stream[2])
+    assert sut[3].next() == stream[2]
+    for late in (stream[1], stream[0]):  # on the way for as long as that; and a replay, on a link that has not heard it
+        sut[2].send(late)
+    sut[2].send(stream[3])
 
-    assert sut[3].next() == mark
-    assert sum(link["bad_signature"] for link in sut.router.links()) == 1
+    assert sut[3].until(stream[3]) in ([], [stream[1]])
+    assert sum(link["bad_signature"] for link in sut.router.links()) >= 1
 
 
 @pytest.mark.parametrize("group, heard", [("", 1), ("&group=air", 2)])
 def test_what_one_endpoint_took_is_a_replay_at_the_others_but_in_a_group(net, run, tmp_path, group, heard):
     key, options = new_key(run, tmp_path / "link.key"), f"verify={tmp_path}/link.key{group}"
-    (tmp_path / "same.key").symlink_to("link.key")
+    shutil.copy(tmp_path / "link.key", tmp_path / "same.key")
     sut = net(("udpout", "udpout", "udpout"), options={1: options, 2: options.replace("link.key", "same.key")})
     own = attitude(VEHICLE, signing=(key, 1, ticks_now()))
     sut[1].send(own)
