@@ -8,6 +8,7 @@ import re
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import uuid
 
@@ -514,6 +515,28 @@ def test_an_inlet_that_goes_and_comes_back(spawn, inlet, ring, udp_port):
     done = relay.stop()
     sums = stats_of(done)["destinations"][0]
     assert done.status == 130 and sums["frames"] >= 2 and sums["nobody_there"] > 0
+
+
+@short
+def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn, ring, udp_port):
+    port = udp_port()
+    with tempfile.TemporaryDirectory() as run, contextlib.ExitStack() as closing:
+        vehicle = closing.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        router = closing.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM))
+        router.settimeout(0.05)
+        place = pathlib.Path(run, "mavloom", f"{ring}.in")
+        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", env={"XDG_RUNTIME_DIR": run})
+        relay.wait_output(rf"cannot send to .*{place}: No such file or directory; trying again")
+        assert not os.listdir(run)
+        place.parent.mkdir()
+        router.bind(str(place))
+
+        def arrives():
+            vehicle.sendto(heartbeat(), ("127.0.0.1", port))
+            with contextlib.suppress(socket.timeout):
+                return router.recv(65536)
+        assert harness.wait_for(arrives, what="a frame at the inlet") == heartbeat()
+        assert relay.stop().status == 130
 
 
 @short
