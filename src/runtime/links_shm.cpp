@@ -86,6 +86,7 @@ SetupResult<void> InletSender::connect() {
     retry_.settle();
     retry_.begin_anew();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
+    peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());  // as its router calls it
     core_.set_up(peer_);
     if (!peer_.queue.empty()) core_.schedule(*this);
     return {};

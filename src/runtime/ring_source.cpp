@@ -26,11 +26,12 @@ shm::ReaderOptions reader_options(const EndpointOptions& options) {
 
 }  // namespace
 
-RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids)
+RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links)
     : endpoint_(endpoint),
       id_{ids.next()},
       table_(table),
       ids_(ids),
+      links_(links),
       follower_(endpoint.path, reader_options(endpoint.options)) {
     copy_.reserve(shm::max_record_bytes);
     found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
@@ -87,6 +88,10 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
         last_ = &link_of(record.info.link, handler);
         last_number_ = record.info.link;
     }
+    if (last_->own) {
+        ++echo_;
+        return;
+    }
     time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
     if (!lossless()) return parse(record.data);
     copy_.assign(record.data.begin(), record.data.end());
@@ -107,10 +112,6 @@ void RingSource::parse(ByteView bytes) {
 }
 
 void RingSource::hand_over(LinkHandler& handler, const Found& found) {
-    if (sent_.knows(found.frame.system()) && sent_.takes_back(found.frame, mono_now())) {
-        ++echo_;
-        return;
-    }
     const auto update = last_->tracker.update(found.frame);
     counters_.lost.set(counters_.lost.value() + static_cast<std::uint64_t>(update.lost));
     handler.on_frame({found.frame, found.info, last_->id, id_, time_, update});
@@ -174,6 +175,7 @@ RingSource::RingLink& RingSource::link_called(const std::string& name, LinkHandl
         link = std::make_unique<RingLink>(LinkId{ids_.next()}, table_);
         handler.on_link_up(link->id, id_, name);
     }
+    link->own = is_own(name);
     return *link;
 }
 
@@ -184,19 +186,24 @@ std::string RingSource::name_of(LinkId in_ring) {
     return named != names_.end() ? named->second : fmt::format("{}/{}", endpoint_.label(), in_ring.value);
 }
 
-bool RingSource::send(Links& links, const wire::FrameView& frame) {
+// The router calls this process's link by the address that its socket has.
+bool RingSource::is_own(const std::string& name) const {
+    if (!inlet_) return false;
+    const auto links = links_.links();
+    return std::ranges::any_of(links, [&](const auto& l) { return l.endpoint == *inlet_ && l.name == name; });
+}
+
+bool RingSource::send(const wire::FrameView& frame) {
     if (!inlet_ && !no_inlet_) {
         Endpoint inlet = endpoint_;
         inlet.options.from_oldest = false;
         inlet.options.lossless.reset();
         inlet.options.required = false;
-        auto added = links.add(inlet);
+        auto added = links_.add(inlet);
         if (added) inlet_ = *added;
         else no_inlet_ = std::move(added.error());
     }
-    if (!inlet_ || links.send(*inlet_, frame) == 0) return false;
-    sent_.remember(frame, mono_now());
-    return true;
+    return inlet_ && links_.send(*inlet_, frame) != 0;
 }
 
 void RingSource::add_to(Totals& totals) const noexcept {

@@ -16,7 +16,6 @@
 #include "mavloom/runtime/totals.hpp"
 #include "mavloom/shm/ring_follower.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
-#include "runtime/echo_filter.hpp"
 
 namespace mavloom::runtime::detail {
 
@@ -31,7 +30,8 @@ private:
 
 class RingSource {
 public:
-    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids);
+    // Answers go out by `links`. It and the others must outlive the object.
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links);
 
     // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
     [[nodiscard]] SetupResult<void> open();
@@ -42,7 +42,7 @@ public:
     void end_here() noexcept;
 
     // To the inlet; true when it was taken.
-    bool send(Links& links, const wire::FrameView& frame);
+    bool send(const wire::FrameView& frame);
     void add_to(Totals& totals) const noexcept;
 
     [[nodiscard]] const Endpoint& endpoint() const noexcept { return endpoint_; }
@@ -55,6 +55,7 @@ private:
         LinkId id;
         wire::DatagramParser parser;
         wire::SequenceTracker tracker;
+        bool own = false;  // what was sent to the inlet comes back on it
     };
     struct Found {
         wire::FrameView frame;
@@ -74,11 +75,13 @@ private:
     [[nodiscard]] RingLink& link_of(LinkId in_ring, LinkHandler& handler);
     [[nodiscard]] RingLink& link_called(const std::string& name, LinkHandler& handler);
     [[nodiscard]] std::string name_of(LinkId in_ring);
+    [[nodiscard]] bool is_own(const std::string& name) const;
 
     Endpoint endpoint_;
     EndpointId id_;
     const wire::MessageTable& table_;
     RingLinkIds& ids_;
+    Links& links_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
     MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
@@ -101,7 +104,6 @@ private:
     std::optional<EndpointId> inlet_;
     std::optional<SetupError> no_inlet_;
     bool told_no_inlet_ = false;
-    EchoFilter sent_;
     LinkCounters counters_;
     std::uint64_t overwritten_ = 0, bad_records_ = 0, echo_ = 0;
 };

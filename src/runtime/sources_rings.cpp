@@ -22,7 +22,7 @@ SetupResult<void> RingSources::add(const Endpoint& endpoint) {
     if (std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_);
+    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_);
     if (auto opened = ring->open(); !opened) return opened;
     rings_.push_back(std::move(ring));
     return {};
@@ -74,7 +74,7 @@ void RingSources::end_here() noexcept {
 
 std::size_t RingSources::send(const wire::FrameView& frame) {
     std::size_t takers = 0;
-    for (const auto& ring : rings_) takers += ring->send(links_, frame) ? 1 : 0;
+    for (const auto& ring : rings_) takers += ring->send(frame) ? 1 : 0;
     return takers;
 }
 

@@ -540,20 +540,29 @@ def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn
 
 
 @short
-def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink):
+@pytest.mark.parametrize("signed", [False, True], ids=["unsigned", "signed"])
+def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink, tmp_path, signed):
     router, writer = inlet(), feed(ring)
-    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    key = tmp_path / "key"
+    assert run("key", "new", key).status == 0
+    relay = spawn("relay", f"shm://{ring}" + f"?sign={key}" * signed, "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
     wait_readers(run, ring)
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)
-    answer = heartbeat(system=255, component=190)
-    sink.sendto(answer, relay_address)
-    assert router.recv(65536) == answer
-    # A router writes what it hears at the inlet into the ring.
-    writer.write([(1_700_000_000_000_000, answer), *numbered(1, 1)])
-    assert sink.recv(65536) == numbered(1, 1)[0][1]
+    answers = [heartbeat(system=255, component=190, sequence=n % 256) for n in range(2000)]
+    for begin in range(0, len(answers), 50):
+        sink.sendto(b"".join(answers[begin:begin + 50]), relay_address)
+    heard = [router.recvfrom(65536) for _ in answers]
+    assert signed or [data for data, _ in heard] == answers
+    # A router writes what it hears at the inlet into the ring, on a link that it calls by the sender's address.
+    address = heard[0][1]
+    writer.kill_now()
+    writer = feed(ring, names={1: "radio", 7: f"shm://{ring}#@{address[1:].decode()}", 8: f"shm://{ring}#@another"})
+    last = [(1_700_000_000_000_000, answers[0], 8), (1_700_000_000_000_000, numbered(1, 1)[0][1], 1)]
+    writer.write([(1_700_000_000_000_000, data, 7) for data, _ in heard] + last)
+    assert receive(sink, len(bytes_of(last))) == bytes_of(last)
     done = relay.stop()
-    assert stats_of(done)["totals"]["echo"] == 1
+    assert stats_of(done)["totals"]["echo"] == len(answers)
 
 
 @short
