@@ -43,6 +43,7 @@ auto losses_of(const runtime::Totals& t) {
         Named{"buffer_full", "frame", "not handed on: the output was slower than --buffer allows", t.buffer_full},
         Named{"lapped", "record", "missed in the ring: its writer was faster", t.lapped},
         Named{"bad_records", "record", "in the ring without a whole valid frame", t.bad_records},
+        Named{"other_kinds", "record", "in the ring that are no MAVLink by their kind", t.other_kinds},
         Named{"echo", "record", "in the ring of what was sent to its inlet", t.echo},
         Named{"crc_error", "frame", "with a bad checksum", t.crc_error},
         Named{"junk_bytes", "byte", "outside every intact frame", t.junk_bytes},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mavloom/runtime/ring_frames.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/layout.hpp"
 
@@ -84,6 +85,10 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
     }
     told_ = Told::nothing;
     if (record.missed != 0) forget_sequences();
+    if (record.info.kind > ring_kind_frame) {
+        ++other_kinds_;
+        return;
+    }
     if (last_ == nullptr || last_number_ != record.info.link) {
         last_ = &link_of(record.info.link, handler);
         last_number_ = record.info.link;
@@ -210,6 +215,7 @@ void RingSource::add_to(Totals& totals) const noexcept {
     totals.add(counters_);
     totals.lapped += follower_.missed() + overwritten_;
     totals.bad_records += bad_records_;
+    totals.other_kinds += other_kinds_;
     totals.echo += echo_;
 }
 

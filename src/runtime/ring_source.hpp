@@ -105,7 +105,7 @@ private:
     std::optional<SetupError> no_inlet_;
     bool told_no_inlet_ = false;
     LinkCounters counters_;
-    std::uint64_t overwritten_ = 0, bad_records_ = 0, echo_ = 0;
+    std::uint64_t overwritten_ = 0, bad_records_ = 0, other_kinds_ = 0, echo_ = 0;
 };
 
 }  // namespace mavloom::runtime::detail

@@ -51,7 +51,7 @@ def feed():
 
     class Writer(harness.Running):
         def write(self, records):
-            """[(Unix microseconds, bytes)] or [(Unix microseconds, bytes, link)]."""
+            """[(Unix microseconds, bytes)], [(Unix microseconds, bytes, link)] or [(Unix microseconds, bytes, "LINK/KIND/VERDICT")]."""
             lines = [f"{time_us * 1000} {(link or [0])[0]} {data.hex()}\n" for time_us, data, *link in records]
             self.process.stdin.write("".join(lines).encode())
             self.process.stdin.flush()
@@ -437,6 +437,19 @@ def test_several_rings_and_a_socket_are_served_together(run, spawn, feed, ring, 
 
 
 # ---- damage
+
+@short
+def test_records_of_other_kinds_are_skipped(run, spawn, feed, ring):
+    writer = feed(ring)
+    listener = spawn("listen", f"shm://{ring}", "--json", "--stats", "--count", "2")
+    wait_readers(run, ring)
+    tagged = [(b"own bytes", "0/300/0"), (heartbeat(), "0/2/0"), (heartbeat(sequence=1), "0/1/1"), (heartbeat(sequence=2), "0/0/0")]
+    writer.write([(1_700_000_000_000_000, data, tags) for data, tags in tagged])
+    done = listener.wait()
+    assert done.status == 0 and len(done.lines) == 3
+    totals = stats_of(done)["totals"]
+    assert [totals[name] for name in ("other_kinds", "bad_records", "junk_bytes", "lost")] == [2, 0, 0, 0]
+
 
 @short
 def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, rng):
