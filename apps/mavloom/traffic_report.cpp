@@ -44,6 +44,7 @@ auto losses_of(const runtime::Totals& t) {
         Named{"lapped", "record", "missed in the ring: its writer was faster", t.lapped},
         Named{"bad_records", "record", "in the ring without a whole valid frame", t.bad_records},
         Named{"other_kinds", "record", "in the ring that are no MAVLink by their kind", t.other_kinds},
+        Named{"copies", "record", "in the ring that its router marked as a copy or an echo", t.copies},
         Named{"echo", "record", "in the ring of what was sent to its inlet", t.echo},
         Named{"crc_error", "frame", "with a bad checksum", t.crc_error},
         Named{"junk_bytes", "byte", "outside every intact frame", t.junk_bytes},

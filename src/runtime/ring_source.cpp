@@ -25,14 +25,21 @@ shm::ReaderOptions reader_options(const EndpointOptions& options) {
     return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
 }
 
+bool is_copy(const shm::RecordInfo& info) noexcept {
+    const auto verdict = verdict_of(info.verdict);
+    return verdict == route::Verdict::duplicate || verdict == route::Verdict::echo;
+}
+
 }  // namespace
 
-RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links)
+RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links,
+                       Copies copies)
     : endpoint_(endpoint),
       id_{ids.next()},
       table_(table),
       ids_(ids),
       links_(links),
+      wanted_copies_(copies),
       follower_(endpoint.path, reader_options(endpoint.options)) {
     copy_.reserve(shm::max_record_bytes);
     found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
@@ -95,6 +102,10 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
     }
     if (last_->own) {
         ++echo_;
+        return;
+    }
+    if (wanted_copies_ == Copies::left_out && is_copy(record.info)) {
+        ++copies_;
         return;
     }
     time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
@@ -216,6 +227,7 @@ void RingSource::add_to(Totals& totals) const noexcept {
     totals.lapped += follower_.missed() + overwritten_;
     totals.bad_records += bad_records_;
     totals.other_kinds += other_kinds_;
+    totals.copies += copies_;
     totals.echo += echo_;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/sources.hpp"
 #include "mavloom/runtime/totals.hpp"
 #include "mavloom/shm/ring_follower.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
@@ -31,7 +32,7 @@ private:
 class RingSource {
 public:
     // Answers go out by `links`. It and the others must outlive the object.
-    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links);
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies);
 
     // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
     [[nodiscard]] SetupResult<void> open();
@@ -82,6 +83,7 @@ private:
     const wire::MessageTable& table_;
     RingLinkIds& ids_;
     Links& links_;
+    Copies wanted_copies_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
     MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
@@ -105,7 +107,7 @@ private:
     std::optional<SetupError> no_inlet_;
     bool told_no_inlet_ = false;
     LinkCounters counters_;
-    std::uint64_t overwritten_ = 0, bad_records_ = 0, other_kinds_ = 0, echo_ = 0;
+    std::uint64_t overwritten_ = 0, bad_records_ = 0, other_kinds_ = 0, copies_ = 0, echo_ = 0;
 };
 
 }  // namespace mavloom::runtime::detail

@@ -21,14 +21,14 @@ static constexpr std::chrono::milliseconds empty_turn{1};
 // How many turns rings wait for a caller that has no room: some hundred milliseconds, for a disk that is busy.
 static constexpr int most_full_turns = 300;
 
-SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
+SetupResult<Sources> Sources::create(const dialect::Dialect& dialect, Copies copies) {
     auto links = Links::create(dialect);
     if (!links) return tl::unexpected(std::move(links.error()));
-    return Sources(std::move(*links), dialect.wire_table());
+    return Sources(std::move(*links), dialect.wire_table(), copies);
 }
 
-Sources::Sources(std::unique_ptr<Links> links, const wire::MessageTable& table)
-    : links_(std::move(links)), table_(&table), rings_(std::make_unique<detail::RingSources>(*links_, table)) {}
+Sources::Sources(std::unique_ptr<Links> links, const wire::MessageTable& table, Copies copies)
+    : links_(std::move(links)), table_(&table), rings_(std::make_unique<detail::RingSources>(*links_, table, copies)) {}
 Sources::Sources(Sources&&) noexcept = default;
 Sources::~Sources() = default;
 

@@ -10,8 +10,8 @@
 
 namespace mavloom::runtime::detail {
 
-RingSources::RingSources(Links& links, const wire::MessageTable& table)
-    : links_(links), table_(table), waiter_([&links] { links.wake(); }) {}
+RingSources::RingSources(Links& links, const wire::MessageTable& table, Copies copies)
+    : links_(links), table_(table), copies_(copies), waiter_([&links] { links.wake(); }) {}
 
 SetupResult<void> RingSources::check(const Endpoint& endpoint) {
     return check_supported(endpoint, RoutingOptions::refused);
@@ -22,7 +22,7 @@ SetupResult<void> RingSources::add(const Endpoint& endpoint) {
     if (std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_);
+    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_, copies_);
     if (auto opened = ring->open(); !opened) return opened;
     rings_.push_back(std::move(ring));
     return {};

@@ -14,7 +14,7 @@ namespace mavloom::runtime::detail {
 class RingSources {
 public:
     // `links` and `table` must outlive the object.
-    RingSources(Links& links, const wire::MessageTable& table);
+    RingSources(Links& links, const wire::MessageTable& table, Copies copies);
 
     [[nodiscard]] static SetupResult<void> check(const Endpoint& endpoint);
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
@@ -36,6 +36,7 @@ private:
 
     Links& links_;
     const wire::MessageTable& table_;
+    Copies copies_;
     shm::RingWaiter waiter_;
     std::vector<std::unique_ptr<RingSource>> rings_;
     std::vector<std::uint64_t> watched_;  // which opening of each ring the waiter sleeps on; 0: none

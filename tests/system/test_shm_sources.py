@@ -452,6 +452,22 @@ def test_records_of_other_kinds_are_skipped(run, spawn, feed, ring):
 
 
 @short
+def test_a_relay_leaves_out_what_the_router_marked_as_copy_or_echo(run, spawn, feed, ring, sink):
+    """Verdicts by docs/formats/ring.md: 1 forwarded, 4 rate limited, 5 copy, 6 echo, 7 unknown target; bits 4 and 5 the signature."""
+    writer = feed(ring)
+    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    listener = spawn("listen", f"shm://{ring}", "--json", "--count", "8")
+    wait_readers(run, ring, 2)
+    verdicts = [1, 5, 4, 6, 5 + 16, 7, 0, 1]
+    records = [(1_700_000_000_000_000, heartbeat(sequence=n), f"0/1/{verdict}") for n, verdict in enumerate(verdicts)]
+    writer.write(records)
+    wanted = bytes_of([record for record, verdict in zip(records, verdicts) if verdict % 16 not in (5, 6)])
+    assert receive(sink, len(wanted)) == wanted
+    assert len(listener.wait().lines) == 8
+    assert stats_of(relay.stop())["totals"]["copies"] == 3
+
+
+@short
 def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, rng):
     path = SHM / f"mavloom.{ring}"
     path.write_bytes(rng.randbytes(16384 + 65536))
