@@ -69,13 +69,11 @@ std::size_t RingSource::play(LinkHandler& handler, std::size_t most) {
 bool RingSource::read(LinkHandler& handler) {
     found_.clear();
     next_found_ = 0;
-    if (next_look_ != MonoTime{} && mono_now() < next_look_) return false;
+    if (at_end_ || (next_look_ != MonoTime{} && mono_now() < next_look_)) return false;
     const auto record = follower_.poll();
-    if (!record) {
-        nothing_comes(record.error(), handler);
-        return false;
-    }
-    if (end_ && record->position >= *end_) return false;
+    at_end_ = end_ && (!record || record->position >= *end_);
+    if (!record) nothing_comes(record.error(), handler);
+    if (!record || at_end_) return false;
     take(*record, handler);
     return true;
 }
@@ -160,6 +158,7 @@ void RingSource::tell(LinkHandler& handler, Told what, std::string_view text) {
 
 MonoTime RingSource::due(bool has_room, MonoTime now) {
     if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
+    if (at_end_) return MonoTime::max();
     auto* const reader = follower_.reader();
     if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
     const Nanoseconds nap = reader->arm();
@@ -171,6 +170,7 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
 void RingSource::end_here() noexcept {
     const auto* const reader = follower_.reader();
     end_ = reader == nullptr ? 0 : reader->end_position();
+    at_end_ = reader == nullptr || next_look_ != MonoTime{};
 }
 
 void RingSource::forget_sequences() {

@@ -40,7 +40,10 @@ public:
     std::size_t play(LinkHandler& handler, std::size_t most);
     // When to play next: at once while something waits that there was no room for. Asks the writer to wake this process before.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
+    // What is written from now on is left in the ring.
     void end_here() noexcept;
+    // Whether all before that was handed over.
+    [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
     // To the inlet; true when it was taken.
     bool send(const wire::FrameView& frame);
@@ -91,6 +94,7 @@ private:
     bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
     std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
     std::optional<std::uint64_t> end_;        // where reading stops
+    bool at_end_ = false;
 
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
     std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring

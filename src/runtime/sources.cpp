@@ -204,7 +204,7 @@ void Sources::drain(LinkHandler& handler, const std::function<Room()>& room) {
         const MonoTime until = turns < last_empty_turns || is_full ? mono_now() + empty_turn : MonoTime{};
         const bool is_empty = turn(early, until, {0, now.lossless, now.lossy}) == 0 && !is_full;
         empty_turns = is_empty ? empty_turns + 1 : 0;
-        late_turns = early.take() || !rings_->empty() ? 0 : late_turns + 1;
+        late_turns = early.take() || !rings_->at_end() ? 0 : late_turns + 1;
     }
     room();
 }

@@ -72,6 +72,10 @@ void RingSources::end_here() noexcept {
     for (const auto& ring : rings_) ring->end_here();
 }
 
+bool RingSources::at_end() const noexcept {
+    return std::ranges::all_of(rings_, [](const auto& ring) { return ring->at_end(); });
+}
+
 std::size_t RingSources::send(const wire::FrameView& frame) {
     std::size_t takers = 0;
     for (const auto& ring : rings_) takers += ring->send(frame) ? 1 : 0;

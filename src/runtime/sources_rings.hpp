@@ -26,6 +26,8 @@ public:
     std::size_t play(LinkHandler& handler, const Room& room);
     // What is written from now on is left in the rings.
     void end_here() noexcept;
+    // Whether all that was written before is handed over.
+    [[nodiscard]] bool at_end() const noexcept;
 
     // To each ring's inlet, which is opened with the first answer. Returns how many took it.
     std::size_t send(const wire::FrameView& frame);
