@@ -188,7 +188,7 @@ Exit relay(const Common& common, Options& options) {
     if (auto checked = check_words(options); !checked) return fail(checked.error());
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
-    auto sources = runtime::Sources::create(*dialect);
+    auto sources = runtime::Sources::create(*dialect, runtime::Copies::left_out);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);

@@ -19,6 +19,8 @@ IoError io_error_of(int err) noexcept {
         case EMSGSIZE: return IoError::too_long;
         case ECONNRESET:
         case EPIPE:
+        case ENOTCONN:
+        case EDESTADDRREQ:
         case ETIMEDOUT:
         case ECONNABORTED: return IoError::closed;
         case EMFILE:

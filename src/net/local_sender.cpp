@@ -6,8 +6,12 @@
 #include <sys/un.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
+#include <string_view>
 #include <utility>
+
+#include "mavloom/base/shown.hpp"
 
 namespace mavloom::net {
 
@@ -28,6 +32,14 @@ SetupResult<LocalSender> LocalSender::connect(const std::filesystem::path& path)
     if (::connect(fd.get(), as_sockaddr(far), sizeof far) != 0)
         return system_error(fmt::format("cannot send to {}", path.string()), errno);
     return LocalSender(std::move(fd));
+}
+
+std::string LocalSender::own_address() const {
+    sockaddr_un own{};
+    socklen_t length = sizeof own;
+    constexpr std::size_t before = offsetof(sockaddr_un, sun_path) + 1;  // the NUL of an abstract name
+    if (::getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&own), &length) != 0 || length <= before) return {};
+    return fmt::format("@{}", printable(std::string_view(own.sun_path + 1, length - before)));
 }
 
 IoResult<std::size_t> LocalSender::send(SendBatch& batch, std::size_t first) noexcept {

@@ -10,7 +10,9 @@
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "mavloom/runtime/control.hpp"
@@ -28,16 +30,25 @@ bool is_router_name(std::string_view name) noexcept {
     return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, good);
 }
 
+// Where RUN may be; the first that serves is taken.
+static std::vector<std::filesystem::path> run_folders() {
+    std::vector<std::filesystem::path> folders{"/run/mavloom"};
+    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own == '/')
+        folders.push_back(std::filesystem::path(own) / "mavloom");
+    return folders;
+}
+
+static SetupResult<void> check_name(std::string_view name) {
+    if (is_router_name(name)) return {};
+    return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
+}
+
 // RUN/NAME.SUFFIX; `what` for people.
 static SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
                                                    std::string_view what) {
     constexpr std::size_t most = sizeof(sockaddr_un::sun_path) - 1;
-    if (!is_router_name(name))
-        return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
-    std::vector<std::filesystem::path> folders{"/run/mavloom"};
-    if (const char* own = std::getenv("XDG_RUNTIME_DIR"); own != nullptr && *own == '/')
-        folders.push_back(std::filesystem::path(own) / "mavloom");
-    for (const auto& folder : folders) {
+    if (auto checked = check_name(name); !checked) return tl::unexpected(std::move(checked.error()));
+    for (const auto& folder : run_folders()) {
         ::mkdir(folder.c_str(), 0755);
         if (::access(folder.c_str(), W_OK | X_OK) != 0) continue;
         auto path = folder / fmt::format("{}.{}", name, suffix);
@@ -57,6 +68,17 @@ SetupResult<std::filesystem::path> control_path(std::string_view name) {
 }
 
 SetupResult<std::filesystem::path> inlet_path(std::string_view ring) { return run_path(ring, "in", "inlet"); }
+
+SetupResult<std::filesystem::path> find_inlet(std::string_view ring) {
+    if (auto checked = check_name(ring); !checked) return tl::unexpected(std::move(checked.error()));
+    std::string looked_at;
+    for (const auto& folder : run_folders()) {
+        auto path = folder / fmt::format("{}.in", ring);
+        if (::access(path.c_str(), F_OK) == 0) return path;
+        looked_at += fmt::format("{}{}", looked_at.empty() ? "" : " or ", path.string());
+    }
+    return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", looked_at, std::strerror(ENOENT)));
+}
 
 namespace {
 

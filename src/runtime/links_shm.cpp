@@ -20,10 +20,9 @@ constexpr std::size_t most_pieces = 2;
 
 class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
-    InletSender(Opening& opening, std::filesystem::path path)
+    explicit InletSender(Opening& opening)
         : OpenEndpoint(opening),
           core_(opening.core),
-          path_(std::move(path)),
           peer_(*this, opening.id, queue_limits(opening.endpoint.options)),
           retry_(core_, *this, *this) {
         peer_.name = opening.endpoint.label();
@@ -67,7 +66,6 @@ private:
     void lose();
 
     Core& core_;
-    std::filesystem::path path_;
     Peer peer_;
     net::LocalSender socket_;
     net::WatchId watch_;
@@ -76,7 +74,9 @@ private:
 };
 
 SetupResult<void> InletSender::connect() {
-    auto socket = net::LocalSender::connect(path_);
+    const auto path = find_inlet(info.endpoint.path);
+    if (!path) return tl::unexpected(path.error());
+    auto socket = net::LocalSender::connect(*path);
     if (!socket) return tl::unexpected(std::move(socket.error()));
     auto watch = core_.loop().watch(socket->fd(), false, false, *this);
     if (!watch) return tl::unexpected(std::move(watch.error()));
@@ -86,6 +86,7 @@ SetupResult<void> InletSender::connect() {
     retry_.settle();
     retry_.begin_anew();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
+    peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());  // as its router calls it
     core_.set_up(peer_);
     if (!peer_.queue.empty()) core_.schedule(*this);
     return {};
@@ -177,9 +178,7 @@ SetupResult<void> check_inlet(const Endpoint& endpoint) {
 SetupResult<std::unique_ptr<OpenEndpoint>> open_shm(Opening opening) {
     const Endpoint& endpoint = opening.endpoint;
     if (auto checked = check_inlet(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
-    auto path = inlet_path(endpoint.path);
-    if (!path) return tl::unexpected(std::move(path.error()));
-    auto inlet = std::make_unique<InletSender>(opening, std::move(*path));
+    auto inlet = std::make_unique<InletSender>(opening);
     if (!endpoint.options.required) inlet->connect_or_retry();
     else if (auto done = inlet->connect(); !done)
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));

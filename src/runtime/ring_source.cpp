@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mavloom/runtime/ring_frames.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/layout.hpp"
 
@@ -24,13 +25,21 @@ shm::ReaderOptions reader_options(const EndpointOptions& options) {
     return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
 }
 
+bool is_copy(const shm::RecordInfo& info) noexcept {
+    const auto verdict = verdict_of(info.verdict);
+    return verdict == route::Verdict::duplicate || verdict == route::Verdict::echo;
+}
+
 }  // namespace
 
-RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids)
+RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links,
+                       Copies copies)
     : endpoint_(endpoint),
       id_{ids.next()},
       table_(table),
       ids_(ids),
+      links_(links),
+      wanted_copies_(copies),
       follower_(endpoint.path, reader_options(endpoint.options)) {
     copy_.reserve(shm::max_record_bytes);
     found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
@@ -60,13 +69,11 @@ std::size_t RingSource::play(LinkHandler& handler, std::size_t most) {
 bool RingSource::read(LinkHandler& handler) {
     found_.clear();
     next_found_ = 0;
-    if (next_look_ != MonoTime{} && mono_now() < next_look_) return false;
+    if (at_end_ || (next_look_ != MonoTime{} && mono_now() < next_look_)) return false;
     const auto record = follower_.poll();
-    if (!record) {
-        nothing_comes(record.error(), handler);
-        return false;
-    }
-    if (end_ && record->position >= *end_) return false;
+    at_end_ = end_ && (!record || record->position >= *end_);
+    if (!record) nothing_comes(record.error(), handler);
+    if (!record || at_end_) return false;
     take(*record, handler);
     return true;
 }
@@ -83,9 +90,21 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
     }
     told_ = Told::nothing;
     if (record.missed != 0) forget_sequences();
+    if (record.info.kind > ring_kind_frame) {
+        ++other_kinds_;
+        return;
+    }
     if (last_ == nullptr || last_number_ != record.info.link) {
         last_ = &link_of(record.info.link, handler);
         last_number_ = record.info.link;
+    }
+    if (last_->own) {
+        ++echo_;
+        return;
+    }
+    if (wanted_copies_ == Copies::left_out && is_copy(record.info)) {
+        ++copies_;
+        return;
     }
     time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
     if (!lossless()) return parse(record.data);
@@ -107,10 +126,6 @@ void RingSource::parse(ByteView bytes) {
 }
 
 void RingSource::hand_over(LinkHandler& handler, const Found& found) {
-    if (sent_.knows(found.frame.system()) && sent_.takes_back(found.frame, mono_now())) {
-        ++echo_;
-        return;
-    }
     const auto update = last_->tracker.update(found.frame);
     counters_.lost.set(counters_.lost.value() + static_cast<std::uint64_t>(update.lost));
     handler.on_frame({found.frame, found.info, last_->id, id_, time_, update});
@@ -143,6 +158,7 @@ void RingSource::tell(LinkHandler& handler, Told what, std::string_view text) {
 
 MonoTime RingSource::due(bool has_room, MonoTime now) {
     if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
+    if (at_end_) return MonoTime::max();
     auto* const reader = follower_.reader();
     if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
     const Nanoseconds nap = reader->arm();
@@ -154,6 +170,7 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
 void RingSource::end_here() noexcept {
     const auto* const reader = follower_.reader();
     end_ = reader == nullptr ? 0 : reader->end_position();
+    at_end_ = reader == nullptr || next_look_ != MonoTime{};
 }
 
 void RingSource::forget_sequences() {
@@ -174,6 +191,7 @@ RingSource::RingLink& RingSource::link_called(const std::string& name, LinkHandl
         link = std::make_unique<RingLink>(LinkId{ids_.next()}, table_);
         handler.on_link_up(link->id, id_, name);
     }
+    link->own = is_own(name);
     return *link;
 }
 
@@ -184,25 +202,32 @@ std::string RingSource::name_of(LinkId in_ring) {
     return named != names_.end() ? named->second : fmt::format("{}/{}", endpoint_.label(), in_ring.value);
 }
 
-bool RingSource::send(Links& links, const wire::FrameView& frame) {
+// The router calls this process's link by the address that its socket has.
+bool RingSource::is_own(const std::string& name) const {
+    if (!inlet_) return false;
+    const auto links = links_.links();
+    return std::ranges::any_of(links, [&](const auto& l) { return l.endpoint == *inlet_ && l.name == name; });
+}
+
+bool RingSource::send(const wire::FrameView& frame) {
     if (!inlet_ && !no_inlet_) {
         Endpoint inlet = endpoint_;
         inlet.options.from_oldest = false;
         inlet.options.lossless.reset();
         inlet.options.required = false;
-        auto added = links.add(inlet);
+        auto added = links_.add(inlet);
         if (added) inlet_ = *added;
         else no_inlet_ = std::move(added.error());
     }
-    if (!inlet_ || links.send(*inlet_, frame) == 0) return false;
-    sent_.remember(frame, mono_now());
-    return true;
+    return inlet_ && links_.send(*inlet_, frame) != 0;
 }
 
 void RingSource::add_to(Totals& totals) const noexcept {
     totals.add(counters_);
     totals.lapped += follower_.missed() + overwritten_;
     totals.bad_records += bad_records_;
+    totals.other_kinds += other_kinds_;
+    totals.copies += copies_;
     totals.echo += echo_;
 }
 

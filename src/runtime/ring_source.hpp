@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/sources.hpp"
 #include "mavloom/runtime/totals.hpp"
 #include "mavloom/shm/ring_follower.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
-#include "runtime/echo_filter.hpp"
 
 namespace mavloom::runtime::detail {
 
@@ -31,7 +31,8 @@ private:
 
 class RingSource {
 public:
-    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids);
+    // Answers go out by `links`. It and the others must outlive the object.
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies);
 
     // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
     [[nodiscard]] SetupResult<void> open();
@@ -39,10 +40,13 @@ public:
     std::size_t play(LinkHandler& handler, std::size_t most);
     // When to play next: at once while something waits that there was no room for. Asks the writer to wake this process before.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
+    // What is written from now on is left in the ring.
     void end_here() noexcept;
+    // Whether all before that was handed over.
+    [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
     // To the inlet; true when it was taken.
-    bool send(Links& links, const wire::FrameView& frame);
+    bool send(const wire::FrameView& frame);
     void add_to(Totals& totals) const noexcept;
 
     [[nodiscard]] const Endpoint& endpoint() const noexcept { return endpoint_; }
@@ -55,6 +59,7 @@ private:
         LinkId id;
         wire::DatagramParser parser;
         wire::SequenceTracker tracker;
+        bool own = false;  // what was sent to the inlet comes back on it
     };
     struct Found {
         wire::FrameView frame;
@@ -74,11 +79,14 @@ private:
     [[nodiscard]] RingLink& link_of(LinkId in_ring, LinkHandler& handler);
     [[nodiscard]] RingLink& link_called(const std::string& name, LinkHandler& handler);
     [[nodiscard]] std::string name_of(LinkId in_ring);
+    [[nodiscard]] bool is_own(const std::string& name) const;
 
     Endpoint endpoint_;
     EndpointId id_;
     const wire::MessageTable& table_;
     RingLinkIds& ids_;
+    Links& links_;
+    Copies wanted_copies_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
     MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
@@ -86,6 +94,7 @@ private:
     bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
     std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
     std::optional<std::uint64_t> end_;        // where reading stops
+    bool at_end_ = false;
 
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
     std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring
@@ -101,9 +110,8 @@ private:
     std::optional<EndpointId> inlet_;
     std::optional<SetupError> no_inlet_;
     bool told_no_inlet_ = false;
-    EchoFilter sent_;
     LinkCounters counters_;
-    std::uint64_t overwritten_ = 0, bad_records_ = 0, echo_ = 0;
+    std::uint64_t overwritten_ = 0, bad_records_ = 0, other_kinds_ = 0, copies_ = 0, echo_ = 0;
 };
 
 }  // namespace mavloom::runtime::detail

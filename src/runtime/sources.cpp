@@ -21,14 +21,14 @@ static constexpr std::chrono::milliseconds empty_turn{1};
 // How many turns rings wait for a caller that has no room: some hundred milliseconds, for a disk that is busy.
 static constexpr int most_full_turns = 300;
 
-SetupResult<Sources> Sources::create(const dialect::Dialect& dialect) {
+SetupResult<Sources> Sources::create(const dialect::Dialect& dialect, Copies copies) {
     auto links = Links::create(dialect);
     if (!links) return tl::unexpected(std::move(links.error()));
-    return Sources(std::move(*links), dialect.wire_table());
+    return Sources(std::move(*links), dialect.wire_table(), copies);
 }
 
-Sources::Sources(std::unique_ptr<Links> links, const wire::MessageTable& table)
-    : links_(std::move(links)), table_(&table), rings_(std::make_unique<detail::RingSources>(*links_, table)) {}
+Sources::Sources(std::unique_ptr<Links> links, const wire::MessageTable& table, Copies copies)
+    : links_(std::move(links)), table_(&table), rings_(std::make_unique<detail::RingSources>(*links_, table, copies)) {}
 Sources::Sources(Sources&&) noexcept = default;
 Sources::~Sources() = default;
 
@@ -204,7 +204,7 @@ void Sources::drain(LinkHandler& handler, const std::function<Room()>& room) {
         const MonoTime until = turns < last_empty_turns || is_full ? mono_now() + empty_turn : MonoTime{};
         const bool is_empty = turn(early, until, {0, now.lossless, now.lossy}) == 0 && !is_full;
         empty_turns = is_empty ? empty_turns + 1 : 0;
-        late_turns = early.take() || !rings_->empty() ? 0 : late_turns + 1;
+        late_turns = early.take() || !rings_->at_end() ? 0 : late_turns + 1;
     }
     room();
 }

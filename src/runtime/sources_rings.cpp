@@ -10,8 +10,8 @@
 
 namespace mavloom::runtime::detail {
 
-RingSources::RingSources(Links& links, const wire::MessageTable& table)
-    : links_(links), table_(table), waiter_([&links] { links.wake(); }) {}
+RingSources::RingSources(Links& links, const wire::MessageTable& table, Copies copies)
+    : links_(links), table_(table), copies_(copies), waiter_([&links] { links.wake(); }) {}
 
 SetupResult<void> RingSources::check(const Endpoint& endpoint) {
     return check_supported(endpoint, RoutingOptions::refused);
@@ -22,7 +22,7 @@ SetupResult<void> RingSources::add(const Endpoint& endpoint) {
     if (std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_);
+    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_, copies_);
     if (auto opened = ring->open(); !opened) return opened;
     rings_.push_back(std::move(ring));
     return {};
@@ -72,9 +72,13 @@ void RingSources::end_here() noexcept {
     for (const auto& ring : rings_) ring->end_here();
 }
 
+bool RingSources::at_end() const noexcept {
+    return std::ranges::all_of(rings_, [](const auto& ring) { return ring->at_end(); });
+}
+
 std::size_t RingSources::send(const wire::FrameView& frame) {
     std::size_t takers = 0;
-    for (const auto& ring : rings_) takers += ring->send(links_, frame) ? 1 : 0;
+    for (const auto& ring : rings_) takers += ring->send(frame) ? 1 : 0;
     return takers;
 }
 

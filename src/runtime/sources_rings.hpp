@@ -14,7 +14,7 @@ namespace mavloom::runtime::detail {
 class RingSources {
 public:
     // `links` and `table` must outlive the object.
-    RingSources(Links& links, const wire::MessageTable& table);
+    RingSources(Links& links, const wire::MessageTable& table, Copies copies);
 
     [[nodiscard]] static SetupResult<void> check(const Endpoint& endpoint);
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
@@ -26,6 +26,8 @@ public:
     std::size_t play(LinkHandler& handler, const Room& room);
     // What is written from now on is left in the rings.
     void end_here() noexcept;
+    // Whether all that was written before is handed over.
+    [[nodiscard]] bool at_end() const noexcept;
 
     // To each ring's inlet, which is opened with the first answer. Returns how many took it.
     std::size_t send(const wire::FrameView& frame);
@@ -36,6 +38,7 @@ private:
 
     Links& links_;
     const wire::MessageTable& table_;
+    Copies copies_;
     shm::RingWaiter waiter_;
     std::vector<std::unique_ptr<RingSource>> rings_;
     std::vector<std::uint64_t> watched_;  // which opening of each ring the waiter sleeps on; 0: none

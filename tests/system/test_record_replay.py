@@ -63,7 +63,7 @@ def test_an_existing_file_is_renamed(run, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["x.tlog", "x.tlog.1", "x.tlog.2"]
 
 
-LOSSES = ["kernel_drop", "buffer_full", "lapped", "bad_records", "echo", "crc_error", "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer",
+LOSSES = ["kernel_drop", "buffer_full", "lapped", "bad_records", "other_kinds", "copies", "echo", "crc_error", "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer",
           "stray_bytes", "peers_refused"]
 
 

@@ -8,6 +8,7 @@ import re
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import uuid
 
@@ -50,7 +51,7 @@ def feed():
 
     class Writer(harness.Running):
         def write(self, records):
-            """[(Unix microseconds, bytes)] or [(Unix microseconds, bytes, link)]."""
+            """[(Unix microseconds, bytes)], [(Unix microseconds, bytes, link)] or [(Unix microseconds, bytes, "LINK/KIND/VERDICT")]."""
             lines = [f"{time_us * 1000} {(link or [0])[0]} {data.hex()}\n" for time_us, data, *link in records]
             self.process.stdin.write("".join(lines).encode())
             self.process.stdin.flush()
@@ -438,6 +439,35 @@ def test_several_rings_and_a_socket_are_served_together(run, spawn, feed, ring, 
 # ---- damage
 
 @short
+def test_records_of_other_kinds_are_skipped(run, spawn, feed, ring):
+    writer = feed(ring)
+    listener = spawn("listen", f"shm://{ring}", "--json", "--stats", "--count", "2")
+    wait_readers(run, ring)
+    tagged = [(b"own bytes", "0/300/0"), (heartbeat(), "0/2/0"), (heartbeat(sequence=1), "0/1/1"), (heartbeat(sequence=2), "0/0/0")]
+    writer.write([(1_700_000_000_000_000, data, tags) for data, tags in tagged])
+    done = listener.wait()
+    assert done.status == 0 and len(done.lines) == 3
+    totals = stats_of(done)["totals"]
+    assert [totals[name] for name in ("frames", "other_kinds", "bad_records", "junk_bytes")] == [2, 2, 0, 0]
+
+
+@short
+def test_a_relay_leaves_out_what_the_router_marked_as_copy_or_echo(run, spawn, feed, ring, sink):
+    """Verdicts by docs/formats/ring.md: 1 forwarded, 4 rate limited, 5 copy, 6 echo, 7 unknown target; bits 4 and 5 the signature."""
+    writer = feed(ring)
+    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    listener = spawn("listen", f"shm://{ring}", "--json", "--count", "8")
+    wait_readers(run, ring, 2)
+    verdicts = [1, 5, 4, 6, 5 + 16, 7, 0, 1]
+    records = [(1_700_000_000_000_000, heartbeat(sequence=n), f"0/1/{verdict}") for n, verdict in enumerate(verdicts)]
+    writer.write(records)
+    wanted = bytes_of([record for record, verdict in zip(records, verdicts) if verdict % 16 not in (5, 6)])
+    assert receive(sink, len(wanted)) == wanted
+    assert len(listener.wait().lines) == 8
+    assert stats_of(relay.stop())["totals"]["copies"] == 3
+
+
+@short
 def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, rng):
     path = SHM / f"mavloom.{ring}"
     path.write_bytes(rng.randbytes(16384 + 65536))
@@ -517,20 +547,51 @@ def test_an_inlet_that_goes_and_comes_back(spawn, inlet, ring, udp_port):
 
 
 @short
-def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink):
+def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn, ring, udp_port):
+    port = udp_port()
+    with tempfile.TemporaryDirectory() as run, contextlib.ExitStack() as closing:
+        vehicle = closing.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        router = closing.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM))
+        router.settimeout(0.05)
+        place = pathlib.Path(run, "mavloom", f"{ring}.in")
+        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", env={"XDG_RUNTIME_DIR": run})
+        relay.wait_output(rf"cannot send to .*{place}: No such file or directory; trying again")
+        assert not os.listdir(run)
+        place.parent.mkdir()
+        router.bind(str(place))
+
+        def arrives():
+            vehicle.sendto(heartbeat(), ("127.0.0.1", port))
+            with contextlib.suppress(socket.timeout):
+                return router.recv(65536)
+        assert harness.wait_for(arrives, what="a frame at the inlet") == heartbeat()
+        assert relay.stop().status == 130
+
+
+@short
+@pytest.mark.parametrize("signed", [False, True], ids=["unsigned", "signed"])
+def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink, tmp_path, signed):
     router, writer = inlet(), feed(ring)
-    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    key = tmp_path / "key"
+    assert run("key", "new", key).status == 0
+    relay = spawn("relay", f"shm://{ring}" + f"?sign={key}" * signed, "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
     wait_readers(run, ring)
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)
-    answer = heartbeat(system=255, component=190)
-    sink.sendto(answer, relay_address)
-    assert router.recv(65536) == answer
-    # A router writes what it hears at the inlet into the ring.
-    writer.write([(1_700_000_000_000_000, answer), *numbered(1, 1)])
-    assert sink.recv(65536) == numbered(1, 1)[0][1]
+    answers = [heartbeat(system=255, component=190, sequence=n % 256) for n in range(2000)]
+    for begin in range(0, len(answers), 50):
+        sink.sendto(b"".join(answers[begin:begin + 50]), relay_address)
+    heard = [router.recvfrom(65536) for _ in answers]
+    assert signed or [data for data, _ in heard] == answers
+    # A router writes what it hears at the inlet into the ring, on a link that it calls by the sender's address.
+    address = heard[0][1]
+    writer.kill_now()
+    writer = feed(ring, names={1: "radio", 7: f"shm://{ring}#@{address[1:].decode()}", 8: f"shm://{ring}#@another"})
+    last = [(1_700_000_000_000_000, answers[0], 8), (1_700_000_000_000_000, numbered(1, 1)[0][1], 1)]
+    writer.write([(1_700_000_000_000_000, data, 7) for data, _ in heard] + last)
+    assert receive(sink, len(bytes_of(last))) == bytes_of(last)
     done = relay.stop()
-    assert stats_of(done)["totals"]["echo"] == 1
+    assert stats_of(done)["totals"]["echo"] == len(answers)
 
 
 @short

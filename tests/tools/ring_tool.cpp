@@ -3,7 +3,7 @@
 //   ring_tool write NAME COUNT POLICY       COUNT records (0: without end); "ready" on stdout once the ring is open
 //   ring_tool die NAME RECORDS STEP         RECORDS whole ones, then SIGKILL of itself before the STEPth access to shared memory from then on
 //   ring_tool read NAME lossy|lossless|polling COUNT   until record COUNT - 1 was there (0: until killed); checks each, ends with a JSON object
-//   ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" of stdin becomes a record; "ready" on stdout;
+//   ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" or "TIME_NS LINK/KIND/VERDICT HEX" of stdin becomes a record; "ready" on stdout;
 //                                           a counter page where names are given
 //   ring_tool check NAME                    all that the ring holds, whole and in order; a JSON object
 // The record with sequence number n has (n * 7919) % 1500 bytes that follow from n.
@@ -94,6 +94,13 @@ void name_links(CounterPage& page, const std::vector<std::string>& names) {
     }
 }
 
+RecordInfo info_of(std::int64_t time_ns, const std::string& tags) {
+    std::uint32_t link = 0, kind = 0, verdict = 0;
+    std::sscanf(tags.c_str(), "%u/%u/%u", &link, &kind, &verdict);
+    return {WallTime{Nanoseconds{time_ns}}, LinkId{link}, static_cast<std::uint16_t>(kind),
+            static_cast<std::uint8_t>(verdict)};
+}
+
 int feed(const std::string& name, std::string_view policy, std::uint64_t capacity,
          const std::vector<std::string>& names) {
     auto options = options_of(policy);
@@ -109,10 +116,8 @@ int feed(const std::string& name, std::string_view policy, std::uint64_t capacit
     }
     ready();
     std::int64_t time_ns = 0;
-    std::uint32_t link = 0;
-    for (std::string hex; std::cin >> time_ns >> link >> hex;) {
-        const RecordInfo info{WallTime{Nanoseconds{time_ns}}, LinkId{link}, 0, 0};
-        const auto written = writer->write(bytes_of(hex), info, MonoTime::max());
+    for (std::string tags, hex; std::cin >> time_ns >> tags >> hex;) {
+        const auto written = writer->write(bytes_of(hex), info_of(time_ns, tags), MonoTime::max());
         if (!written) fail(to_text(written.error()));
     }
     return 0;

@@ -15,7 +15,7 @@ enum class IoError : std::uint8_t {
     unreachable,  // no route, or the host does not answer
     no_buffers,   // the kernel is short of memory for the moment
     too_long,     // the datagram is longer than the path takes
-    closed,       // the far side ended the stream
+    closed,       // the far side ended the stream, or the socket has none any longer
     no_descriptors,
     other,
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "mavloom/net/fd.hpp"
 #include "mavloom/net/io_result.hpp"
@@ -18,6 +19,8 @@ public:
     [[nodiscard]] static SetupResult<LocalSender> connect(const std::filesystem::path& path);
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
+    // What the kernel gave it, as people write it: "@0001f".
+    [[nodiscard]] std::string own_address() const;
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
 
     // Sends batch[first...], whose datagrams have no address; returns how many went. `would_block`: the far side's queue is full, and the descriptor

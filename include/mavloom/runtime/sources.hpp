@@ -31,13 +31,16 @@ struct Room {
     std::size_t recordings, lossless, lossy;
 };
 
+// What the router of a ring marked as a duplicate or an echo: handed over, or left out and counted (Totals::copies).
+enum class Copies : std::uint8_t { kept, left_out };
+
 class Sources {
 public:
     Sources(Sources&&) noexcept;
     ~Sources();
 
     // `dialect` must outlive the object.
-    [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect);
+    [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect, Copies copies = Copies::kept);
 
     // What `add` would find wrong with it before anything is opened or waited for: options, and a file that is missing or no recording.
     [[nodiscard]] SetupResult<void> check(const Endpoint& endpoint) const;
@@ -91,7 +94,7 @@ private:
     // Ids of recordings lie above all that Links gives.
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
-    Sources(std::unique_ptr<Links> links, const wire::MessageTable& table);
+    Sources(std::unique_ptr<Links> links, const wire::MessageTable& table, Copies copies);
     // Reads its next record. False: it met much damage and gives way to links and signals.
     bool advance(Recording& recording, LinkHandler& handler);
     std::size_t play(LinkHandler& handler, std::size_t most_frames);

@@ -20,7 +20,9 @@ struct Totals {
     std::uint64_t damaged_places = 0;  // in recordings
     std::uint64_t lapped = 0;          // records that a ring's writer overwrote before they were read
     std::uint64_t bad_records = 0;     // records of a ring that held no whole valid frame
-    std::uint64_t echo = 0;            // frames that were sent to a ring's inlet and stood in the ring again
+    std::uint64_t other_kinds = 0;     // records of a ring that are no MAVLink by their kind
+    std::uint64_t copies = 0;          // records of a ring left out because its router marked them as a copy or an echo
+    std::uint64_t echo = 0;            // records of a ring that hold what was sent to its inlet from here
 
     // Of a link that is there, of an endpoint with its links that are gone, of a recording: once each, at the end.
     void add(const LinkCounters& counters) noexcept;

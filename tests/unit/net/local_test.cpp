@@ -10,6 +10,7 @@
 #include <cstring>
 #include <string>
 
+#include "mavloom/net/local_sender.hpp"
 #include "support/temp_dir.hpp"
 
 namespace mavloom::net {
@@ -107,6 +108,24 @@ TEST_F(LocalSocketTest, RefusesATakenPlaceAndAPathThatIsTooLong) {
     EXPECT_EQ(second.error().code, SetupCode::in_use);
     EXPECT_THAT(second.error().text, HasSubstr(path.string()));
     EXPECT_FALSE(LocalSocket::open(dir / std::string(200, 'x'), 0600));
+}
+
+// The kernel says "refused" once, and not even that to a batch whose first datagrams went; from then on "not connected".
+TEST_F(LocalSocketTest, ASenderWhoseFarSideWentIsToldSoEachTime) {
+    auto far_side = LocalSocket::open(path, 0600);
+    ASSERT_TRUE(far_side);
+    auto near_side = LocalSender::connect(path);
+    ASSERT_TRUE(near_side) << near_side.error().text;
+    std::string bytes = "one";
+    SendBatch batch;
+    batch.room()[0] = {bytes.data(), bytes.size()};
+    batch.add(nullptr, 1);
+    ASSERT_EQ(near_side->send(batch, 0), IoResult<std::size_t>(1u));
+
+    { const auto gone = std::move(far_side); }
+    EXPECT_EQ(near_side->send(batch, 0), IoResult<std::size_t>(tl::unexpected(IoError::refused)));
+    EXPECT_EQ(near_side->send(batch, 0), IoResult<std::size_t>(tl::unexpected(IoError::closed)));
+    EXPECT_EQ(near_side->send(batch, 0), IoResult<std::size_t>(tl::unexpected(IoError::closed)));
 }
 
 }  // namespace
