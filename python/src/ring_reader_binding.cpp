@@ -222,8 +222,8 @@ public:
         if (!lease) throw nb::stop_iteration();
         return nb::cast(Record(std::move(lease), 0));
     }
-    [[nodiscard]] nb::object next_batch(const nb::object& timeout) {
-        auto lease = take(most_in_batch, deadline_after(timeout));
+    [[nodiscard]] nb::object next_batch(MonoTime deadline) {
+        auto lease = take(most_in_batch, deadline);
         if (!lease) throw nb::stop_iteration();
         return nb::cast(Batch(std::move(lease), source_));
     }
@@ -271,11 +271,39 @@ private:
     std::shared_ptr<RingSource> source_;
 };
 
-struct Batches {
-    nb::object reader;  // has no reference to this: no cycle
-    nb::object timeout;
+class Batches {
+public:
+    Batches(PyRingReader& reader, std::optional<Nanoseconds> timeout)
+        : reader_(&reader), holder_(nb::find(reader)), timeout_(timeout) {}
 
-    [[nodiscard]] nb::object next() const { return nb::inst_ptr<PyRingReader>(reader)->next_batch(timeout); }
+    [[nodiscard]] nb::object next() const {
+        if (!holder_.is_valid()) throw nb::stop_iteration();
+        return reader_->next_batch(deadline_after(timeout_));
+    }
+    [[nodiscard]] PyObject* holder() const noexcept { return holder_.ptr(); }
+    void clear() noexcept { holder_.reset(); }
+
+private:
+    PyRingReader* reader_;
+    nb::object holder_;  // keeps reader_; empty once the garbage collector cleared it
+    std::optional<Nanoseconds> timeout_;
+};
+
+int traverse_batches(PyObject* self, visitproc visit, void* arg) noexcept {
+    Py_VISIT(Py_TYPE(self));
+    if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Batches>(self)->holder());
+    return 0;
+}
+
+int clear_batches(PyObject* self) noexcept {
+    if (nb::inst_ready(self)) nb::inst_ptr<Batches>(self)->clear();
+    return 0;
+}
+
+PyType_Slot batches_slots[] = {
+    {Py_tp_traverse, reinterpret_cast<void*>(traverse_batches)},  // NOLINT
+    {Py_tp_clear, reinterpret_cast<void*>(clear_batches)},        // NOLINT
+    {0, nullptr},
 };
 
 template <class Of>
@@ -331,7 +359,8 @@ void bind_batch(nb::module_& module) {
              "the ring's end lies between the records: then a copy.")
         .def("release", &Batch::release,
              "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
-    nb::class_<Batches>(module, "RecordBatches", nb::is_final(), "Iterator over batches.")
+    nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(),
+                        "Iterator over batches.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
         .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"));
 }
@@ -365,9 +394,7 @@ void bind_ring_reader(nb::module_& module) {
              "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
         .def(
             "batches",
-            [](nb::object self, nb::object timeout) {
-                return Batches{std::move(self), std::move(timeout)};
-            },
+            [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
             "Iterates over what there is, up to 1024 records at a time (and 1 MiB, or an eighth of the ring), waiting "
             "as "

@@ -150,6 +150,33 @@ def test_batches_are_sequences(writer, ring, lossless):
     assert found == list(range(1500)) and max(sizes) > 100 and reader.missed == 0
 
 
+@pytest.mark.parametrize("call", ["next(mavloom.RingReader.batches(42))",
+                                  "next(mavloom.RingReader.__new__(mavloom.RingReader).batches(0))", "next(type(reader.batches()).__new__(type(reader.batches())))"])
+def test_batches_of_what_is_no_open_reader_are_a_type_error(writer, ring, start, call):
+    process = start(f"""
+reader = mavloom.RingReader(ring)
+try:
+    {call}
+except TypeError:
+    print("refused")
+""", ring)
+    assert ended(process)[:2] == (0, "refused\n")
+
+
+def test_batches_keep_their_reader_and_no_more(writer, ring):
+    """The time-out is a number from the call on, and the garbage collector sees the reader."""
+    reader = mavloom.RingReader(ring)
+    for wrong, error in ((float("nan"), ValueError), ("1", TypeError), ([], TypeError)):
+        with pytest.raises(error):
+            reader.batches(wrong)
+    batches = reader.batches(timeout=0)
+    assert reader in gc.get_referents(batches)
+    fill(writer, 3)
+    del reader
+    gc.collect()
+    assert [numbers(batch) for batch in batches] == [[0, 1, 2]]
+
+
 def test_a_wait_ends_in_time_or_with_the_writer(writer, ring):
     reader = mavloom.RingReader(ring)
     assert reader.read(timeout=0) is None and reader.read(timeout=0.01) is None and list(reader.batches(timeout=0.01)) == []
