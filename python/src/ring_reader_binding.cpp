@@ -161,6 +161,7 @@ private:
         const auto& records = lease_->records();
         if (records.size() == 1) return records.front().data.size();
         const auto step = records[1].data.data() - records[0].data.data();
+        if (step <= 0) return std::nullopt;
         for (std::size_t i = 1; i < records.size(); ++i)
             if (records[i].data.data() - records[i - 1].data.data() != step) return std::nullopt;
         return static_cast<std::size_t>(step);

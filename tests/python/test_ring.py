@@ -324,6 +324,25 @@ def test_numpy_arrays_of_batches(writer, ring):
         batch.array("u8")
 
 
+def test_an_array_of_two_records_with_the_rings_end_between_them(writer, ring):
+    reader, length, turns = mavloom.RingReader(ring, lossless=True), 1100, 0  # 58 of them a lap
+    writer.write(bytes(length))
+    reader.read()
+    for number in range(200):
+        sent = [bytes([value]) * length for value in (number, number + 1)]
+        for data in sent:
+            writer.write(data)
+        found = []
+        for batch in reader.batches(timeout=0):
+            array = batch.array(f"V{length}")
+            found += [bytes(record) for record in array]
+            turns += len(batch) == 2 and array.strides[0] == length
+            del array
+            batch.release()
+        assert found == sent
+    assert turns
+
+
 # ---- errors
 
 def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
