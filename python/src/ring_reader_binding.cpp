@@ -8,6 +8,7 @@
 #include <nanobind/stl/string.h>
 
 #include <optional>
+#include <span>
 
 #include "bindings.hpp"
 #include "errors.hpp"
@@ -110,15 +111,16 @@ PyType_Slot record_slots[] = {
 
 class Batch {
 public:
-    explicit Batch(std::shared_ptr<Lease> lease, std::shared_ptr<RingSource> source)
-        : lease_(std::move(lease)), source_(std::move(source)) {}
+    // The lease's records from `first` on.
+    Batch(std::shared_ptr<Lease> lease, std::size_t first, std::shared_ptr<RingSource> source)
+        : lease_(std::move(lease)), first_(first), source_(std::move(source)) {}
 
-    [[nodiscard]] std::size_t size() const noexcept { return lease_->records().size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return records().size(); }
     [[nodiscard]] Record at(Py_ssize_t index) const {
         const auto count = static_cast<Py_ssize_t>(size());
         if (index < 0) index += count;
         if (index < 0 || index >= count) throw nb::index_error(fmt::format("a batch of {} records", count).c_str());
-        return {lease_, static_cast<std::size_t>(index)};
+        return {lease_, first_ + static_cast<std::size_t>(index)};
     }
     void release() {
         fork_.check();
@@ -133,7 +135,7 @@ public:
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
-        const auto& records = lease_->records();
+        const auto records = this->records();
         if (const auto stride = distance()) {
             const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
             const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, all)), "u1");
@@ -148,8 +150,11 @@ public:
     }
 
 private:
+    [[nodiscard]] std::span<const shm::RingRecord> records() const noexcept {
+        return std::span(lease_->records()).subspan(first_);
+    }
     void check_lengths(std::size_t expected) const {
-        const auto& records = lease_->records();
+        const auto records = this->records();
         for (std::size_t i = 0; i < records.size(); ++i)
             if (records[i].data.size() != expected)
                 raise_usage(fmt::format("record {} of the batch has {} bytes, and the dtype {}", i,
@@ -158,7 +163,7 @@ private:
     }
     // From record to record in memory; none where the ring's end lies between.
     [[nodiscard]] std::optional<std::size_t> distance() const {
-        const auto& records = lease_->records();
+        const auto records = this->records();
         if (records.size() == 1) return records.front().data.size();
         const auto step = records[1].data.data() - records[0].data.data();
         if (step <= 0) return std::nullopt;
@@ -169,6 +174,7 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<Lease> lease_;
+    std::size_t first_;
     std::shared_ptr<RingSource> source_;
 };
 
@@ -199,7 +205,6 @@ public:
     // Null: nothing came in time, or nothing comes because nobody writes.
     [[nodiscard]] std::shared_ptr<Lease> take(std::size_t most, MonoTime deadline) {
         std::shared_ptr<Lease> lease;
-        fork_.check();
         // One record costs less than letting go of the GIL.
         State state = most == 1 ? source_->poll(most, lease) : State::nothing;
         for (bool first = most != 1; state == State::nothing && (first || mono_now() < deadline); first = false) {
@@ -208,25 +213,28 @@ public:
                 source_->give_way();
                 state = source_->read(most, deadline, lease);
             }
-            check_signals();
+            check_signals_keeping(lease);
         }
         check(state);
         return lease;
     }
 
-    [[nodiscard]] nb::object read(const nb::object& timeout) {
-        auto lease = take(1, deadline_after(timeout));
+    // None where there is no record.
+    [[nodiscard]] nb::object read(MonoTime deadline) {
+        if (is_pending()) return read_pending();
+        auto lease = take(1, deadline);
         return lease ? nb::cast(Record(std::move(lease), 0)) : nb::none();
     }
     [[nodiscard]] nb::object next() {
-        auto lease = take(1, MonoTime::max());
-        if (!lease) throw nb::stop_iteration();
-        return nb::cast(Record(std::move(lease), 0));
+        auto record = read(MonoTime::max());
+        if (record.is_none()) throw nb::stop_iteration();
+        return record;
     }
     [[nodiscard]] nb::object next_batch(MonoTime deadline) {
-        auto lease = take(most_in_batch, deadline);
+        const std::size_t first = is_pending() ? pending_first_ : 0;
+        auto lease = is_pending() ? std::exchange(pending_, nullptr) : take(most_in_batch, deadline);
         if (!lease) throw nb::stop_iteration();
-        return nb::cast(Batch(std::move(lease), source_));
+        return nb::cast(Batch(std::move(lease), first, source_));
     }
 
     void close() {
@@ -236,6 +244,7 @@ public:
             return source_->close();
         }();
         if (!closed) check(State::looked_at);
+        pending_ = nullptr;
     }
 
     [[nodiscard]] const RingSource& open() const {
@@ -247,6 +256,26 @@ public:
 
 private:
     using State = RingSource::State;
+
+    // A signal's handler that raises must not cost what was read meanwhile: the next read gives it.
+    void check_signals_keeping(std::shared_ptr<Lease>& lease) {
+        if (PyErr_CheckSignals() == 0) return;
+        if (lease) {
+            pending_ = std::move(lease);
+            pending_first_ = 0;
+        }
+        throw nb::python_error();
+    }
+    [[nodiscard]] bool is_pending() const {
+        fork_.check();
+        return pending_ != nullptr;
+    }
+    [[nodiscard]] nb::object read_pending() {
+        const auto lease = pending_;
+        const std::size_t index = pending_first_++;
+        if (pending_first_ == lease->records().size()) pending_ = nullptr;
+        return nb::cast(Record(lease, index));
+    }
 
     void check(State state) const {
         switch (state) {
@@ -270,6 +299,8 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<RingSource> source_;
+    std::shared_ptr<Lease> pending_;  // was read and not given out, from pending_first_ on; with the GIL
+    std::size_t pending_first_ = 0;
 };
 
 class Batches {
@@ -387,7 +418,10 @@ void bind_ring_reader(nb::module_& module) {
                  "'newest') -> None"),
              "NotFoundError names the rings that there are; InputError for a file that is no ring of this version; "
              "SystemFailure for a 65th lossless reader.")
-        .def("read", &PyRingReader::read, "timeout"_a = nb::none(),
+        .def(
+            "read",
+            [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
+            "timeout"_a = nb::none(),
              nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
              "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
              "writer "

@@ -892,6 +892,49 @@ print("ready", flush=True)
     assert "KeyboardInterrupt" in talk
 
 
+SIGNALLED = """
+class Raised(Exception):
+    pass
+def handler(*_):
+    raise Raised
+signal.signal(signal.SIGUSR1, handler)
+sys.setswitchinterval(DEADLINE)  # whoever reads gets the GIL back when the signal is there, and not before
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=sys.argv[2] == "True")
+def write():
+    for number in range(0, 90, 3):
+        time.sleep(0.005)
+        for each in range(number, number + 3):
+            writer.write(b"%d" % each)
+        end = time.monotonic() + 0.005
+        while time.monotonic() < end:
+            pass
+        signal.raise_signal(signal.SIGUSR1)
+    writer.close()
+taken, raised = [], 0
+thread = threading.Thread(target=write)
+thread.start()
+while True:
+    try:
+        records = READ
+    except Raised:
+        raised += 1
+        continue
+    if not records:
+        break
+    taken += [int(bytes(record.data)) for record in records]
+thread.join()
+print(raised > 0, taken == list(range(90)), reader.missed)
+"""
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("read", ["[*filter(None, [reader.read()])]", "[*filter(None, [next(reader, None)])]", "next(reader.batches(), ())",
+                                  "next(reader.batches(), ()) if len(taken) % 2 else [*filter(None, [reader.read()])]"])
+def test_a_signal_handler_that_raises_costs_no_record(ring, start, read, lossless):
+    process = start(SIGNALLED.replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+    assert ended(process) == (0, "True True 0\n", "")
+
+
 # ---- threads
 
 def test_row_17_any_thread_may_write(writer, ring):
