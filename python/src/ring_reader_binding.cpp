@@ -25,6 +25,7 @@ constexpr std::size_t most_in_batch = 1024;
 class View {
 public:
     View(std::shared_ptr<Lease> lease, ByteView bytes) : bytes_(bytes) {
+        if (!lease->is_copy()) lease->source()->fork().check();
         if (!lease->look())
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
         lease_ = std::move(lease);

@@ -876,6 +876,31 @@ print(bytes(reader.read(0).data), writer.removed)
     assert ended(process) == (0, "0 [0, 1, 2]\nb'on' False\n", "")
 
 
+def test_row_3_10_a_forked_child_does_not_look_through_its_parents_records(ring, start):
+    """The hold on them is the parent's: once it let go, other bytes stand there. Copies are the child's own."""
+    process = start("""
+import numpy
+writer, lossy = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+one, many = mavloom.RingReader(ring, lossless=True), mavloom.RingReader(ring, lossless=True)
+for _ in range(3):
+    writer.write(b"abcd")
+record, batch, copy, copies = one.read(), next(many.batches()), lossy.read(), next(lossy.batches())
+pid = os.fork()
+if pid == 0:
+    for look in (lambda: record.data, lambda: memoryview(record), lambda: numpy.frombuffer(record, "S4"), lambda: batch[1].data, lambda: batch.array("S4")):
+        try:
+            look()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    assert copy.data == copies[0].data == b"abcd" and copies.array("S4").tolist() == [b"abcd"] * 2
+    sys.exit(0)
+print(os.waitpid(pid, 0)[1], bytes(record.data), batch.array("S4").tolist())
+""", ring)
+    assert ended(process) == (0, "0 b'abcd' [b'abcd', b'abcd', b'abcd']\n", "")
+
+
 WAITS = ["reader.read()", "next(reader)", "list(lossy)", "next(lossy.batches())", "next(reader.batches(1e6))", "list(iter(lambda: writer.write(bytes(1000)), None))"]
 
 
