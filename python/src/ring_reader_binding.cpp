@@ -29,9 +29,9 @@ public:
         if (!lease->look())
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
         lease_ = std::move(lease);
-        if (lease_->is_copy() || lease_->source()->holds()) return;
+        if (holds()) return;
         std::exchange(lease_, nullptr)->look_away();
-        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+        raise_taken_away();
     }
     View(View&& other) noexcept = default;
     View& operator=(View&&) = delete;
@@ -39,8 +39,17 @@ public:
         if (lease_) lease_->look_away();
     }
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
+    // What was copied counts only if this comes behind it.
+    void check() const {
+        if (!holds()) raise_taken_away();
+    }
 
 private:
+    [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->source()->holds(); }
+    [[noreturn]] static void raise_taken_away() {
+        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+    }
+
     std::shared_ptr<Lease> lease_;
     ByteView bytes_;
 };
@@ -147,6 +156,7 @@ public:
         std::vector<std::uint8_t> copy;
         copy.reserve(size() * records.front().data.size());
         for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
+        view.check();
         return numpy.attr("frombuffer")(nb::bytes(copy.data(), copy.size()), type);
     }
 
