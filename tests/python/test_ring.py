@@ -1179,8 +1179,9 @@ def test_hear_writes_what_it_hears_and_takes_its_ring_away(hear, ring, frames, n
         assert reader.read() is None and reader.removed and ring not in mavloom.rings()
 
 
-def test_hear_leaves_a_ring_that_was_there_unless_told(hear, ring):
-    for words, made_before, stays in (([], True, True), (["--remove"], True, False), (["--keep"], False, True), (["--remove"], False, False), ([], False, False)):
+def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
+    for words, made_before, stays in (([], True, False), (["--remove"], True, False), (["--keep"], False, True), (["--keep"], True, True), (["--remove"], False, False),
+                                      ([], False, False)):
         if made_before:
             mavloom.RingWriter(ring, capacity=64 * KIB).close()
         elif path_of(ring).exists():
@@ -1189,6 +1190,40 @@ def test_hear_leaves_a_ring_that_was_there_unless_told(hear, ring):
         assert ("which was there before" in process.stderr.readline()) == made_before
         process.send_signal(signal.SIGINT)
         assert ended(process)[0] == 130 and path_of(ring).exists() == stays
+
+
+def test_hear_leaves_nothing_when_the_one_before_was_killed(hear, ring):
+    killed, _ = hear("--ring", ring)
+    killed.stderr.readline()
+    killed.kill()
+    killed.wait(DEADLINE_S)
+    process, _ = hear("--ring", ring)
+    assert "which was there before" in process.stderr.readline()
+    process.send_signal(signal.SIGTERM)
+    assert ended(process)[0] == 143 and not path_of(ring).exists()
+
+
+def test_hear_touches_no_ring_when_it_cannot_listen(hear, ring):
+    mavloom.RingWriter(ring, capacity=64 * KIB).close()
+    process, _ = hear("--ring", ring, url="udp://:1")
+    assert ended(process)[0] == 2 and path_of(ring).exists()
+
+
+@pytest.mark.parametrize("take_away", [mavloom.remove_ring, lambda name: path_of(name).unlink()], ids=["removed", "rm"])
+def test_hear_makes_a_ring_anew_that_somebody_takes_away(hear, ring, frames, take_away):
+    process, port = hear("--ring", ring)
+    process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        send(port, frames[:100])
+        assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[:100]
+    for again in range(1, 3):
+        take_away(ring)
+        assert process.stderr.readline() == f"ring {ring} was removed, and is made anew\n"
+        with mavloom.RingReader(ring, lossless=True) as reader:
+            send(port, frames[again * 100:][:100])
+            assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[again * 100:][:100]
+    process.send_signal(signal.SIGINT)
+    assert ended(process) == (130, "", f"{ring}: 300 frames heard, 300 written\n") and not path_of(ring).exists()
 
 
 def test_hear_tells_what_it_missed(hear, ring, frames):
