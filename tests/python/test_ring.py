@@ -760,7 +760,19 @@ def test_removing(writer, ring):
     other = mavloom.RingWriter(ring, capacity=128 * KIB)
     other.close(remove=True)
     other.close(remove=True)
+    other.close()
     assert not path_of(ring).exists()
+
+
+def test_removing_by_a_writer_that_left_the_ring_is_refused(writer, ring):
+    """It may be another writer's by then."""
+    writer.close()
+    writer.close()
+    with mavloom.RingWriter(ring, capacity=64 * KIB):
+        with pytest.raises(mavloom.ClosedError, match=f"{ring} was closed and left the ring: remove_ring takes it away"):
+            writer.close(remove=True)
+    assert path_of(ring).exists()
+    mavloom.remove_ring(ring)
 
 
 # ---- exits and forks: rows 3.1, 3.22, example 11
