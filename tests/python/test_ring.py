@@ -343,6 +343,32 @@ def test_an_array_of_two_records_with_the_rings_end_between_them(writer, ring):
     assert turns
 
 
+def test_a_copied_array_is_whole_or_an_error_under_a_writer_that_evicts(ring, start):
+    """The ring's end lies between the records, and the hold on them ends at any instant, also while they are copied."""
+    process = start("""
+import numpy
+with mavloom.RingWriter(ring, capacity=1 << 22, full="evict") as writer:
+    print("open", flush=True)
+    number = 0
+    while True:
+        writer.write(numpy.full(512, number))
+        number += 1
+""", ring)
+    assert process.stdout.readline() == "open\n"
+    reader = mavloom.RingReader(ring, lossless=True)
+    copied = 0
+    while copied < 100:
+        batch, last = next(reader.batches(DEADLINE_S)), None
+        with contextlib.suppress(mavloom.Error):
+            while len(batch) > 1 and (array := batch.array([("number", "i8", 512)])).strides[0] == 4096:  # else a view
+                last = array
+        array = None
+        if last is not None:
+            assert (last["number"] == last["number"][0, 0] + numpy.arange(len(last))[:, None]).all()
+            copied += 1
+        batch.release()
+
+
 # ---- errors
 
 def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
