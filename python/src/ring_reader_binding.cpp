@@ -402,8 +402,7 @@ void bind_batch(nb::module_& module) {
              "the ring's end lies between the records: then a copy.")
         .def("release", &Batch::release,
              "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
-    nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(),
-                        "Iterator over batches.")
+    nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(), "Iterator over batches.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
         .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"));
 }
@@ -430,17 +429,14 @@ void bind_ring_reader(nb::module_& module) {
              "NotFoundError names the rings that there are; InputError for a file that is no ring of this version; "
              "SystemFailure for a 65th lossless reader.")
         .def(
-            "read",
-            [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
-            "timeout"_a = nb::none(),
-             nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
-             "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
-             "writer "
-             "is alive or the ring was removed. Releases the one\n"
-             "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
+            "read", [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
+            "timeout"_a = nb::none(), nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
+            "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
+            "writer "
+            "is alive or the ring was removed. Releases the one\n"
+            "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
         .def(
-            "batches",
-            [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
+            "batches", [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
             "Iterates over what there is, up to 1024 records at a time (and 1 MiB, or an eighth of the ring), waiting "
             "as "
