@@ -218,6 +218,7 @@ public:
         std::shared_ptr<Lease> lease;
         // One record costs less than letting go of the GIL.
         State state = most == 1 ? source_->poll(most, lease) : State::nothing;
+        if (lease) check_signals_keeping(lease);
         for (bool first = most != 1; state == State::nothing && (first || mono_now() < deadline); first = false) {
             {
                 const WithoutGil outside;
