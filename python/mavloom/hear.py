@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
+from collections.abc import Callable
 
-from . import Error, InputError, Link, RingWriter, UsageError, connect
+from . import ClosedError, Error, InputError, Link, RingWriter, UsageError, connect
 
 LOOK_AT_SIGNALS_S = 0.1
 UNITS = {"k": 1 << 10, "m": 1 << 20, "g": 1 << 30}
@@ -20,8 +21,8 @@ Each record is one good frame, byte for byte, of kind 1, with its receive time (
   python -c 'import mavloom; print(mavloom.RingReader("px4").read())'
 
 While a lossless reader holds the ring full, frames wait in a buffer of 16 MiB; what is overwritten there is "missed". A ring that is there
-already is carried on, one of another capacity replaced, if nobody writes to it. Ctrl-C or SIGTERM ends it cleanly (status 130, 143) and takes
-away the ring that it made; one that was there before stays. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
+already is carried on, one of another capacity replaced, if nobody writes to it; one that somebody removes is made anew. Ctrl-C or SIGTERM ends
+it cleanly (status 130, 143) and takes the ring away, unless --keep. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
 """
 
 
@@ -63,43 +64,79 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
     parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring (0600)")
     end = parser.add_mutually_exclusive_group()
-    end.add_argument("--keep", action="store_true", help="leave the ring at the end, also one that was made here")
-    end.add_argument("--remove", action="store_true", help="take the ring away at the end, also one that was there before")
+    end.add_argument("--keep", action="store_true", help="leave the ring at the end, for the next writer")
+    end.add_argument("--remove", action="store_true", help="take the ring away at the end, as it does unless --keep")
     parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     return parser.parse_args(words)
 
 
-def hear(link: Link, writer: RingWriter, signals: Signals) -> None:
+class Ring:
+    """The ring that is written to: made anew when somebody takes it away, by `mavloom shm remove` or by hand."""
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        self._options = options
+        self._written = 0  # to rings that are gone
+        self._open()
+
+    def _open(self) -> None:
+        self.writer = RingWriter(self._options.ring, capacity=self._options.capacity, mode=self._options.mode)
+        self._before = self.writer.records
+
+    @property
+    def written(self) -> int:
+        return self._written + self.writer.records - self._before
+
+    def fill_from(self, link: Link, seconds: float) -> None:
+        try:
+            link.pump(self.writer, seconds)
+        except ClosedError:
+            if not self.writer.removed:
+                raise
+
+    def made_anew(self) -> bool:
+        """Whether it was gone."""
+        if not self.writer.removed:
+            return False
+        gone, self._written = self.writer, self.written
+        self._open()
+        gone.close()
+        return True
+
+    def close(self) -> None:
+        self.writer.close(remove=not self._options.keep)
+
+
+def hear(link: Link, ring: Ring, signals: Signals, say: Callable[[str], None]) -> None:
     while not signals.received:
-        link.pump(writer, LOOK_AT_SIGNALS_S)
-    link.pump(writer, 0)
+        ring.fill_from(link, LOOK_AT_SIGNALS_S)
+        if ring.made_anew():
+            say(f"ring {ring.writer.name} was removed, and is made anew")
+    ring.fill_from(link, 0)
 
 
-def summary(link: Link, writer: RingWriter, written: int) -> str:
+def summary(link: Link, name: str, written: int) -> str:
     stats = link.stats
     losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
               "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
               "wrongly signed": stats.bad_signature}
-    return f"{writer.name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
+    return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
 
 
 def run(options: argparse.Namespace, signals: Signals) -> int:
     def say(text: str) -> None:
         if not options.quiet:
             print(text, file=sys.stderr, flush=True)
-    with RingWriter(options.ring, capacity=options.capacity, mode=options.mode) as writer:
-        removes = options.remove or (writer.created and not options.keep)
+    with connect(options.url) as link:
+        ring = Ring(options)
         try:
-            before = writer.records
-            with connect(options.url) as link:
-                say(f"hearing on {link.name}, writing to ring {writer.name}{'' if writer.created else ', which was there before'}")
-                hear(link, writer, signals)
-            written = writer.records - before
-            say(summary(link, writer, written))
+            name = ring.writer.name
+            say(f"hearing on {link.name}, writing to ring {name}{'' if ring.writer.created else ', which was there before'}")
+            hear(link, ring, signals, say)
+            say(summary(link, name, ring.written))
         finally:
-            writer.close(remove=removes)
-    if link.stats.missed:
-        return 4
+            ring.close()
+        if link.stats.missed:
+            return 4
     return 128 + signals.received if signals.received else 0
 
 

@@ -63,6 +63,8 @@ public:
     void abandon();
     void nobody_looks();
 
+    // In a forked child the ring is no longer held for the records.
+    [[nodiscard]] const BeforeFork& fork() const noexcept { return fork_; }
     [[nodiscard]] bool holds() const noexcept { return reader_.holds(); }
     [[nodiscard]] bool is_lossless() const noexcept { return lossless_; }
     [[nodiscard]] bool is_closed() const noexcept { return closed_.load(std::memory_order_relaxed); }

@@ -8,6 +8,7 @@
 #include <nanobind/stl/string.h>
 
 #include <optional>
+#include <span>
 
 #include "bindings.hpp"
 #include "errors.hpp"
@@ -24,12 +25,13 @@ constexpr std::size_t most_in_batch = 1024;
 class View {
 public:
     View(std::shared_ptr<Lease> lease, ByteView bytes) : bytes_(bytes) {
+        if (!lease->is_copy()) lease->source()->fork().check();
         if (!lease->look())
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
         lease_ = std::move(lease);
-        if (lease_->is_copy() || lease_->source()->holds()) return;
+        if (holds()) return;
         std::exchange(lease_, nullptr)->look_away();
-        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+        raise_taken_away();
     }
     View(View&& other) noexcept = default;
     View& operator=(View&&) = delete;
@@ -37,8 +39,17 @@ public:
         if (lease_) lease_->look_away();
     }
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
+    // What was copied counts only if this comes behind it.
+    void check() const {
+        if (!holds()) raise_taken_away();
+    }
 
 private:
+    [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->source()->holds(); }
+    [[noreturn]] static void raise_taken_away() {
+        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+    }
+
     std::shared_ptr<Lease> lease_;
     ByteView bytes_;
 };
@@ -110,15 +121,16 @@ PyType_Slot record_slots[] = {
 
 class Batch {
 public:
-    explicit Batch(std::shared_ptr<Lease> lease, std::shared_ptr<RingSource> source)
-        : lease_(std::move(lease)), source_(std::move(source)) {}
+    // The lease's records from `first` on.
+    Batch(std::shared_ptr<Lease> lease, std::size_t first, std::shared_ptr<RingSource> source)
+        : lease_(std::move(lease)), first_(first), source_(std::move(source)) {}
 
-    [[nodiscard]] std::size_t size() const noexcept { return lease_->records().size(); }
+    [[nodiscard]] std::size_t size() const noexcept { return records().size(); }
     [[nodiscard]] Record at(Py_ssize_t index) const {
         const auto count = static_cast<Py_ssize_t>(size());
         if (index < 0) index += count;
         if (index < 0 || index >= count) throw nb::index_error(fmt::format("a batch of {} records", count).c_str());
-        return {lease_, static_cast<std::size_t>(index)};
+        return {lease_, first_ + static_cast<std::size_t>(index)};
     }
     void release() {
         fork_.check();
@@ -133,7 +145,7 @@ public:
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
-        const auto& records = lease_->records();
+        const auto records = this->records();
         if (const auto stride = distance()) {
             const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
             const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, all)), "u1");
@@ -144,12 +156,16 @@ public:
         std::vector<std::uint8_t> copy;
         copy.reserve(size() * records.front().data.size());
         for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
+        view.check();
         return numpy.attr("frombuffer")(nb::bytes(copy.data(), copy.size()), type);
     }
 
 private:
+    [[nodiscard]] std::span<const shm::RingRecord> records() const noexcept {
+        return std::span(lease_->records()).subspan(first_);
+    }
     void check_lengths(std::size_t expected) const {
-        const auto& records = lease_->records();
+        const auto records = this->records();
         for (std::size_t i = 0; i < records.size(); ++i)
             if (records[i].data.size() != expected)
                 raise_usage(fmt::format("record {} of the batch has {} bytes, and the dtype {}", i,
@@ -158,9 +174,10 @@ private:
     }
     // From record to record in memory; none where the ring's end lies between.
     [[nodiscard]] std::optional<std::size_t> distance() const {
-        const auto& records = lease_->records();
+        const auto records = this->records();
         if (records.size() == 1) return records.front().data.size();
         const auto step = records[1].data.data() - records[0].data.data();
+        if (step <= 0) return std::nullopt;
         for (std::size_t i = 1; i < records.size(); ++i)
             if (records[i].data.data() - records[i - 1].data.data() != step) return std::nullopt;
         return static_cast<std::size_t>(step);
@@ -168,6 +185,7 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<Lease> lease_;
+    std::size_t first_;
     std::shared_ptr<RingSource> source_;
 };
 
@@ -198,34 +216,37 @@ public:
     // Null: nothing came in time, or nothing comes because nobody writes.
     [[nodiscard]] std::shared_ptr<Lease> take(std::size_t most, MonoTime deadline) {
         std::shared_ptr<Lease> lease;
-        fork_.check();
         // One record costs less than letting go of the GIL.
         State state = most == 1 ? source_->poll(most, lease) : State::nothing;
+        if (lease) check_signals_keeping(lease);
         for (bool first = most != 1; state == State::nothing && (first || mono_now() < deadline); first = false) {
             {
                 const WithoutGil outside;
                 source_->give_way();
                 state = source_->read(most, deadline, lease);
             }
-            check_signals();
+            check_signals_keeping(lease);
         }
         check(state);
         return lease;
     }
 
-    [[nodiscard]] nb::object read(const nb::object& timeout) {
-        auto lease = take(1, deadline_after(timeout));
+    // None where there is no record.
+    [[nodiscard]] nb::object read(MonoTime deadline) {
+        if (is_pending()) return read_pending();
+        auto lease = take(1, deadline);
         return lease ? nb::cast(Record(std::move(lease), 0)) : nb::none();
     }
     [[nodiscard]] nb::object next() {
-        auto lease = take(1, MonoTime::max());
-        if (!lease) throw nb::stop_iteration();
-        return nb::cast(Record(std::move(lease), 0));
+        auto record = read(MonoTime::max());
+        if (record.is_none()) throw nb::stop_iteration();
+        return record;
     }
-    [[nodiscard]] nb::object next_batch(const nb::object& timeout) {
-        auto lease = take(most_in_batch, deadline_after(timeout));
+    [[nodiscard]] nb::object next_batch(MonoTime deadline) {
+        const std::size_t first = is_pending() ? pending_first_ : 0;
+        auto lease = is_pending() ? std::exchange(pending_, nullptr) : take(most_in_batch, deadline);
         if (!lease) throw nb::stop_iteration();
-        return nb::cast(Batch(std::move(lease), source_));
+        return nb::cast(Batch(std::move(lease), first, source_));
     }
 
     void close() {
@@ -235,6 +256,7 @@ public:
             return source_->close();
         }();
         if (!closed) check(State::looked_at);
+        pending_ = nullptr;
     }
 
     [[nodiscard]] const RingSource& open() const {
@@ -246,6 +268,26 @@ public:
 
 private:
     using State = RingSource::State;
+
+    // A signal's handler that raises must not cost what was read meanwhile: the next read gives it.
+    void check_signals_keeping(std::shared_ptr<Lease>& lease) {
+        if (PyErr_CheckSignals() == 0) return;
+        if (lease) {
+            pending_ = std::move(lease);
+            pending_first_ = 0;
+        }
+        throw nb::python_error();
+    }
+    [[nodiscard]] bool is_pending() const {
+        fork_.check();
+        return pending_ != nullptr;
+    }
+    [[nodiscard]] nb::object read_pending() {
+        const auto lease = pending_;
+        const std::size_t index = pending_first_++;
+        if (pending_first_ == lease->records().size()) pending_ = nullptr;
+        return nb::cast(Record(lease, index));
+    }
 
     void check(State state) const {
         switch (state) {
@@ -269,13 +311,43 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<RingSource> source_;
+    std::shared_ptr<Lease> pending_;  // was read and not given out, from pending_first_ on; with the GIL
+    std::size_t pending_first_ = 0;
 };
 
-struct Batches {
-    nb::object reader;  // has no reference to this: no cycle
-    nb::object timeout;
+class Batches {
+public:
+    Batches(PyRingReader& reader, std::optional<Nanoseconds> timeout)
+        : reader_(&reader), holder_(nb::find(reader)), timeout_(timeout) {}
 
-    [[nodiscard]] nb::object next() const { return nb::inst_ptr<PyRingReader>(reader)->next_batch(timeout); }
+    [[nodiscard]] nb::object next() const {
+        if (!holder_.is_valid()) throw nb::stop_iteration();
+        return reader_->next_batch(deadline_after(timeout_));
+    }
+    [[nodiscard]] PyObject* holder() const noexcept { return holder_.ptr(); }
+    void clear() noexcept { holder_.reset(); }
+
+private:
+    PyRingReader* reader_;
+    nb::object holder_;  // keeps reader_; empty once the garbage collector cleared it
+    std::optional<Nanoseconds> timeout_;
+};
+
+int traverse_batches(PyObject* self, visitproc visit, void* arg) noexcept {
+    Py_VISIT(Py_TYPE(self));
+    if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Batches>(self)->holder());
+    return 0;
+}
+
+int clear_batches(PyObject* self) noexcept {
+    if (nb::inst_ready(self)) nb::inst_ptr<Batches>(self)->clear();
+    return 0;
+}
+
+PyType_Slot batches_slots[] = {
+    {Py_tp_traverse, reinterpret_cast<void*>(traverse_batches)},  // NOLINT
+    {Py_tp_clear, reinterpret_cast<void*>(clear_batches)},        // NOLINT
+    {0, nullptr},
 };
 
 template <class Of>
@@ -331,7 +403,7 @@ void bind_batch(nb::module_& module) {
              "the ring's end lies between the records: then a copy.")
         .def("release", &Batch::release,
              "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
-    nb::class_<Batches>(module, "RecordBatches", nb::is_final(), "Iterator over batches.")
+    nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(), "Iterator over batches.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
         .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"));
 }
@@ -357,17 +429,15 @@ void bind_ring_reader(nb::module_& module) {
                  "'newest') -> None"),
              "NotFoundError names the rings that there are; InputError for a file that is no ring of this version; "
              "SystemFailure for a 65th lossless reader.")
-        .def("read", &PyRingReader::read, "timeout"_a = nb::none(),
-             nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
-             "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
-             "writer "
-             "is alive or the ring was removed. Releases the one\n"
-             "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
         .def(
-            "batches",
-            [](nb::object self, nb::object timeout) {
-                return Batches{std::move(self), std::move(timeout)};
-            },
+            "read", [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
+            "timeout"_a = nb::none(), nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
+            "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
+            "writer "
+            "is alive or the ring was removed. Releases the one\n"
+            "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
+        .def(
+            "batches", [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
             "Iterates over what there is, up to 1024 records at a time (and 1 MiB, or an eighth of the ring), waiting "
             "as "

@@ -105,17 +105,26 @@ void PyRingWriter::raise(shm::WriteError error, std::size_t length) const {
 void PyRingWriter::close(bool remove) {
     if (!fork_.is_here()) return;
     closed_ = true;
-    SetupResult<void> closed;
-    {
+    bool comes_late = false;
+    auto closed = [&] {
         const WithoutGil outside;
         const auto lock = turns_.take();
-        if (!writer_) return;
-        note_counters();
-        using Leave = shm::RingWriter::Leave;
-        closed = writer_->close(remove ? Leave::nothing : Leave::ring);
-        writer_.reset();
-    }
+        comes_late = remove && !writer_ && !removed_;
+        return close_locked(remove);
+    }();
+    if (comes_late)
+        raise_closed(fmt::format("the writer of ring {} was closed and left the ring: remove_ring takes it away", name_));
     value_or_raise(std::move(closed));
+}
+
+SetupResult<void> PyRingWriter::close_locked(bool remove) {
+    if (!writer_) return {};
+    note_counters();
+    using Leave = shm::RingWriter::Leave;
+    auto closed = writer_->close(remove ? Leave::nothing : Leave::ring);
+    removed_ = remove && closed;
+    writer_.reset();
+    return closed;
 }
 
 void PyRingWriter::note_counters() {
@@ -182,7 +191,8 @@ void bind_ring_writer(nb::module_& module) {
         .def(
             "close", &PyRingWriter::close, "remove"_a = false,
             "Ends writing; may be called again. With `remove` the ring goes too: its readers read what is left and are "
-            "told.")
+            "told. ClosedError for `remove` after a close that left\n"
+            "the ring, which may be another writer's by now: that is for `remove_ring`.")
         .def(
             "__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> RingWriter"))
         .def(

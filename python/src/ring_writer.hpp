@@ -39,6 +39,7 @@ private:
     // With the GIL, which is let go where there is no room at once, for a slice at most.
     [[nodiscard]] shm::WriteResult<void> put_or_wait(ByteView data, const shm::RecordInfo& info);
     [[nodiscard]] shm::WriteResult<void> put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
+    [[nodiscard]] SetupResult<void> close_locked(bool remove);
     void note_counters();
 
     const BeforeFork fork_;
@@ -50,6 +51,7 @@ private:
     std::atomic<bool> closed_{false};
     // Guarded by turns_.
     std::optional<shm::RingWriter> writer_;  // empty once closed
+    bool removed_ = false;                   // with the ring
     std::uint64_t records_ = 0, dropped_ = 0;
 };
 

@@ -17,8 +17,13 @@ Nanoseconds duration_of(const char* what, const nb::object& given) {
     return std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
 }
 
-MonoTime deadline_after(const nb::object& timeout) {
-    return timeout.is_none() ? MonoTime::max() : mono_now() + duration_of("timeout", timeout);
+std::optional<Nanoseconds> timeout_of(const nb::object& given) {
+    if (given.is_none()) return std::nullopt;
+    return duration_of("timeout", given);
+}
+
+MonoTime deadline_after(std::optional<Nanoseconds> timeout) {
+    return timeout ? mono_now() + *timeout : MonoTime::max();
 }
 
 }  // namespace mavloom::python

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "errors.hpp"
@@ -22,8 +23,11 @@ inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 
 // Seconds as users give them; 0 for less, a year at most. `what` is the argument's name.
 [[nodiscard]] Nanoseconds duration_of(const char* what, const nb::object& given);
-// When a wait ends: None waits for ever.
-[[nodiscard]] MonoTime deadline_after(const nb::object& timeout);
+// A time-out as users give it; None, and nothing here, waits for ever.
+[[nodiscard]] std::optional<Nanoseconds> timeout_of(const nb::object& given);
+// When a wait ends that begins now.
+[[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);
+[[nodiscard]] inline MonoTime deadline_after(const nb::object& timeout) { return deadline_after(timeout_of(timeout)); }
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
 
 // Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.

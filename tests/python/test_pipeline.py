@@ -111,7 +111,7 @@ def test_the_relay_waits_while_the_writer_is_gone_and_goes_on_when_it_is_back(pi
     pipeline.passes()
     first.send(how)
     first.process.wait()
-    again = pipeline.start(sys.executable, "-m", "mavloom.hear", f"udpin://127.0.0.1:{pipeline.to[1]}", "--ring", pipeline.ring, "--remove")
+    again = pipeline.start(sys.executable, "-m", "mavloom.hear", f"udpin://127.0.0.1:{pipeline.to[1]}", "--ring", pipeline.ring)
     again.wait_output("writing to ring", stream="err")
     pipeline.passes()
 

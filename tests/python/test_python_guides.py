@@ -49,12 +49,16 @@ def test_examples_run(page, flight, tmp_path, child_environment):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    ring = f"guides-{port}"
-    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"')
-    with vehicle_at(port, flight), contextlib.ExitStack() as at_the_end:
+    ring, inlet = f"guides-{port}", str(tmp_path / "px4.in")
+    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"').replace("/run/mavloom/px4.in", inlet)
+    with vehicle_at(port, flight), contextlib.ExitStack() as at_the_end, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as router:
+        router.bind(inlet)
+        router.setblocking(False)
         at_the_end.callback(pathlib.Path(f"/dev/shm/mavloom.{ring}").unlink, missing_ok=True)
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+        assert (done.returncode, done.stderr) == (0, ""), done.stderr
+        if inlet in script:
+            assert [(frame[0], frame[5:10]) for frame in [router.recv(65536)]] == [(0xfd, bytes((255, 190, 0, 0, 0)))]
 
 
 @pytest.mark.timeout(300)

@@ -150,6 +150,33 @@ def test_batches_are_sequences(writer, ring, lossless):
     assert found == list(range(1500)) and max(sizes) > 100 and reader.missed == 0
 
 
+@pytest.mark.parametrize("call", ["next(mavloom.RingReader.batches(42))",
+                                  "next(mavloom.RingReader.__new__(mavloom.RingReader).batches(0))", "next(type(reader.batches()).__new__(type(reader.batches())))"])
+def test_batches_of_what_is_no_open_reader_are_a_type_error(writer, ring, start, call):
+    process = start(f"""
+reader = mavloom.RingReader(ring)
+try:
+    {call}
+except TypeError:
+    print("refused")
+""", ring)
+    assert ended(process)[:2] == (0, "refused\n")
+
+
+def test_batches_keep_their_reader_and_no_more(writer, ring):
+    """The time-out is a number from the call on, and the garbage collector sees the reader."""
+    reader = mavloom.RingReader(ring)
+    for wrong, error in ((float("nan"), ValueError), ("1", TypeError), ([], TypeError)):
+        with pytest.raises(error):
+            reader.batches(wrong)
+    batches = reader.batches(timeout=0)
+    assert reader in gc.get_referents(batches)
+    fill(writer, 3)
+    del reader
+    gc.collect()
+    assert [numbers(batch) for batch in batches] == [[0, 1, 2]]
+
+
 def test_a_wait_ends_in_time_or_with_the_writer(writer, ring):
     reader = mavloom.RingReader(ring)
     assert reader.read(timeout=0) is None and reader.read(timeout=0.01) is None and list(reader.batches(timeout=0.01)) == []
@@ -295,6 +322,51 @@ def test_numpy_arrays_of_batches(writer, ring):
     batch = next(readers[0].batches())
     with pytest.raises(ValueError, match="record 1 of the batch has 4 bytes, and the dtype 8"):
         batch.array("u8")
+
+
+def test_an_array_of_two_records_with_the_rings_end_between_them(writer, ring):
+    reader, length, turns = mavloom.RingReader(ring, lossless=True), 1100, 0  # 58 of them a lap
+    writer.write(bytes(length))
+    reader.read()
+    for number in range(200):
+        sent = [bytes([value]) * length for value in (number, number + 1)]
+        for data in sent:
+            writer.write(data)
+        found = []
+        for batch in reader.batches(timeout=0):
+            array = batch.array(f"V{length}")
+            found += [bytes(record) for record in array]
+            turns += len(batch) == 2 and array.strides[0] == length
+            del array
+            batch.release()
+        assert found == sent
+    assert turns
+
+
+def test_a_copied_array_is_whole_or_an_error_under_a_writer_that_evicts(ring, start):
+    """The ring's end lies between the records, and the hold on them ends at any instant, also while they are copied."""
+    process = start("""
+import numpy
+with mavloom.RingWriter(ring, capacity=1 << 22, full="evict") as writer:
+    print("open", flush=True)
+    number = 0
+    while True:
+        writer.write(numpy.full(512, number))
+        number += 1
+""", ring)
+    assert process.stdout.readline() == "open\n"
+    reader = mavloom.RingReader(ring, lossless=True)
+    copied = 0
+    while copied < 100:
+        batch, last = next(reader.batches(DEADLINE_S)), None
+        with contextlib.suppress(mavloom.Error):
+            while len(batch) > 1 and (array := batch.array([("number", "i8", 512)])).strides[0] == 4096:  # else a view
+                last = array
+        array = None
+        if last is not None:
+            assert (last["number"] == last["number"][0, 0] + numpy.arange(len(last))[:, None]).all()
+            copied += 1
+        batch.release()
 
 
 # ---- errors
@@ -714,7 +786,19 @@ def test_removing(writer, ring):
     other = mavloom.RingWriter(ring, capacity=128 * KIB)
     other.close(remove=True)
     other.close(remove=True)
+    other.close()
     assert not path_of(ring).exists()
+
+
+def test_removing_by_a_writer_that_left_the_ring_is_refused(writer, ring):
+    """It may be another writer's by then."""
+    writer.close()
+    writer.close()
+    with mavloom.RingWriter(ring, capacity=64 * KIB):
+        with pytest.raises(mavloom.ClosedError, match=f"{ring} was closed and left the ring: remove_ring takes it away"):
+            writer.close(remove=True)
+    assert path_of(ring).exists()
+    mavloom.remove_ring(ring)
 
 
 # ---- exits and forks: rows 3.1, 3.22, example 11
@@ -830,6 +914,31 @@ print(bytes(reader.read(0).data), writer.removed)
     assert ended(process) == (0, "0 [0, 1, 2]\nb'on' False\n", "")
 
 
+def test_row_3_10_a_forked_child_does_not_look_through_its_parents_records(ring, start):
+    """The hold on them is the parent's: once it let go, other bytes stand there. Copies are the child's own."""
+    process = start("""
+import numpy
+writer, lossy = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+one, many = mavloom.RingReader(ring, lossless=True), mavloom.RingReader(ring, lossless=True)
+for _ in range(3):
+    writer.write(b"abcd")
+record, batch, copy, copies = one.read(), next(many.batches()), lossy.read(), next(lossy.batches())
+pid = os.fork()
+if pid == 0:
+    for look in (lambda: record.data, lambda: memoryview(record), lambda: numpy.frombuffer(record, "S4"), lambda: batch[1].data, lambda: batch.array("S4")):
+        try:
+            look()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    assert copy.data == copies[0].data == b"abcd" and copies.array("S4").tolist() == [b"abcd"] * 2
+    sys.exit(0)
+print(os.waitpid(pid, 0)[1], bytes(record.data), batch.array("S4").tolist())
+""", ring)
+    assert ended(process) == (0, "0 b'abcd' [b'abcd', b'abcd', b'abcd']\n", "")
+
+
 WAITS = ["reader.read()", "next(reader)", "list(lossy)", "next(lossy.batches())", "next(reader.batches(1e6))", "list(iter(lambda: writer.write(bytes(1000)), None))"]
 
 
@@ -844,6 +953,49 @@ print("ready", flush=True)
     process.send_signal(signal.SIGINT)
     _, _, talk = ended(process)
     assert "KeyboardInterrupt" in talk
+
+
+SIGNALLED = """
+class Raised(Exception):
+    pass
+def handler(*_):
+    raise Raised
+signal.signal(signal.SIGUSR1, handler)
+sys.setswitchinterval(DEADLINE)  # whoever reads gets the GIL back when the signal is there, and not before
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=sys.argv[2] == "True")
+def write():
+    for number in range(0, 90, 3):
+        time.sleep(0.005)
+        for each in range(number, number + 3):
+            writer.write(b"%d" % each)
+        end = time.monotonic() + 0.005
+        while time.monotonic() < end:
+            pass
+        signal.raise_signal(signal.SIGUSR1)
+    writer.close()
+taken, raised = [], 0
+thread = threading.Thread(target=write)
+thread.start()
+while True:
+    try:
+        records = READ
+    except Raised:
+        raised += 1
+        continue
+    if not records:
+        break
+    taken += [int(bytes(record.data)) for record in records]
+thread.join()
+print(raised > 0, taken == list(range(90)), reader.missed)
+"""
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("read", ["[*filter(None, [reader.read()])]", "[*filter(None, [next(reader, None)])]", "next(reader.batches(), ())",
+                                  "next(reader.batches(), ()) if len(taken) % 2 else [*filter(None, [reader.read()])]"])
+def test_a_signal_handler_that_raises_costs_no_record(ring, start, read, lossless):
+    process = start(SIGNALLED.replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+    assert ended(process) == (0, "True True 0\n", "")
 
 
 # ---- threads
@@ -1065,8 +1217,9 @@ def test_hear_writes_what_it_hears_and_takes_its_ring_away(hear, ring, frames, n
         assert reader.read() is None and reader.removed and ring not in mavloom.rings()
 
 
-def test_hear_leaves_a_ring_that_was_there_unless_told(hear, ring):
-    for words, made_before, stays in (([], True, True), (["--remove"], True, False), (["--keep"], False, True), (["--remove"], False, False), ([], False, False)):
+def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
+    for words, made_before, stays in (([], True, False), (["--remove"], True, False), (["--keep"], False, True), (["--keep"], True, True), (["--remove"], False, False),
+                                      ([], False, False)):
         if made_before:
             mavloom.RingWriter(ring, capacity=64 * KIB).close()
         elif path_of(ring).exists():
@@ -1075,6 +1228,40 @@ def test_hear_leaves_a_ring_that_was_there_unless_told(hear, ring):
         assert ("which was there before" in process.stderr.readline()) == made_before
         process.send_signal(signal.SIGINT)
         assert ended(process)[0] == 130 and path_of(ring).exists() == stays
+
+
+def test_hear_leaves_nothing_when_the_one_before_was_killed(hear, ring):
+    killed, _ = hear("--ring", ring)
+    killed.stderr.readline()
+    killed.kill()
+    killed.wait(DEADLINE_S)
+    process, _ = hear("--ring", ring)
+    assert "which was there before" in process.stderr.readline()
+    process.send_signal(signal.SIGTERM)
+    assert ended(process)[0] == 143 and not path_of(ring).exists()
+
+
+def test_hear_touches_no_ring_when_it_cannot_listen(hear, ring):
+    mavloom.RingWriter(ring, capacity=64 * KIB).close()
+    process, _ = hear("--ring", ring, url="udp://:1")
+    assert ended(process)[0] == 2 and path_of(ring).exists()
+
+
+@pytest.mark.parametrize("take_away", [mavloom.remove_ring, lambda name: path_of(name).unlink()], ids=["removed", "rm"])
+def test_hear_makes_a_ring_anew_that_somebody_takes_away(hear, ring, frames, take_away):
+    process, port = hear("--ring", ring)
+    process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        send(port, frames[:100])
+        assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[:100]
+    for again in range(1, 3):
+        take_away(ring)
+        assert process.stderr.readline() == f"ring {ring} was removed, and is made anew\n"
+        with mavloom.RingReader(ring, lossless=True) as reader:
+            send(port, frames[again * 100:][:100])
+            assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[again * 100:][:100]
+    process.send_signal(signal.SIGINT)
+    assert ended(process) == (130, "", f"{ring}: 300 frames heard, 300 written\n") and not path_of(ring).exists()
 
 
 def test_hear_tells_what_it_missed(hear, ring, frames):
