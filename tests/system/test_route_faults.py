@@ -411,6 +411,22 @@ def test_frames_of_a_disk_that_stays_full_are_not_counted_as_recorded(pair, tmp_
     assert f"tape: {len(tape.sent) - len(recorded)} frames not written" in done.stderr
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_what_had_arrived_before_the_end_goes_its_way(pair, tmp_path, number):
+    path = tmp_path / "flight.tlog"
+    net = pair(f"tlog://{path}")
+    sent = bulk(300)
+    net.process.send(signal.SIGSTOP)
+    for frame in sent:
+        net.vehicle.send(frame)
+    net.process.send(number)
+    net.process.send(signal.SIGCONT)
+    assert net.process.wait().status == 128 + number
+
+    assert net.station.count(len(sent)) == sent
+    assert [frame for _, frame in frames.read_tlog(path)][-len(sent):] == sent
+
+
 def test_a_rotated_recording_begins_no_files_on_a_full_disk(pair, tmp_path):
     disk = SmallDisk(tmp_path)
     with contextlib.closing(disk):
