@@ -217,7 +217,7 @@ def parse_options():
     parser.add_argument("--json", action="store_true", help="one JSON object a line: each measurement, then ratios; the tables on standard error")
     options = parser.parse_args()
     options.program = options.program.resolve()  # routers run in a folder of their own
-    options.tools = options.tools or options.program.parent.parent / "bench" / "bin"
+    options.tools = (options.tools or options.program.parent.parent / "bench" / "bin").resolve()
     options.seconds = options.seconds or (2 if options.quick else 10)
     options.rounds = options.rounds or (2 if options.quick else 5)
     keys = [load.key for load in (*LOADS, LINKS, TAP, HIGHEST)]
