@@ -6,17 +6,17 @@
 #   examples/pipeline/run.sh                 a vehicle that sends to port 5058 of this machine, until Ctrl-C
 #   examples/pipeline/run.sh FLIGHT.tlog     a recorded flight at its own pace, to its end; SPEED=10 is faster
 #
-# LISTEN, TO and RING change where it comes from, where it goes, and the ring's name. Each of the two programs can be ended and started again by
-# itself; other readers, in C++ or Python, may follow the ring at any time (docs/guide/python.md, docs/guide/shm.md).
+# LISTEN, TO and RING change where it comes from, where it goes, and the ring's name. The script ends both programs together; started by hand,
+# each can be ended and started again by itself. Other readers, in C++ or Python, may follow the ring at any time (docs/guide/python.md, docs/guide/shm.md).
 set -euo pipefail
 
 here=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 mavloom=${MAVLOOM_PROGRAM:-$here/build/release/bin/mavloom}
 python=${PYTHON:-$here/build/venv/bin/python}
-log=$(mktemp)
 listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring=${RING:-px4}
 
 [ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
+log=$(mktemp)
 
 "$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(tee "$log" >&2) &
 hear=$!

@@ -14,7 +14,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "mavloom/net/local_sender.hpp"
 #include "mavloom/runtime/control.hpp"
 
 namespace mavloom::runtime {
@@ -72,11 +74,14 @@ SetupResult<std::filesystem::path> inlet_path(std::string_view ring) { return ru
 SetupResult<std::filesystem::path> find_inlet(std::string_view ring) {
     if (auto checked = check_name(ring); !checked) return tl::unexpected(std::move(checked.error()));
     std::string looked_at;
+    std::optional<std::filesystem::path> left;
     for (const auto& folder : run_folders()) {
         auto path = folder / fmt::format("{}.in", ring);
-        if (::access(path.c_str(), F_OK) == 0) return path;
+        if (net::LocalSender::connect(path)) return path;
+        if (!left && ::access(path.c_str(), F_OK) == 0) left = path;
         looked_at += fmt::format("{}{}", looked_at.empty() ? "" : " or ", path.string());
     }
+    if (left) return *left;  // to be told why not
     return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", looked_at, std::strerror(ENOENT)));
 }
 

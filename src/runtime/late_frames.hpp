@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Of signed frames that come by several links of a group: which are late, and which are replays. A late one is taken if its time is newer than the
-// newest that any link had brought `least` to `most` ago; so it was not taken before that, and a copy of it is still known by its bytes
-// (route::Engine::echo_window). Judged by arrival: the clocks of signers need not run with ours. Private to module runtime; one owner thread; allocates for
-// a new sender only.
+// newest that any link had brought `least` to `oldest` ago; so it was not taken before that, and a copy of it is still known by its bytes
+// (route::Engine::echo_window; as far as a flood of other frames leaves room there, which the router's `recent_evicted` tells). Judged by arrival: the clocks
+// of signers need not run with ours. Private to module runtime; one owner thread; allocates for a new sender only.
 #pragma once
 
 #include <chrono>
@@ -17,8 +17,8 @@ namespace mavloom::runtime::detail {
 
 class LateFrames {
 public:
-    static constexpr Nanoseconds least = std::chrono::milliseconds{900}, most = 2 * least;
-    static_assert(most < route::Engine::echo_window);
+    static constexpr Nanoseconds least = std::chrono::milliseconds{600}, most = 2 * least, oldest = most + least;
+    static_assert(oldest < route::Engine::echo_window);
 
     // Whether a sender's frame of `time` is too late at `now`, when its newest before this frame was of `newest`. To be asked of every frame.
     [[nodiscard]] bool is_too_late(std::uint32_t sender, wire::SigningTime time, wire::SigningTime newest, MonoTime now) {
@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    // The newest time at two moments: `old` at least `least` ago once frames have come for so long.
+    // The newest time at two moments, `recent` at `since` and `old` `least` to `most` before.
     struct Marks {
         wire::SigningTime old, recent;
         MonoTime since;

@@ -37,7 +37,6 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 // judges for itself, and together they tell what is too late.
 void Signature::judge(const OpenKey& with, bool in_group) {
     judge_ = states_.judge_of(with.key);
-    for (const auto& stream : with.times->state.heard) judge_->verifier.restore(stream);
     if (!in_group) return;
     own_.emplace(with.key);
     for (const auto& stream : judge_->verifier.streams()) own_->restore(stream);
@@ -48,9 +47,10 @@ bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
     if (!own_) return judge_->verifier.verify(frame, now) == good;
     if (own_->verify(frame, now) != good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
-    if (judge_->late.is_too_late(stream.key, stream.last, judge_->verifier.last(stream.key), mono_now())) return false;
+    const auto newest = judge_->verifier.last(stream.key);
     judge_->verifier.restore(stream);
-    return true;
+    const bool has_no_place = judge_->verifier.last(stream.key) == wire::SigningTime{};
+    return !has_no_place && !judge_->late.is_too_late(stream.key, stream.last, newest, mono_now());
 }
 
 Signature::~Signature() {

@@ -216,7 +216,11 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
 std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
     auto& known = judges_[key.fingerprint()];
     auto judge = known.lock();
-    if (!judge) known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}});
+    if (judge) return judge;
+    known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}});
+    for (const auto& file : files_)
+        if (file->state.key == key.fingerprint())
+            for (const auto& stream : file->state.heard) judge->verifier.restore(stream);
     return judge;
 }
 

@@ -27,7 +27,8 @@ class Router;
 
 // RUN/NAME.in, where the router that writes the ring NAME takes frames from programs of this machine; makes the folder likewise.
 [[nodiscard]] SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
-// For who sends there, whoever the router belongs to: the first RUN/NAME.in that is there, else `not_found`; makes nothing.
+// For who sends there, whoever the router belongs to: the first RUN/NAME.in that somebody serves, else one that is left,
+// else `not_found`; makes nothing.
 [[nodiscard]] SetupResult<std::filesystem::path> find_inlet(std::string_view ring);
 
 struct ControlOptions {
