@@ -87,6 +87,14 @@ SetupResult<void> check_endpoints(const runtime::Config& config, const std::stri
     return {};
 }
 
+SetupResult<void> check_recordings(std::span<const runtime::Endpoint> endpoints) {
+    std::set<std::filesystem::path> recordings;
+    for (const auto& e : endpoints)
+        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(runtime::same_file(e.path)).second)
+            return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
+    return {};
+}
+
 SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
     Plan plan;
     if (runtime::parse_endpoint(options.explain))
@@ -105,10 +113,7 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     const auto endpoints = plan.endpoints();
     if (endpoints.empty())
         return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
-    std::set<std::filesystem::path> recordings;
-    for (const auto& e : endpoints)
-        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(runtime::same_file(e.path)).second)
-            return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
+    if (auto good = check_recordings(endpoints); !good) return tl::unexpected(std::move(good.error()));
     return plan;
 }
 

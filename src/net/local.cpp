@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 
 #include <array>
 #include <cassert>
@@ -13,6 +12,7 @@
 #include <ctime>
 
 #include "net/socket_options.hpp"
+#include "net/unix_address.hpp"
 
 namespace mavloom::net {
 
@@ -44,17 +44,13 @@ LocalSocket& LocalSocket::operator=(LocalSocket&&) noexcept = default;
 LocalSocket::~LocalSocket() = default;
 
 SetupResult<LocalSocket> LocalSocket::open(const std::filesystem::path& path, unsigned mode) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    if (path.native().size() >= sizeof address.sun_path)
-        return system_error(fmt::format("cannot make a socket at {}", path.string()), ENAMETOOLONG);
-    std::memcpy(address.sun_path, path.c_str(), path.native().size());
+    const auto address = unix_address(path);
+    if (!address) return system_error(fmt::format("cannot make a socket at {}", path.string()), ENAMETOOLONG);
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return system_error("cannot make a Unix socket", errno);
     set_option(fd.get(), SOL_SOCKET, SO_TIMESTAMPNS, 1);
     // Before: nobody gets in meanwhile. After: what the umask took.
-    if (::fchmod(fd.get(), mode) != 0 ||
-        ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+    if (::fchmod(fd.get(), mode) != 0 || ::bind(fd.get(), as_sockaddr(*address), sizeof *address) != 0 ||
         ::chmod(path.c_str(), mode) != 0)
         return system_error(fmt::format("cannot make a socket at {}", path.string()), errno);
     return LocalSocket(std::move(fd), std::make_unique<Slots>());

@@ -2,34 +2,27 @@
 #include "mavloom/net/local_sender.hpp"
 
 #include <fmt/format.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 #include <utility>
 
 #include "mavloom/base/shown.hpp"
+#include "net/unix_address.hpp"
 
 namespace mavloom::net {
 
-static const sockaddr* as_sockaddr(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
-
 SetupResult<LocalSender> LocalSender::connect(const std::filesystem::path& path) {
-    sockaddr_un far{};
-    far.sun_family = AF_UNIX;
-    if (path.native().size() >= sizeof far.sun_path)
-        return setup_error(SetupCode::usage, fmt::format("{} is too long for a socket's path", path.string()));
-    std::memcpy(far.sun_path, path.c_str(), path.native().size());
+    const auto far = unix_address(path);
+    if (!far) return setup_error(SetupCode::usage, fmt::format("{} is too long for a socket's path", path.string()));
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return system_error("cannot make a local socket", errno);
     sockaddr_un own{};  // without a name: the kernel gives one that is free, and no file
     own.sun_family = AF_UNIX;
     if (::bind(fd.get(), as_sockaddr(own), sizeof own.sun_family) != 0)
         return system_error("cannot bind a local socket", errno);
-    if (::connect(fd.get(), as_sockaddr(far), sizeof far) != 0)
+    if (::connect(fd.get(), as_sockaddr(*far), sizeof *far) != 0)
         return system_error(fmt::format("cannot send to {}", path.string()), errno);
     return LocalSender(std::move(fd));
 }

@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <pthread.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -17,6 +15,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "mavloom/base/thread.hpp"
 #include "mavloom/net/fd.hpp"
 #include "runtime/control_sessions.hpp"
 
@@ -139,15 +138,10 @@ public:
         return options.metrics ? open_metrics(*options.metrics) : SetupResult<void>{};
     }
 
-    // Signals are for the router's thread.
     void start() {
         if (!socket_.empty()) control_.accept();
         if (metrics_port() != 0) metrics_.accept();
-        sigset_t all, before;
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_SETMASK, &all, &before);
-        thread_ = std::thread([this] { context_.run(); });
-        ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+        thread_ = thread_without_signals([this] { context_.run(); });
     }
 
     [[nodiscard]] std::uint16_t metrics_port() const noexcept { return metrics_port_; }

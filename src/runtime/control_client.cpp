@@ -71,17 +71,18 @@ SetupResult<std::filesystem::path> control_path(std::string_view name) {
 
 SetupResult<std::filesystem::path> inlet_path(std::string_view ring) { return run_path(ring, "in", "inlet"); }
 
-SetupResult<std::filesystem::path> find_inlet(std::string_view ring) {
+SetupResult<net::LocalSender> connect_inlet(std::string_view ring) {
     if (auto checked = check_name(ring); !checked) return tl::unexpected(std::move(checked.error()));
     std::string looked_at;
-    std::optional<std::filesystem::path> left;
+    std::optional<SetupError> why_not;
     for (const auto& folder : run_folders()) {
-        auto path = folder / fmt::format("{}.in", ring);
-        if (net::LocalSender::connect(path)) return path;
-        if (!left && ::access(path.c_str(), F_OK) == 0) left = path;
+        const auto path = folder / fmt::format("{}.in", ring);
+        auto sender = net::LocalSender::connect(path);
+        if (sender) return sender;
+        if (!why_not && sender.error().code != SetupCode::not_found) why_not = std::move(sender.error());
         looked_at += fmt::format("{}{}", looked_at.empty() ? "" : " or ", path.string());
     }
-    if (left) return *left;  // to be told why not
+    if (why_not) return tl::unexpected(std::move(*why_not));
     return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", looked_at, std::strerror(ENOENT)));
 }
 

@@ -2,19 +2,17 @@
 #include "runtime/links_inlet.hpp"
 
 #include <fmt/format.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <functional>
 #include <string_view>
 #include <unordered_map>
 
 #include "mavloom/base/shown.hpp"
 #include "mavloom/net/local.hpp"
+#include "mavloom/net/local_sender.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
 #include "runtime/links_peer_room.hpp"
 
@@ -94,14 +92,10 @@ private:
 
 // Nothing happens where there is no socket, or one of another kind. Of routers of one ring only one comes here: it holds the ring's lock.
 SetupResult<void> take_over(const std::filesystem::path& path) {
-    const net::Fd probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::memcpy(address.sun_path, path.c_str(), std::min(path.native().size(), sizeof address.sun_path - 1));
-    if (::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-        return setup_error(SetupCode::in_use, fmt::format("{} is served by a router that runs", path.string()));
+    const auto probe = net::LocalSender::connect(path);
+    if (probe) return setup_error(SetupCode::in_use, fmt::format("{} is served by a router that runs", path.string()));
     struct stat status {};
-    const bool is_left = errno == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
+    const bool is_left = probe.error().sys_errno == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
     if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
     return {};
 }

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "mavloom/net/local_sender.hpp"
 #include "mavloom/runtime/control.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_retry.hpp"
@@ -74,9 +73,7 @@ private:
 };
 
 SetupResult<void> InletSender::connect() {
-    const auto path = find_inlet(info.endpoint.path);
-    if (!path) return tl::unexpected(path.error());
-    auto socket = net::LocalSender::connect(*path);
+    auto socket = connect_inlet(info.endpoint.path);
     if (!socket) return tl::unexpected(std::move(socket.error()));
     auto watch = core_.loop().watch(socket->fd(), false, false, *this);
     if (!watch) return tl::unexpected(std::move(watch.error()));

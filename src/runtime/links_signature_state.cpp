@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <pthread.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +15,7 @@
 #include <optional>
 #include <utility>
 
+#include "mavloom/base/thread.hpp"
 #include "mavloom/net/fd.hpp"
 #include "runtime/links_core.hpp"
 
@@ -247,12 +246,7 @@ void KeyStates::hand_over(const std::shared_ptr<KeyFile>& file) {
         jobs_.push_back({file, with_reserve(file->state)});
     }
     work_.notify_one();
-    if (writer_.joinable()) return;
-    sigset_t all, before;  // signals are for the owner's thread
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before);
-    writer_ = std::thread([this] { run(); });
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (!writer_.joinable()) writer_ = thread_without_signals([this] { run(); });
 }
 
 void KeyStates::run() {

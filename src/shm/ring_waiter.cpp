@@ -2,8 +2,6 @@
 #include "mavloom/shm/ring_waiter.hpp"
 
 #include <linux/futex.h>
-#include <pthread.h>
-#include <signal.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -16,6 +14,8 @@
 #include <span>
 #include <thread>
 #include <utility>
+
+#include "mavloom/base/thread.hpp"
 
 namespace mavloom::shm {
 
@@ -44,11 +44,7 @@ struct Watched {
 class RingWaiter::Thread {
 public:
     explicit Thread(const std::function<void()>& wake) : wake_(wake) {
-        sigset_t all, before;  // signals are for the other threads
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_SETMASK, &all, &before);
-        thread_ = std::thread([this] { run(); });
-        ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+        thread_ = thread_without_signals([this] { run(); });
     }
     Thread(const Thread&) = delete;
     Thread& operator=(const Thread&) = delete;

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mavloom/net/local_sender.hpp"
 #include "mavloom/runtime/endpoint.hpp"
 
 namespace mavloom::runtime {
@@ -27,9 +28,9 @@ class Router;
 
 // RUN/NAME.in, where the router that writes the ring NAME takes frames from programs of this machine; makes the folder likewise.
 [[nodiscard]] SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
-// For who sends there, whoever the router belongs to: the first RUN/NAME.in that somebody serves, else one that is left,
-// else `not_found`; makes nothing.
-[[nodiscard]] SetupResult<std::filesystem::path> find_inlet(std::string_view ring);
+// For who sends there, whoever the router belongs to: the first RUN/NAME.in that somebody serves, else why one that is there
+// cannot be sent to, else `not_found`; makes nothing.
+[[nodiscard]] SetupResult<net::LocalSender> connect_inlet(std::string_view ring);
 
 struct ControlOptions {
     std::filesystem::path socket;  // empty: none
