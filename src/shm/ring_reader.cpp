@@ -42,6 +42,7 @@ RingReader& RingReader::operator=(RingReader&& other) noexcept {
     slot_ = std::exchange(other.slot_, std::nullopt);
     consumer_ = std::move(other.consumer_);
     next_look_at_writer_ = other.next_look_at_writer_;
+    waiting_since_ = other.waiting_since_;
     armed_ = other.armed_;
     return *this;
 }
@@ -65,6 +66,7 @@ SetupResult<void> RingReader::begin() {
     if (!slot_ && options_.lossless)
         return setup_error(SetupCode::in_use,
                            fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
+    segment_->populate();
     consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
     if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) return {};
     return setup_error(
@@ -153,16 +155,21 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
         record = try_read();  // what was written before the writer went
         if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
     }
-    if (record) consumer_.awake();
+    if (record) {
+        consumer_.awake();
+        waiting_since_ = {};
+    }
     return record;
 }
 
 Nanoseconds RingReader::arm() noexcept {
     if (forked() || !slot_) return poll_distance;
     const MonoTime now = mono_now();
-    if (!consumer_.fall_asleep()) armed_ = now;
+    if (waiting_since_ == MonoTime{}) waiting_since_ = now;
+    const bool asks = now >= waiting_since_ + detail::wake_distance;  // see Consumer::sleep()
+    if (asks && !consumer_.fall_asleep()) armed_ = now;
     if (consumer_.more_waits()) return {};
-    return now < armed_ + detail::wake_distance ? detail::wake_distance : look_at_writer;
+    return !asks || now < armed_ + detail::wake_distance ? detail::wake_distance : look_at_writer;
 }
 
 std::shared_ptr<const SharedWords::Word32> RingReader::wake_word() const {

@@ -18,7 +18,11 @@ namespace mavloom::shm {
 static constexpr Nanoseconds look_for_dead = std::chrono::milliseconds(10);
 
 RingWriter::RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment)
-    : name_(std::move(name)), options_(options), segment_(std::move(segment)), producer_(memory_of(*segment_)) {}
+    : name_(std::move(name)),
+      options_(options),
+      segment_(std::move(segment)),
+      forked_(&segment_->forked_flag()),
+      producer_(memory_of(*segment_)) {}
 
 RingWriter::RingWriter(RingWriter&&) noexcept = default;
 RingWriter::~RingWriter() { end(); }
@@ -29,6 +33,7 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
     name_ = std::move(other.name_);
     options_ = other.options_;
     segment_ = std::move(other.segment_);
+    forked_ = other.forked_;
     producer_ = other.producer_;
     created_ = other.created_;
     return *this;
@@ -46,6 +51,7 @@ SetupResult<RingWriter> RingWriter::open(std::string_view name, const RingOption
 }
 
 SetupResult<void> RingWriter::begin() {
+    segment_->populate();
     if (!producer_.recover())
         return setup_error(SetupCode::bad_input,
                            fmt::format("{}: is a damaged ring: what stands before its end are no records; "
@@ -62,22 +68,30 @@ SetupResult<void> RingWriter::begin() {
     return {};
 }
 
+// What nearly always holds, without the why where it does not. Then the record is claimed.
+bool RingWriter::has_room(std::size_t length) noexcept {
+    return segment_ && !forked_->load(std::memory_order_relaxed) && length <= longest() &&
+           producer_.claim(length) == detail::Producer<SharedWords>::Room::there;
+}
+
 WriteResult<void> RingWriter::write(ByteView data, const RecordInfo& info, MonoTime deadline) noexcept {
-    if (auto room = make_room(data.size(), deadline); !room) return room;
+    if (!has_room(data.size()))
+        if (auto room = make_room(data.size(), deadline); !room) return room;
     producer_.store_payload(data);
     producer_.commit(info, data.size());
     return {};
 }
 
 WriteResult<ByteSpan> RingWriter::claim(std::size_t length, MonoTime deadline) noexcept {
-    if (auto room = make_room(length, deadline); !room) return tl::unexpected(room.error());
+    if (!has_room(length))
+        if (auto room = make_room(length, deadline); !room) return tl::unexpected(room.error());
     return ByteSpan(producer_.payload(), length);
 }
 
 WriteResult<void> RingWriter::make_room(std::size_t length, MonoTime deadline) noexcept {
     using Room = detail::Producer<SharedWords>::Room;
     if (!segment_) return tl::unexpected(WriteError::removed);
-    if (segment_->forked()) return tl::unexpected(WriteError::forked);
+    if (forked_->load(std::memory_order_relaxed)) return tl::unexpected(WriteError::forked);
     if (length > longest()) return tl::unexpected(WriteError::too_long);
     for (;;) {
         const Room room = producer_.claim(length);

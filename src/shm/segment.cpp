@@ -123,6 +123,12 @@ SetupResult<void> Segment::map() {
     return {};
 }
 
+// Where the kernel cannot, or the file is shorter by now, it stays as it was.
+void Segment::populate() noexcept {
+    constexpr std::size_t most = 64 << 20;
+    ::madvise(data_, std::min(size_, most), writable() ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
+}
+
 SetupResult<Segment> Segment::open(const std::string& path, Access access, std::size_t least_bytes) {
     const int flags = (access == Access::read_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     const int fd = ::open(path.c_str(), flags);

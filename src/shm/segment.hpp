@@ -44,6 +44,8 @@ public:
 
     [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    // Has the kernel map all pages now (of a long one the first 64 MiB), for each would cost a fault of microseconds later.
+    void populate() noexcept;
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] bool writable() const noexcept { return access_ == Access::read_write; }
 

@@ -112,7 +112,7 @@ private:
     const std::atomic<bool>* forked_ = nullptr;  // of the segment
     std::optional<unsigned> slot_;
     detail::Consumer<SharedWords> consumer_;
-    MonoTime next_look_at_writer_{}, armed_{};
+    MonoTime next_look_at_writer_{}, waiting_since_{}, armed_{};
 };
 
 }  // namespace mavloom::shm

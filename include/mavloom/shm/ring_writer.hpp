@@ -8,6 +8,7 @@
 // made unless somebody sleeps or the ring is full. Closing (the destructor too) leaves the ring for its readers and for the next writer.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -70,6 +71,7 @@ public:
 private:
     RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment);
     [[nodiscard]] SetupResult<void> begin();
+    [[nodiscard]] bool has_room(std::size_t length) noexcept;
     [[nodiscard]] WriteResult<void> make_room(std::size_t length, MonoTime deadline) noexcept;
     [[nodiscard]] WriteResult<void> wait_for_room(std::size_t length, MonoTime deadline) noexcept;
     void drop_dead(std::uint64_t slots) noexcept;
@@ -77,7 +79,8 @@ private:
 
     std::string name_;
     RingOptions options_;
-    std::unique_ptr<Segment> segment_;  // empty once closed
+    std::unique_ptr<Segment> segment_;           // empty once closed
+    const std::atomic<bool>* forked_ = nullptr;  // of the segment
     detail::Producer<SharedWords> producer_;
     bool created_ = false;
 };

@@ -56,7 +56,6 @@ public:
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             if (position_ == tail_ && !look_for_more()) return Found::empty;
             if (lossless_ && !has_hold()) {
-                if (in_batch_) return Found::empty;  // what was given out is unprotected now, and holds() must say so
                 if (!hold()) {
                     if (!skip_ahead()) return Found::damaged;
                     continue;
@@ -79,24 +78,19 @@ public:
             }
             if (header.sequence != static_cast<std::uint32_t>(sequence_)) return Found::damaged;
             in_hand_ = true;
-            fill(out, header);
+            fill(out, header, position_, sequence_);
+            out.missed = std::exchange(missed_now_, 0);
             return Found::record;
         }
         return Found::damaged;
     }
 
-    // Of a lossless reader: up to `out.size()` records and about an eighth of the ring, all in view until the next call. `count` is 0 unless
-    // there are records.
+    // Of a lossless reader: up to `out.size()` records (at least one is wanted) and about an eighth of the ring, all in view until the next call. `count`
+    // is 0 unless there are records.
     [[nodiscard]] Found next_batch(std::span<RingRecord> out, std::size_t& count) noexcept {
-        Found found = Found::empty;
-        const std::uint64_t begin = after_;
-        for (count = 0; count < out.size() && after_ - begin < ring_.capacity / 8; ++count) {
-            in_batch_ = count != 0;
-            found = next(out[count]);
-            if (found != Found::record) break;
-        }
-        in_batch_ = false;
-        return count != 0 ? Found::record : found;
+        const Found found = next(out.front());
+        count = found == Found::record ? 1 + gather(out.subspan(1)) : 0;
+        return found;
     }
 
     // Ends the view of the last record. The writer may learn of it later, at the latest when all is read.
@@ -105,7 +99,7 @@ public:
         in_hand_ = false;
         position_ = after_;
         ++sequence_;
-        if (!in_batch_ && position_ - published_ >= ring_.capacity / publish_parts) publish();
+        if (position_ - published_ >= ring_.capacity / publish_parts) publish();
     }
 
     // Tells the writer at once.
@@ -126,20 +120,18 @@ public:
 
     // Sleeps until something is committed, the writer goes, or `longest` is over; a reader without a slot for all of it.
     //
-    // The writer may overlook a bit that was just set (commit() looks at `sleepers` before others see its `tail`, Producer::wake_readers() wakes nobody
-    // twice in a while). So sleeps are short until one ran to its end with the bit set; it stays set until awake().
+    // The first sleep behind a record is a nap of `wake_distance` at most that the writer is not asked to end: while records come thick, he neither looks
+    // at the clock nor makes a system call. He may overlook a bit that was just set (commit() looks at `sleepers` before others see its `tail`,
+    // Producer::wake_readers() wakes nobody twice in a while), so that the second is short, too. The bit stays set until awake().
     void sleep(Nanoseconds longest) noexcept {
         auto& control = *ring_.control;
         const std::uint32_t seen = control.wakes.load(
             std::memory_order_acquire);  // pairs with Producer::wake_readers_now()
-        if (slot_) {
-            asleep_ = true;
-            if ((control.sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) == 0) is_known_ = false;
-            if (!is_known_) longest = std::min(longest, wake_distance);
-        }
-        if (control.tail.load(std::memory_order_seq_cst) == tail_ && !retired() &&
-            Words::sleep(control.wakes, seen, longest))
-            is_known_ = true;
+        if (slot_ && rest_ != Rest::nap && !fall_asleep()) rest_ = Rest::asked;
+        const bool is_short = slot_ && rest_ != Rest::known;
+        if (is_short) longest = std::min(longest, wake_distance);
+        if (!more_waits() && Words::sleep(control.wakes, seen, longest) && is_short)
+            rest_ = rest_ == Rest::nap ? Rest::asked : Rest::known;
     }
 
     // For a sleep elsewhere on `wakes`, until awake(): sets this reader's bit. Whether it was set before.
@@ -155,6 +147,7 @@ public:
 
     // After the last sleep() of a wait: the writer need not wake this reader.
     void awake() noexcept {
+        rest_ = Rest::nap;
         if (std::exchange(asleep_, false)) ring_.control->sleepers.fetch_and(~bit(), std::memory_order_relaxed);
     }
 
@@ -175,6 +168,11 @@ public:
     [[nodiscard]] bool lossless() const noexcept { return lossless_; }
 
 private:
+    enum class Rest : std::uint8_t {
+        nap,    // unasked
+        asked,  // the bit is set, and may be overlooked
+        known,  // the writer sees it: has been set for `wake_distance`
+    };
     static constexpr int most_attempts = 10'000;  // a writer is not faster so many times running; damage is
     static constexpr std::uint64_t publish_parts = 16;
 
@@ -190,7 +188,7 @@ private:
     [[nodiscard]] bool look_for_more() noexcept {
         tail_ = ring_.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
         if (tail_ != position_) return true;
-        if (!in_batch_ && published_ != position_) publish();
+        if (published_ != position_) publish();
         return false;
     }
 
@@ -226,6 +224,26 @@ private:
         return true;
     }
 
+    // What follows the record in hand, as far as it is plain to see: none where the lap ends, or something else stands (next() tells what), or the hold
+    // was taken away meanwhile. The hold is looked at once, behind all that was read.
+    [[nodiscard]] std::size_t gather(std::span<RingRecord> out) noexcept {
+        const std::uint64_t end = std::min({tail_, after_ + ring_.left_in_lap(after_), position_ + ring_.capacity / 8});
+        std::uint64_t position = position_, after = after_, sequence = sequence_;
+        std::size_t count = 0;
+        for (; count < out.size() && after < end; ++count) {
+            Header header;
+            const std::uint64_t size = load_record(ring_, after, end, header);
+            if (size == 0 || header.sequence != static_cast<std::uint32_t>(sequence + 1)) break;
+            position = std::exchange(after, after + size);
+            fill(out[count], header, position, ++sequence);
+        }
+        if (!has_hold()) return 0;
+        position_ = position;
+        after_ = after;
+        sequence_ = sequence;
+        return count;
+    }
+
     void copy_payload(std::size_t length) noexcept {
         const auto* word = ring_.word(position_) + record_header_bytes / sizeof(std::uint64_t);
         const std::size_t words = (length + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
@@ -233,24 +251,22 @@ private:
         for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
     }
 
-    void fill(RingRecord& out, const Header& header) noexcept {
-        const auto* bytes = lossless_
-                                ? reinterpret_cast<const std::uint8_t*>(ring_.word(position_)) + record_header_bytes
-                                : reinterpret_cast<const std::uint8_t*>(copy_.data());
-        out.data = {bytes, static_cast<std::size_t>(header.state.length)};
-        out.info = {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict};
-        out.position = position_;
-        out.sequence = sequence_;
-        out.missed = std::exchange(missed_now_, 0);
+    void fill(RingRecord& out, const Header& header, std::uint64_t position, std::uint64_t sequence) const noexcept {
+        const auto* bytes = lossless_ ? reinterpret_cast<const std::uint8_t*>(ring_.word(position)) + record_header_bytes
+                                      : reinterpret_cast<const std::uint8_t*>(copy_.data());
+        out = {{bytes, static_cast<std::size_t>(header.state.length)},
+               {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict},
+               position,
+               sequence,
+               0};
     }
 
     RingMemory<Words> ring_;
     std::optional<unsigned> slot_;
     bool lossless_ = false;
-    bool asleep_ = false;          // its bit in `sleepers` may be set
-    bool is_known_ = false;        // to the writer: has been set for `wake_distance`
+    bool asleep_ = false;  // its bit in `sleepers` may be set
+    Rest rest_ = Rest::nap;
     bool in_hand_ = false;         // the record at position_ was given out
-    bool in_batch_ = false;        // and those before it are still in view
     std::uint64_t position_ = 0;   // of the record in hand, or of the next
     std::uint64_t after_ = 0;      // behind the record in hand
     std::uint64_t sequence_ = 0;   // of the record at position_

@@ -50,23 +50,25 @@ public:
         if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
         if (end > limit_ && !extend(end)) return Room::held;
         if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
-        start_ = tail_ + padding;
         claimed_ = length;
-        store_state(start_, {-1 - static_cast<std::int32_t>(length), 0, 0, 0});
+        start_ = end - size;
+        record_ = ring_.word(start_);
+        record_->store(pack({-1 - static_cast<std::int32_t>(length), 0, 0, 0}), std::memory_order_release);
         return Room::there;
     }
 
     // Where the claimed payload goes. Filled by plain stores: a lossy reader that is being lapped at that moment may copy a mixture, which it then
     // throws away (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
-        return reinterpret_cast<std::uint8_t*>(ring_.word(start_) + record_header_bytes / sizeof(std::uint64_t));
+        return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }
 
     // The same by atomic words, release each: pairs with the acquires in Consumer::copy_payload().
     void store_payload(ByteView bytes) noexcept {
-        auto* word = ring_.word(start_) + record_header_bytes / sizeof(std::uint64_t);
+        auto* word = record_ + header_words;
         const std::uint8_t* from = bytes.data();
         std::size_t left = bytes.size();
+#pragma GCC unroll 8
         for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t), from += sizeof(std::uint64_t), ++word) {
             std::uint64_t value;
             std::memcpy(&value, from, sizeof value);
@@ -142,16 +144,18 @@ public:
     }
 
 private:
+    static constexpr std::size_t header_words = record_header_bytes / sizeof(std::uint64_t);
+
     void store_state(std::uint64_t position, RecordState state) noexcept {
         ring_.word(position)->store(pack(state), std::memory_order_release);  // pairs with load_header()
     }
 
     void store_header(const RecordInfo& info, std::size_t length) noexcept {
-        auto* word = ring_.word(start_);
-        word[1].store(info.link.value | sequence_ << 32,
-                      std::memory_order_release);  // pairs with load_header(), all three
-        word[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
-        word[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}), std::memory_order_release);
+        record_[1].store(info.link.value | sequence_ << 32,
+                         std::memory_order_release);  // pairs with load_header(), all three
+        record_[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
+        record_[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}),
+                         std::memory_order_release);
     }
 
     // The commit goes from tail_ to `end`, with padding up to start_ in between, and sequence_ counts it already.
@@ -204,7 +208,8 @@ private:
     std::uint64_t limit_ = 0;  // may be written up to here without another look
     std::uint64_t next_mark_ = 0;
     std::uint64_t sequence_ = 0;
-    std::uint64_t start_ = 0;  // of the claimed record
+    std::uint64_t start_ = 0;                   // of the claimed record
+    typename Words::Word64* record_ = nullptr;  // where that stands
     std::size_t claimed_ = 0;
     std::uint64_t intent_ = 0;
     MonoTime next_wake_{};

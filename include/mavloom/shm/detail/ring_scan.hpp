@@ -23,6 +23,14 @@ struct Header {
 
 // Each load acquires: pairs with the release of the same word in Producer::store_header(). Whoever sees a word of a later lap so sees the
 // `intent` that was announced before it.
+template <class Word>
+void load_tags(const Word* word, Header& header) noexcept {
+    const std::uint64_t tags = word[1].load(std::memory_order_acquire);
+    header.link = static_cast<std::uint32_t>(tags);
+    header.sequence = static_cast<std::uint32_t>(tags >> 32);
+    header.time_ns = static_cast<std::int64_t>(word[2].load(std::memory_order_acquire));
+}
+
 template <class Words>
 [[nodiscard]] Header load_header(const RingMemory<Words>& ring, std::uint64_t position) noexcept {
     const auto* word = ring.word(position);
@@ -30,10 +38,7 @@ template <class Words>
     header.state = unpack(word[0].load(std::memory_order_acquire));
     if (header.is_padding()) return header;  // which may be all that is left of the lap
     if (ring.left_in_lap(position) < record_header_bytes) return header;
-    const std::uint64_t tags = word[1].load(std::memory_order_acquire);
-    header.link = static_cast<std::uint32_t>(tags);
-    header.sequence = static_cast<std::uint32_t>(tags >> 32);
-    header.time_ns = static_cast<std::int64_t>(word[2].load(std::memory_order_acquire));
+    load_tags(word, header);
     return header;
 }
 
@@ -48,6 +53,20 @@ template <class Words>
     if (static_cast<std::size_t>(length) > max_payload(ring.capacity)) return 0;
     const std::uint64_t size = record_size(static_cast<std::uint64_t>(length));
     return size <= left && size <= available ? size : 0;
+}
+
+// The header of a record that ends before `end`, in the same lap and an eighth of the ring from here at most, and its size; 0 where anything else stands.
+template <class Words>
+[[nodiscard]] std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position, std::uint64_t end,
+                                        Header& header) noexcept {
+    const auto* word = ring.word(position);
+    header.state = unpack(word[0].load(std::memory_order_acquire));
+    const auto length = static_cast<std::uint32_t>(header.state.length);
+    if (header.state.flags != 0 || length > max_record_bytes) return 0;
+    const std::uint64_t size = record_size(length);
+    if (size > end - position) return 0;
+    load_tags(word, header);
+    return size;
 }
 
 struct Mark {

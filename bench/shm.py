@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""bench shm: the ring beside Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core and a bare exchange of a cache line, in
+turns. Every record is compared with what was written, by all of them. Ratios are of the same round. Peers that are not here are left out, and named."""
+import argparse
+import contextlib
+import json
+import pathlib
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FLIGHT = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
+AERON_VERSION = "1.44.1"
+OURS = "mavloom"
+
+
+class Missing(Exception):
+    """Why a peer cannot be had here."""
+
+
+def run(command, what=None):
+    """What a program prints. `what`: an installer, whose failure is a missing peer."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    if done.returncode == 0:
+        return done.stdout
+    why = (done.stderr or done.stdout).strip().splitlines()[-1:]
+    if what:
+        raise Missing(f"{what} failed: {why}")
+    sys.exit(f"bench shm: {' '.join(str(part) for part in command)} ended with {done.returncode}: {why}")
+
+
+def per_second(printed):
+    records, seconds = printed.split()
+    return int(records) / float(seconds)
+
+
+# ---- who takes part: (readers, mode) -> records a second
+
+class Program:
+    """One of our own programs. `records` of the longest run; the harness divides it where a peer is slow."""
+
+    def __init__(self, tools, transport, records, *more):
+        self.command, self.records, self.more = [tools / "shm_throughput", transport], records, more
+
+    def __call__(self, readers, mode):
+        return per_second(run([*self.command, readers, mode, self.records, *self.more]))
+
+
+class Iceoryx:
+    def __init__(self, tools, records):
+        self.program, self.records = tools / "shm_iceoryx", records
+        self.roudi = shutil.which("iox-roudi")
+        if not self.program.exists() or not self.roudi:
+            raise Missing("not installed (Debian: iceoryx, libiceoryx-posh-dev)")
+
+    @contextlib.contextmanager
+    def daemon(self):
+        roudi = subprocess.Popen([self.roudi], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        try:
+            for line in roudi.stdout:
+                if "ready for clients" in line:
+                    break
+            yield
+        finally:
+            roudi.send_signal(signal.SIGTERM)
+            roudi.communicate()
+
+    def __call__(self, readers, mode):
+        with self.daemon():
+            return per_second(run([self.program, readers, mode, self.records]).splitlines()[-1])
+
+
+class Aeron:
+    def __init__(self, folder, records):
+        self.records, self.java, folder = records, shutil.which("java"), folder / "aeron"
+        jar, classes = folder / f"aeron-all-{AERON_VERSION}.jar", folder / "classes"
+        if not self.java or not shutil.which("javac"):
+            raise Missing("no Java to run it with (Debian: default-jdk-headless)")
+        if not jar.exists():
+            self.fetch(folder)
+        run(["javac", "-cp", jar, "-d", classes, ROOT / "bench" / "shm" / "AeronIpc.java"], "javac")
+        self.command = [self.java, "-cp", f"{classes}:{jar}", "--add-opens", "java.base/jdk.internal.misc=ALL-UNNAMED", "--add-opens",
+                        "java.base/sun.nio.ch=ALL-UNNAMED", "AeronIpc"]
+
+    @staticmethod
+    def fetch(folder):
+        if not shutil.which("mvn"):
+            raise Missing("no Maven to fetch it with (Debian: maven)")
+        print("bench shm: fetching Aeron", file=sys.stderr, flush=True)
+        run(["mvn", "-q", "-B", "dependency:copy", f"-Dartifact=io.aeron:aeron-all:{AERON_VERSION}", f"-DoutputDirectory={folder}"], "mvn dependency:copy")
+
+    def __call__(self, readers, mode):
+        return per_second(run([*self.command, mode, readers, self.records]).splitlines()[-1])
+
+
+class Latency:
+    """Median and 99.9th percentile in ns."""
+
+    def __init__(self, tools, way, rounds):
+        self.command = [tools / "shm_latency", way, rounds]
+
+    def __call__(self):
+        return [int(word) for word in run(self.command).split()]
+
+
+# ---- what is measured
+
+def throughputs(tools, folder, scale, missing):
+    """[(title, us, name of the peer, peer, readers, mode, target)]"""
+    ring = Program(tools, "ring", 20_000_000 // scale)
+    peers = {"UDP on loopback": lambda: Program(tools, "udp", 600_000 // scale), "Aeron IPC": lambda: Aeron(folder, 20_000_000 // scale),
+             "iceoryx": lambda: Iceoryx(tools, 1_000_000 // scale)}
+    at_hand = {}
+    for name, make in peers.items():
+        try:
+            at_hand[name] = make()
+        except Missing as why:
+            missing.append(f"{name} is left out: {why}")
+    wanted = [(1, "threads", "Aeron IPC", 1.5), (1, "processes", "Aeron IPC", 1.5), (3, "threads", "Aeron IPC", 1.5), (3, "processes", "Aeron IPC", 1.5),
+              (3, "processes", "iceoryx", 40), (3, "processes", "UDP on loopback", 50)]
+    rows = [(f"64 bytes, {readers} reader{'s' * (readers > 1)}, {mode}", ring, name, at_hand[name], readers, mode, target)
+            for readers, mode, name, target in wanted if name in at_hand]
+    mixed = [Program(tools, transport, 20_000_000 // scale, FLIGHT) for transport in ("ring", "bare")]
+    return [*rows, ("recorded mix, 1 reader, threads", mixed[0], "bare copy", mixed[1], 1, "threads", 0.8)]
+
+
+def spread(values, form=".2f"):
+    return f"{statistics.median(values):{form}} ({min(values):{form}}, {max(values):{form}})"
+
+
+class Bench:
+    def __init__(self, options):
+        self.rounds, self.as_json = options.rounds, options.json
+
+    def tell(self, title, peer, ours, theirs, target, at_most=False, unit="M/s"):
+        """One row; a ratio above the target is good, or below where `at_most`; no target: side by side."""
+        ratios = [a / b for a, b in zip(ours, theirs)]
+        us, them, ratio = statistics.median(ours), statistics.median(theirs), statistics.median(ratios)
+        met = None if target is None else ratio <= target if at_most else ratio >= target
+        goal = "" if met is None else f"target {target}{' at most' if at_most else ''}: {'met' if met else 'missed'}"
+        if self.as_json:
+            print(json.dumps({"bench": f"shm {title}", "peer": peer, "unit": unit, OURS: us, "theirs": them, "ratio": ratio, "lowest": min(ratios),
+                              "highest": max(ratios), "target": target, "met": met}), flush=True)
+        else:
+            print(f"  {title:<36} {OURS} {us:8.2f}   {peer:<16} {them:8.2f} {unit:<4} ratio {spread(ratios):<22} {goal}", flush=True)
+
+    def throughput(self, title, us, name, peer, readers, mode, target):
+        ours, theirs = [], []
+        for number in range(self.rounds):
+            for side, taken in ((us, ours), (peer, theirs))[::1 if number % 2 else -1]:
+                taken.append(side(readers, mode) / 1e6)
+        self.tell(title, name, ours, theirs, target)
+
+    def latency(self, title, us, name, peer, target):
+        ours, theirs = zip(*((us(), peer()) for _ in range(self.rounds)))
+        for index, what in enumerate(("median", "99.9th percentile")):
+            self.tell(f"{title}, {what}", name, [value[index] for value in ours], [value[index] for value in theirs], target, at_most=True, unit="ns")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin", help="where shm_throughput and its like are")
+    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers", help="where Aeron is, or will be put")
+    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--quick", action="store_true", help="one round of a tenth of the records: whether it works, not how fast it is")
+    parser.add_argument("--json", action="store_true", help="one JSON object a line")
+    options = parser.parse_args()
+    options.tools, missing = options.tools.resolve(), []
+    if options.quick:
+        options.rounds = 1
+    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, missing)
+    run([options.tools / "shm_throughput", "ring", 1, "threads", 200_000, FLIGHT, "verify"])
+    bench = Bench(options)
+    print(f"shm: {options.rounds} rounds; every record was compared", file=sys.stderr, flush=True)
+    for row in rows:
+        bench.throughput(*row)
+    times = 10 if options.quick else 1
+    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 1_000_000 // times), "cache line", Latency(options.tools, "line", 1_000_000 // times), 3)
+    bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // times), "pipe", Latency(options.tools, "pipe", 50_000 // times), None)
+    for line in missing:
+        print(f"  {line}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

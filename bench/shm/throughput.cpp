@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// shm_throughput ring|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from one writer to READERS lossless readers, of 64
+// bytes or of the recorded mix. Prints the records and the seconds they took.
+#include <string_view>
+
+#include "bare_transport.hpp"
+#include "mavloom/base/clock.hpp"
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/record/tlog_reader.hpp"
+#include "ring_transport.hpp"
+#include "throughput.hpp"
+#include "udp_transport.hpp"
+
+using namespace mavloom;
+using namespace mavloom::bench;
+
+static std::vector<std::vector<std::uint8_t>> frames_of(const char* flight) {
+    auto reader = or_exit(record::TlogReader::open(flight, dialect::default_dialect().wire_table()));
+    std::vector<std::vector<std::uint8_t>> frames;
+    while (const auto entry = reader.next())
+        frames.emplace_back(entry->frame.bytes().begin(), entry->frame.bytes().end());
+    return frames;
+}
+
+template <class Records>
+static int run(std::string_view transport, const Records& records, const Plan& plan) {
+    if (transport == "ring") {
+        RingTransport ring("throughput");
+        measure(ring, records, plan);
+    } else if (transport == "bare" && plan.readers == 1) {
+        BareTransport bare;
+        measure(bare, records, plan);
+    } else if (transport == "udp") {
+        UdpTransport udp(plan.readers);
+        measure(udp, records, plan);
+    } else return 2;
+    return 0;
+}
+
+int main(int argc, char** argv) {
+    if (argc < 5) return 2;
+    const Plan plan{.readers = static_cast<unsigned>(std::atoi(argv[2])),
+                    .processes = std::string_view(argv[3]) == "processes",
+                    .records = std::strtoull(argv[4], nullptr, 10)};
+    if (plan.readers < 1 || plan.readers > most_readers) return 2;
+    if (argc == 5) return run(argv[1], NumberedRecords(), plan);
+    const auto frames = frames_of(argv[5]);
+    return run(argv[1], RecordedFrames({frames.begin(), frames.end()}, argc > 6), plan);
+}
