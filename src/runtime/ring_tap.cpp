@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace mavloom::runtime {
@@ -12,6 +14,7 @@ RingTap::RingTap(RingConfig config, shm::RingWriter writer, RingPage page)
 
 // The writer's lock comes first: who has it owns the page as well.
 SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config) {
+    const auto left = shm::read_counters(config.name);  // the writer takes away what a router that was killed left
     auto writer = shm::RingWriter::open(config.name, {config.capacity_bytes, config.full, config.mode});
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(config.name, config.mode);
@@ -19,7 +22,16 @@ SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config) {
         (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
     }
-    return std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page)));
+    auto tap = std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page)));
+    tap->carry_on(left ? left->links : std::map<LinkId, std::string>{});
+    return tap;
+}
+
+void RingTap::carry_on(const std::map<LinkId, std::string>& names) {
+    last_link_ = writer_.last_link();
+    const auto end = names.lower_bound(shm::end_of_link_numbers);
+    if (end != names.begin()) last_link_ = std::max(last_link_, std::prev(end)->first);
+    page_->inherit(names);
 }
 
 RingTap::~RingTap() {

@@ -4,6 +4,7 @@
 // one a millisecond while a reader sleeps.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ class RingTap {
 public:
     // Carries on in a ring whose writer was killed. Errors as of RingWriter::open.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(const RingConfig& config);
+    // The last link number of whoever wrote the ring before: readers that lag behind must not find other links under them.
+    [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
     ~RingTap();  // removes the ring and its page; a router that could not start leaves a ring that was there before
@@ -61,6 +64,7 @@ private:
     static constexpr std::chrono::milliseconds page_interval{250};
 
     RingTap(RingConfig config, shm::RingWriter writer, RingPage page);
+    void carry_on(const std::map<LinkId, std::string>& names);
     void make_page_anew(const Links& links, std::vector<std::string>& notices);
 
     RingConfig config_;
@@ -68,6 +72,7 @@ private:
     std::optional<RingPage> page_;
     Counter dropped_;  // frames that are not in the ring
     MonoTime page_due_{};
+    LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
     bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
 };

@@ -104,6 +104,7 @@ SetupResult<void> Router::open_ring(const RingConfig& config) {
     auto opened = RingTap::open(config);
     if (!opened) return tl::unexpected(std::move(opened.error()));
     ring_ = std::move(*opened);
+    links_->count_from(ring_->last_link());
     return {};
 }
 

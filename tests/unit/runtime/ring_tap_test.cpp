@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/ring_tap.hpp"
 
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <array>
+#include <csignal>
+#include <map>
 
 #include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_reader.hpp"
@@ -104,6 +108,51 @@ TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     const auto page = shm::read_counters(name.text());
     ASSERT_TRUE(page);
     EXPECT_THAT(page->links, ::testing::ElementsAre(node.recorder.ups[0]));
+}
+
+// Of a router that is killed: links 1 to `links`, and a frame of link 2.
+void leave_a_ring(const RingName& name, std::uint32_t links) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto tap = open(name);
+        for (std::uint32_t id = 1; id <= links; ++id)
+            tap->on_link_up(LinkId{tap->last_link().value + id}, fmt::format("link {}", tap->last_link().value + id));
+        tap->write(received(attitude(7), LinkId{tap->last_link().value + 2}), route::Verdict::forwarded, false);
+        ::kill(::getpid(), SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+}
+
+TEST(RingTap, LinksOfARouterThatWasKilledKeepTheirNamesAndNumbers) {
+    const RingName name;
+    EXPECT_EQ(open(name)->last_link(), LinkId{0});
+    leave_a_ring(name, 3);
+    leave_a_ring(name, 2);
+    const auto tap = open(name);
+    EXPECT_EQ(tap->last_link(), LinkId{5});
+    tap->on_link_up(LinkId{6}, "link 6");
+    const auto page = shm::read_counters(name.text());
+    ASSERT_TRUE(page);
+    std::map<LinkId, std::string> names;
+    for (std::uint32_t id = 1; id <= 6; ++id) names.emplace(LinkId{id}, fmt::format("link {}", id));
+    EXPECT_EQ(page->links, names);
+}
+
+TEST(RingTap, GoesOnBehindTheNumbersOfRecordsWhereThereIsNoPage) {
+    const RingName name;
+    leave_a_ring(name, 3);
+    ASSERT_EQ(::unlink((name.path() + ".stat").c_str()), 0);
+    EXPECT_EQ(open(name)->last_link(), LinkId{2});
+}
+
+TEST(RingTap, LinksCountOnFromAGivenNumber) {
+    Node node;
+    node.links->count_from(LinkId{1000});
+    const auto in = node.add("udpin://127.0.0.1:0");
+    for (int i = 0; i < 2; ++i) PlainSocket::udp().send_to(node.port(in), heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+    EXPECT_EQ(node.recorder.ups[0].first, LinkId{1001});
+    EXPECT_EQ(node.recorder.ups[1].first, LinkId{1002});
 }
 
 // ---- the page
