@@ -7,6 +7,7 @@
 #include <array>
 #include <csignal>
 #include <map>
+#include <semaphore>
 
 #include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_reader.hpp"
@@ -28,8 +29,9 @@ RingConfig config_of(const RingName& name) {
     return {.name = name.text(), .capacity_bytes = 1 << 20, .full = WhenFull::evict, .mode = 0600};
 }
 
-std::unique_ptr<RingTap> open(const RingName& name) {
-    auto tap = RingTap::open(config_of(name));
+std::unique_ptr<RingTap> open(
+    const RingName& name, std::function<void()> ready = [] {}) {
+    auto tap = RingTap::open(config_of(name), std::move(ready));
     if (!tap) throw std::runtime_error(tap.error().text);
     return std::move(*tap);
 }
@@ -91,6 +93,21 @@ TEST(RingTap, GoesWithRingAndPage) {
     EXPECT_FALSE(shm::read_counters(name.text()));
 }
 
+TEST(RingTap, GoesWithTheRingThatIsBeingMadeAnew) {
+    const RingName name;
+    Node node;
+    std::binary_semaphore ready{0};
+    auto tap = open(name, [&] { ready.release(); });
+    ::unlink(name.path().c_str());
+    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
+    const Bytes bytes = attitude(7);
+    tap->write(received(bytes), route::Verdict::forwarded, false);
+    ready.acquire();
+    EXPECT_EQ(shm::ring_status(name.text())->records, 0u) << "what came meanwhile went into the old one";
+    tap.reset();
+    EXPECT_FALSE(shm::ring_status(name.text()));
+}
+
 TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     const RingName name;
     Node node;
@@ -98,11 +115,14 @@ TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     const auto peer = PlainSocket::udp();
     peer.send_to(node.port(in), heartbeat(1));
     ASSERT_TRUE(until([&] { return !node.recorder.ups.empty(); }, node));
-    const auto tap = open(name);
+    std::binary_semaphore ready{0};
+    const auto tap = open(name, [&] { ready.release(); });
     tap->on_link_up(node.recorder.ups[0].first, node.recorder.ups[0].second);
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     ASSERT_TRUE(shm::remove_ring(name.text()));
 
+    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty()) << "another thread makes it";
+    ready.acquire();
     EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is made anew")));
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     const auto page = shm::read_counters(name.text());
