@@ -7,10 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "mavloom/shm/ring_info.hpp"
@@ -21,11 +24,11 @@
 namespace {
 
 std::atomic<std::uint64_t> locks_asked{0};
-std::uint64_t steps_left = std::numeric_limits<std::uint64_t>::max();
+std::atomic<std::uint64_t> steps_left{std::numeric_limits<std::uint64_t>::max()};
 
 // Before and behind each call.
 void step() {
-    if (steps_left-- == 0) ::kill(::getpid(), SIGKILL);
+    if (steps_left.fetch_sub(1, std::memory_order_relaxed) == 0) ::kill(::getpid(), SIGKILL);
 }
 
 template <class... Arguments>
