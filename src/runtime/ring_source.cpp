@@ -203,6 +203,7 @@ RingSource::RingLink& RingSource::link_called(const std::string& name, LinkHandl
 // Half of them at once, so that it is seldom. Who speaks again later is a new link.
 void RingSource::forget_longest_silent(LinkHandler& handler) {
     std::vector<std::uint64_t> heard;
+    heard.reserve(by_name_.size());
     for (const auto& [name, link] : by_name_) heard.push_back(link->heard);
     const auto middle = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() / 2);
     std::ranges::nth_element(heard, middle);
