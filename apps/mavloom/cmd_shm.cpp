@@ -91,6 +91,7 @@ Json json_of(const shm::RingStatus& ring) {
             {"dropped", ring.dropped},
             {"evictions", ring.evictions},
             {"retired", ring.retired},
+            {"damaged", ring.damaged},
             {"readers", std::move(readers)}};
 }
 
@@ -98,7 +99,8 @@ std::string line_of(const Json& object) { return object.dump(-1, ' ', false, Jso
 
 std::string text_of(const shm::RingStatus& ring) {
     return fmt::format("{}  {}, {}, {}, {}\n", ring.name, size_text(ring.capacity), writer_text(ring),
-                       counted(ring.readers.size(), "reader"), counted(ring.records, "record"));
+                       counted(ring.readers.size(), "reader"),
+                       ring.damaged ? "damaged" : counted(ring.records, "record"));
 }
 
 std::string text_of(const shm::ReaderStatus& reader) {
@@ -110,6 +112,7 @@ std::string text_of(const shm::ReaderStatus& reader) {
 std::string details_of(const shm::RingStatus& ring) {
     auto text = text_of(ring);
     text += fmt::format("  {}, {:04o}, {}\n", ring.path, ring.mode, printable(ring.owner));
+    if (ring.damaged) return text;
     text += fmt::format("  {} so far, {} dropped, {}, {}\n", counted(ring.bytes, "byte"), ring.dropped,
                         counted(ring.evictions, "eviction"), counted(ring.writers, "writer"));
     for (const auto& reader : ring.readers) text += text_of(reader);

@@ -139,6 +139,8 @@ bool Links::has_other_keys(EndpointId endpoint) const {
     return found != nullptr && found->signature != nullptr && found->signature->has_other_keys();
 }
 
+void Links::count_from(LinkId last) noexcept { impl_->core.count_links_from(last); }
+
 std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return impl_->core.turn(handler, deadline); }
 
 std::size_t Links::send(LinkId link, wire::FrameView frame) {

@@ -118,6 +118,8 @@ public:
     LinkTable() : places_(64) {}
     // Gives the link its id.
     void add(Link& link);
+    // Ids go on behind this one.
+    void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }
     void remove(LinkId id) noexcept;
     [[nodiscard]] Link* find(LinkId id) const noexcept {
         Link* link = places_[id.value & (places_.size() - 1)];
@@ -188,6 +190,7 @@ public:
     [[nodiscard]] const LinkTable& links() const noexcept { return links_; }
     // The instant of this turn.
     [[nodiscard]] MonoTime now() const noexcept { return now_; }
+    void count_links_from(LinkId last) noexcept { links_.count_from(last); }
     // For what is done between turns.
     void refresh_now() { now_ = mono_now(); }
 

@@ -61,6 +61,12 @@ void RingPage::link_went(LinkId link) {
     gone_.pop_front();
 }
 
+void RingPage::inherit(const std::map<LinkId, std::string>& names) {
+    const auto skipped = names.size() - std::min(names.size(), most_gone);
+    for (auto name = std::next(names.begin(), static_cast<std::ptrdiff_t>(skipped)); name != names.end(); ++name)
+        if (page_.name_link(name->first, name->second)) gone_.push_back(name->first);
+}
+
 void RingPage::remove_row(std::map<LinkId, Words>::iterator row) {
     for (Counter* const word : row->second) page_.remove(word);
     rows_.erase(row);

@@ -42,6 +42,8 @@ public:
 
     void name_link(LinkId link, std::string_view name);
     void link_went(LinkId link);
+    // The names of links of a router that was killed: they are gone, the lowest number first.
+    void inherit(const std::map<LinkId, std::string>& names);
 
     struct OfRing {
         std::uint64_t records = 0, dropped = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mavloom/route/engine.hpp"
 #include "mavloom/runtime/ring_frames.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/layout.hpp"
@@ -16,8 +17,9 @@ namespace {
 
 // How many records are read in a turn that hold no frame.
 constexpr std::size_t most_empty_records = 4096;
-// Bounds what a writer's link numbers can make us remember; the rest share one link.
-constexpr std::size_t most_links = 4096;
+// Bounds what a writer's link numbers can make us remember: twice the links of a router, so that of who lives nobody is forgotten.
+constexpr std::size_t most_links = 2 * route::Engine::max_links;
+constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two looks for names that were not there
 constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
 
 shm::ReaderOptions reader_options(const EndpointOptions& options) {
@@ -52,6 +54,7 @@ SetupResult<void> RingSource::open() {
 
 std::size_t RingSource::play(LinkHandler& handler, std::size_t most) {
     if (no_inlet_ && !std::exchange(told_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
+    look_for_names();
     std::size_t played = 0, empty_records = 0;
     for (more_ = true; played < most && empty_records < most_empty_records;) {
         if (next_found_ < found_.size()) {
@@ -97,6 +100,7 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
     if (last_ == nullptr || last_number_ != record.info.link) {
         last_ = &link_of(record.info.link, handler);
         last_number_ = record.info.link;
+        last_->heard = ++heard_;
     }
     if (last_->own) {
         ++echo_;
@@ -179,27 +183,62 @@ void RingSource::forget_sequences() {
 
 RingSource::RingLink& RingSource::link_of(LinkId in_ring, LinkHandler& handler) {
     if (const auto known = by_number_.find(in_ring); known != by_number_.end()) return *known->second;
-    if (by_number_.size() == most_links) return link_called(endpoint_.label() + "/others", handler);
+    if (by_number_.size() == most_links) by_number_.clear();
     auto& link = link_called(name_of(in_ring), handler);
     by_number_.emplace(in_ring, &link);
     return link;
 }
 
 RingSource::RingLink& RingSource::link_called(const std::string& name, LinkHandler& handler) {
-    auto& link = by_name_[name];
-    if (!link) {
-        link = std::make_unique<RingLink>(LinkId{ids_.next()}, table_);
-        handler.on_link_up(link->id, id_, name);
+    auto known = by_name_.find(name);
+    if (known == by_name_.end()) {
+        if (by_name_.size() == most_links) forget_longest_silent(handler);
+        known = by_name_.emplace(name, std::make_unique<RingLink>(LinkId{ids_.next()}, table_)).first;
+        handler.on_link_up(known->second->id, id_, name);
     }
-    link->own = is_own(name);
-    return *link;
+    known->second->own = is_own(name);
+    return *known->second;
+}
+
+// Half of them at once, so that it is seldom. Who speaks again later is a new link.
+void RingSource::forget_longest_silent(LinkHandler& handler) {
+    std::vector<std::uint64_t> heard;
+    heard.reserve(by_name_.size());
+    for (const auto& [name, link] : by_name_) heard.push_back(link->heard);
+    const auto middle = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() / 2);
+    std::ranges::nth_element(heard, middle);
+    by_number_.clear();
+    last_ = nullptr;
+    std::erase_if(by_name_, [&](const auto& entry) {
+        if (entry.second->heard >= *middle) return false;
+        handler.on_link_down(entry.second->id, id_, "silent for long");
+        return true;
+    });
 }
 
 std::string RingSource::name_of(LinkId in_ring) {
-    if (!names_.contains(in_ring))
-        if (auto page = shm::read_counters(follower_.name())) names_ = std::move(page->links);
-    const auto named = names_.find(in_ring);
-    return named != names_.end() ? named->second : fmt::format("{}/{}", endpoint_.label(), in_ring.value);
+    if (!names_.contains(in_ring)) static_cast<void>(read_names());
+    if (const auto named = names_.find(in_ring); named != names_.end()) return named->second;
+    any_unnamed_ = true;
+    return fmt::format("{}/{}", endpoint_.label(), in_ring.value);
+}
+
+// Whether the page has other names than before.
+bool RingSource::read_names() {
+    next_names_ = mono_now() + names_distance;
+    auto page = shm::read_counters(follower_.name());
+    if (!page || page->links == names_) return false;
+    names_ = std::move(page->links);
+    return true;
+}
+
+// The page may have been away when a link spoke first: its router makes one anew that somebody removed. Under a number the link of this process's own
+// frames would not be known.
+void RingSource::look_for_names() {
+    if (!any_unnamed_ || next_found_ < found_.size() || mono_now() < next_names_ || !read_names()) return;
+    any_unnamed_ = false;
+    by_number_.clear();
+    last_ = nullptr;
 }
 
 // The router calls this process's link by the address that its socket has.

@@ -59,7 +59,8 @@ private:
         LinkId id;
         wire::DatagramParser parser;
         wire::SequenceTracker tracker;
-        bool own = false;  // what was sent to the inlet comes back on it
+        std::uint64_t heard = 0;  // when it spoke last, as others count
+        bool own = false;         // what was sent to the inlet comes back on it
     };
     struct Found {
         wire::FrameView frame;
@@ -78,7 +79,10 @@ private:
     void forget_sequences();
     [[nodiscard]] RingLink& link_of(LinkId in_ring, LinkHandler& handler);
     [[nodiscard]] RingLink& link_called(const std::string& name, LinkHandler& handler);
+    void forget_longest_silent(LinkHandler& handler);
     [[nodiscard]] std::string name_of(LinkId in_ring);
+    [[nodiscard]] bool read_names();
+    void look_for_names();
     [[nodiscard]] bool is_own(const std::string& name) const;
 
     Endpoint endpoint_;
@@ -99,6 +103,9 @@ private:
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
     std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring
     std::map<LinkId, std::string> names_;              // of the counter page
+    bool any_unnamed_ = false;
+    MonoTime next_names_{};
+    std::uint64_t heard_ = 0;
     LinkId last_number_{};
     RingLink* last_ = nullptr;
 

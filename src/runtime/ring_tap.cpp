@@ -3,26 +3,45 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <system_error>
 #include <utility>
 
 namespace mavloom::runtime {
 
-RingTap::RingTap(RingConfig config, shm::RingWriter writer, RingPage page)
-    : config_(std::move(config)), writer_(std::move(writer)), page_(std::move(page)) {}
+static SetupResult<shm::RingWriter> open_writer(const RingConfig& config) {
+    return shm::RingWriter::open(config.name, {config.capacity_bytes, config.full, config.mode});
+}
+
+RingTap::RingTap(RingConfig config, shm::RingWriter writer, RingPage page, std::function<void()> ready)
+    : config_(std::move(config)), ready_(std::move(ready)), writer_(std::move(writer)), page_(std::move(page)) {}
 
 // The writer's lock comes first: who has it owns the page as well.
-SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config) {
-    auto writer = shm::RingWriter::open(config.name, {config.capacity_bytes, config.full, config.mode});
+SetupResult<std::unique_ptr<RingTap>> RingTap::open(const RingConfig& config, std::function<void()> ready) {
+    const auto left = shm::read_counters(config.name);  // the writer takes away what a router that was killed left
+    auto writer = open_writer(config);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(config.name, config.mode);
     if (!page) {
         (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
     }
-    return std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page)));
+    auto tap = std::unique_ptr<RingTap>(new RingTap(config, std::move(*writer), std::move(*page), std::move(ready)));
+    tap->carry_on(left ? left->links : std::map<LinkId, std::string>{});
+    return tap;
+}
+
+void RingTap::carry_on(const std::map<LinkId, std::string>& names) {
+    last_link_ = writer_.last_link();
+    const auto end = names.lower_bound(shm::end_of_link_numbers);
+    if (end != names.begin()) last_link_ = std::max(last_link_, std::prev(end)->first);
+    page_->inherit(names);
 }
 
 RingTap::~RingTap() {
+    if (making_.valid())
+        if (auto made = making_.get()) writer_ = std::move(*made);
     const bool removes = ran_ || writer_.created();
     (void)writer_.close(removes ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
 }
@@ -34,18 +53,46 @@ void RingTap::refresh_page(const Links& links, std::optional<EndpointId> inlet) 
 
 std::vector<std::string> RingTap::look_after(const Links& links) {
     std::vector<std::string> notices;
-    if (writer_.is_removed()) {
-        const auto anew = writer_.reopen();
-        if (anew) notices.push_back(fmt::format("ring {} was removed, and is made anew", config_.name));
-        else if (!told_ring_)
-            notices.push_back(
-                fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted "
-                            "as dropped",
-                            config_.name, anew.error().text));
-        told_ring_ = !anew;
-    }
+    if (!making_.valid() && writer_.is_removed()) make_ring_anew();
+    else if (making_.valid() && making_.wait_for(Nanoseconds{}) == std::future_status::ready) take_new_ring(notices);
     if (!page_ || page_->is_removed()) make_page_anew(links, notices);
     return notices;
+}
+
+// One thing at a time; where there is no thread to be had, at the next look.
+template <class Work>
+void RingTap::work_beside(Work work) {
+    if (beside_.joinable()) beside_.join();
+    try {
+        beside_ = std::jthread(std::move(work));
+    } catch (const std::system_error&) {
+        making_ = {};
+    }
+}
+
+// Not by the thread that routes: the memory of 8 MiB takes the kernel 5 to 20 ms, that of GiB seconds. What comes meanwhile goes into the old ring.
+void RingTap::make_ring_anew() {
+    std::packaged_task<SetupResult<shm::RingWriter>()> task([config = config_] { return open_writer(config); });
+    making_ = task.get_future();
+    work_beside([task = std::move(task), ready = ready_]() mutable {
+        task();
+        ready();
+    });
+}
+
+void RingTap::take_new_ring(std::vector<std::string>& notices) {
+    auto anew = making_.get();
+    shm::RingWriter old = std::move(writer_);
+    if (anew) {
+        writer_ = std::move(*anew);
+        notices.push_back(fmt::format("ring {} was removed, and is made anew", config_.name));
+    } else if (!told_ring_) {
+        notices.push_back(
+            fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted as dropped",
+                        config_.name, anew.error().text));
+    }
+    told_ring_ = !anew;
+    work_beside([old = std::move(old)] {});  // giving memory back takes time as well
 }
 
 void RingTap::make_page_anew(const Links& links, std::vector<std::string>& notices) {

@@ -4,9 +4,13 @@
 // one a millisecond while a reader sleeps.
 #pragma once
 
+#include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -20,8 +24,12 @@ namespace mavloom::runtime {
 
 class RingTap {
 public:
-    // Carries on in a ring whose writer was killed. Errors as of RingWriter::open.
-    [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(const RingConfig& config);
+    // Carries on in a ring whose writer was killed. Errors as of RingWriter::open. `ready` is called by a thread of the tap's when look_after() has
+    // something to do.
+    [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
+        const RingConfig& config, std::function<void()> ready = [] {});
+    // The last link number of whoever wrote the ring before: readers that lag behind must not find other links under them.
+    [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
     ~RingTap();  // removes the ring and its page; a router that could not start leaves a ring that was there before
@@ -54,20 +62,29 @@ public:
     [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
     void refresh_page(const Links& links, std::optional<EndpointId> inlet);
 
-    // About once a second: a ring or page that somebody removed is made anew. What is to be said.
+    // About once a second: a ring or page that somebody removed is made anew, the ring on another thread. What is to be said.
     [[nodiscard]] std::vector<std::string> look_after(const Links& links);
 
 private:
     static constexpr std::chrono::milliseconds page_interval{250};
 
-    RingTap(RingConfig config, shm::RingWriter writer, RingPage page);
+    RingTap(RingConfig config, shm::RingWriter writer, RingPage page, std::function<void()> ready);
+    void make_ring_anew();
+    void take_new_ring(std::vector<std::string>& notices);
+    template <class Work>
+    void work_beside(Work work);
+    void carry_on(const std::map<LinkId, std::string>& names);
     void make_page_anew(const Links& links, std::vector<std::string>& notices);
 
     RingConfig config_;
+    std::function<void()> ready_;
     shm::RingWriter writer_;
+    std::future<SetupResult<shm::RingWriter>> making_;  // valid while a ring is made anew
+    std::jthread beside_;
     std::optional<RingPage> page_;
     Counter dropped_;  // frames that are not in the ring
     MonoTime page_due_{};
+    LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
     bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
 };

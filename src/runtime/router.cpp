@@ -61,6 +61,7 @@ Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Noti
 
 Router::~Router() {
     // Their threads post.
+    ring_.reset();
     for (const auto& recorder : recorders_) recorder->stop();
     for (const auto& recorder : ending_recorders_) recorder->stop();
 }
@@ -101,9 +102,10 @@ void Router::register_endpoint(OpenedEndpoint& opened) {
 }
 
 SetupResult<void> Router::open_ring(const RingConfig& config) {
-    auto opened = RingTap::open(config);
+    auto opened = RingTap::open(config, [this] { post([](Router& r) { r.look_after_ring(); }); });
     if (!opened) return tl::unexpected(std::move(opened.error()));
     ring_ = std::move(*opened);
+    links_->count_from(ring_->last_link());
     return {};
 }
 
@@ -435,10 +437,7 @@ void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
     for (const auto& e : endpoints_) tell_more_links(*e);
     if (inlet_) tell_more_links(*inlet_);
-    if (ring_) {
-        for (const auto& text : ring_->look_after(*links_)) notice_(LogLevel::warning, text);
-        refresh_page();
-    }
+    look_after_ring();
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
@@ -454,6 +453,12 @@ void Router::look_after(MonoTime now) {
             fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
                         d.source.system.value, d.source.component.value, name(d.first), name(d.second)));
     }
+}
+
+void Router::look_after_ring() {
+    if (!ring_) return;
+    for (const auto& text : ring_->look_after(*links_)) notice_(LogLevel::warning, text);
+    refresh_page();
 }
 
 void Router::refresh_page() { ring_->refresh_page(*links_, inlet_ ? std::optional(inlet_->id) : std::nullopt); }

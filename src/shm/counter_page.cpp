@@ -237,6 +237,11 @@ void CounterPage::forget_link(LinkId link) {
     links_.erase(known);
 }
 
+void remove_left_page(std::string_view ring) {
+    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0);
+    if (page && page->try_lock(owner_byte)) static_cast<void>(page->unlink());
+}
+
 bool CounterPage::is_removed() const noexcept { return !segment_->is_named(); }
 
 SetupResult<CounterSnapshot> read_counters(std::string_view name) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "mavloom/shm/layout.hpp"
 
@@ -54,5 +55,8 @@ struct LinkSlot {
 };
 static_assert(sizeof(LinkSlot) == 128 && offsetof(LinkSlot, link) == 8 && offsetof(LinkSlot, used) == 12 &&
               offsetof(LinkSlot, name) == 24);
+
+// Takes the page of a ring away whose owner is gone.
+void remove_left_page(std::string_view ring);
 
 }  // namespace mavloom::shm

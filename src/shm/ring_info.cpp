@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "mavloom/base/shown.hpp"
+#include "mavloom/shm/detail/consumer.hpp"
 #include "shm/ring_file.hpp"
 
 namespace mavloom::shm {
@@ -118,8 +119,13 @@ SetupResult<RingStatus> ring_status(std::string_view name) {
     status.bytes = control.tail.load(std::memory_order_relaxed);
     status.dropped = control.dropped.load(std::memory_order_relaxed);
     status.evictions = control.evictions.load(std::memory_order_relaxed);
+    status.damaged = !detail::Consumer<SharedWords>(ring, std::nullopt, false)
+                          .start(detail::Consumer<SharedWords>::Start::newest);
+    // Acquire: pairs with RingReader::begin().
+    const std::uint64_t attached = control.attached.load(std::memory_order_acquire);
     for (unsigned slot = 0; slot < reader_slots; ++slot)
-        if (segment->is_locked(slot_byte(slot))) status.readers.push_back(reader_status(ring, slot));
+        if ((attached >> slot & 1) != 0 && segment->is_locked(slot_byte(slot)))
+            status.readers.push_back(reader_status(ring, slot));
     return status;
 }
 

@@ -68,7 +68,12 @@ SetupResult<void> RingReader::begin() {
                            fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
     segment_->populate();
     consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
-    if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) return {};
+    if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) {
+        // Release: pairs with ring_status().
+        if (slot_)
+            memory_of(*segment_).control->attached.fetch_or(std::uint64_t{1} << *slot_, std::memory_order_release);
+        return {};
+    }
     return setup_error(
         SetupCode::bad_input,
         fmt::format("{}: is a damaged ring: what stands before its end are no records", segment_->path()));
@@ -84,12 +89,13 @@ static std::array<std::uint64_t, 2> program_name() noexcept {
     return words;
 }
 
-// The lock is the claim. What the slot's last owner left, killed perhaps, is taken back before anything of ours stands there.
+// The lock is the claim; who looks at the ring lists the slot once it is attached, with its place. What the slot's last owner left, killed perhaps, is taken back before anything of ours stands there.
 std::optional<unsigned> RingReader::take_slot() noexcept {
     const auto ring = memory_of(*segment_);
     for (unsigned index = 0; index < reader_slots; ++index) {
         if (!segment_->try_lock(slot_byte(index))) continue;
         const std::uint64_t bit = std::uint64_t{1} << index;
+        ring.control->attached.fetch_and(~bit, std::memory_order_relaxed);
         ring.control->holders.fetch_and(~bit, std::memory_order_seq_cst);
         auto& slot = ring.slots[index];
         slot.pid.store(static_cast<std::uint32_t>(::getpid()), std::memory_order_relaxed);
@@ -99,7 +105,6 @@ std::optional<unsigned> RingReader::take_slot() noexcept {
         const auto program = program_name();
         for (std::size_t i = 0; i < program.size(); ++i) slot.program[i].store(program[i], std::memory_order_relaxed);
         slot.missed.store(0, std::memory_order_relaxed);
-        ring.control->attached.fetch_or(bit, std::memory_order_release);
         return index;
     }
     return std::nullopt;

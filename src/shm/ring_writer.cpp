@@ -10,12 +10,15 @@
 
 #include "mavloom/shm/counter_page.hpp"
 #include "mavloom/shm/ring_info.hpp"
+#include "shm/counter_page_layout.hpp"
 #include "shm/ring_file.hpp"
 
 namespace mavloom::shm {
 
 // How long the hold of a reader that was killed may keep a waiting writer, at most.
 static constexpr Nanoseconds look_for_dead = std::chrono::milliseconds(10);
+// Between two looks, however often a full ring is written to: each is a system call for every reader in the way.
+static constexpr Nanoseconds look_distance = std::chrono::milliseconds(1);
 
 RingWriter::RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment)
     : name_(std::move(name)),
@@ -35,6 +38,7 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
     segment_ = std::move(other.segment_);
     forked_ = other.forked_;
     producer_ = other.producer_;
+    looked_for_dead_ = other.looked_for_dead_;
     created_ = other.created_;
     return *this;
 }
@@ -57,6 +61,7 @@ SetupResult<void> RingWriter::begin() {
                            fmt::format("{}: is a damaged ring: what stands before its end are no records; "
                                        "`mavloom shm remove {}` makes way for a new one",
                                        segment_->path(), name_));
+    remove_left_page(name_);  // its names are not those of this writer's numbers; before `writers` tells readers to look
     auto& control = *memory_of(*segment_).control;
     control.writer_pid.store(static_cast<std::uint32_t>(::getpid()), std::memory_order_relaxed);
     control.when_full.store(static_cast<std::uint32_t>(options_.when_full), std::memory_order_relaxed);
@@ -111,16 +116,19 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
                                                           std::memory_order_relaxed);
         return {};
     }
-    drop_dead(blockers);
-    if (producer_.blockers(length) == 0) return {};
+    const MonoTime now = mono_now();
+    if (now >= looked_for_dead_ + look_distance) {
+        looked_for_dead_ = now;
+        drop_dead(blockers);
+        if (producer_.blockers(length) == 0) return {};
+    }
     if (options_.when_full == WhenFull::drop_newest) {
         count_dropped();
         return tl::unexpected(WriteError::full);
     }
-    const MonoTime now = mono_now();
     if (now >= deadline) return tl::unexpected(WriteError::full);
     producer_.wake_sleepers();  // whoever sleeps may be who holds
-    producer_.sleep_for_room(length, std::min<Nanoseconds>(look_for_dead, deadline - now));
+    producer_.sleep_for_room(length, std::min(looked_for_dead_ + look_for_dead, deadline) - now);
     return {};
 }
 
@@ -139,6 +147,21 @@ void RingWriter::drop_dead(std::uint64_t slots) noexcept {
 
 void RingWriter::count_dropped() noexcept {
     if (segment_) memory_of(*segment_).control->dropped.fetch_add(1, std::memory_order_relaxed);
+}
+
+LinkId RingWriter::last_link() const noexcept {
+    const auto ring = memory_of(*segment_);
+    const std::uint64_t tail = producer_.tail();
+    std::uint32_t last = 0;
+    auto at = detail::find_mark(ring, 0).value_or(detail::Mark{tail, 0}).position;
+    while (at < tail) {
+        const auto header = detail::load_header(ring, at);
+        const std::uint64_t size = detail::size_of(ring, at, header, tail - at);
+        if (size == 0) break;  // damage, behind which nobody reads either
+        if (!header.is_padding() && LinkId{header.link} < end_of_link_numbers) last = std::max(last, header.link);
+        at += size;
+    }
+    return LinkId{last};
 }
 
 void RingWriter::flush() noexcept {

@@ -218,21 +218,38 @@ def test_signatures_that_were_checked(tapped, tmp_path, run):
     assert [(r.data, r.verdict) for r in found] == [(good, FORWARDED | GOOD), (last, FORWARDED | GOOD)]
 
 
-def test_readers_follow_and_sleep(tapped, spawn):
-    """A reader that sleeps is woken; one that is lossless and stalls does not hold up the routing."""
-    net = tapped()
-    follower = spawn("shm", "read", net.ring, "--json", "--count", "200")
-    stalled = spawn("shm", "read", net.ring, "--lossless", stdout=subprocess.PIPE)
-    harness.wait_for(lambda: len(json.loads(subprocess.check_output([str(harness.program_path()), "shm", "stat", net.ring, "--json"]))["readers"]) == 2,
-                     what="two readers")
+def test_readers_follow_and_sleep(tapped, spawn, run, tmp_path):
+    """A reader that sleeps is woken; one that is lossless and stalls holds neither the routing up nor the ring once that is full."""
+    file = tmp_path / "r.toml"
+    file.write_text('[ring]\ncapacity = "64k"\n')
+    net = tapped("--config", str(file))
+    stat = lambda: json.loads(run("shm", "stat", net.ring, "--json").stdout)
+    follower = spawn("shm", "read", net.ring, "--json", "--count", "50")
+    stalled = spawn("shm", "read", net.ring, "--lossless")
+    harness.wait_for(lambda: len(stat()["readers"]) == 2, what="two readers")
+    stalled.send(signal.SIGSTOP)
     sent = []
-    for _ in range(200):
+    for count in range(1, 51):
         sent.append(attitude())
         net.vehicle.send(sent[-1])
-        time.sleep(0.001)
+        harness.wait_for(lambda count=count: len(follower.stdout.splitlines()) == count, what="the frame that was written while it slept")
     done = follower.wait()
     assert done.status == 0
     assert [bytes.fromhex(json.loads(line)["hex"]) for line in done.stdout.splitlines()] == sent
+    held, = stat()["readers"]
+    assert held["holds"] and stat()["capacity"] == 65536 and stat()["evictions"] == 0
+
+    for _ in range(40):  # records of 72 bytes: more than twice round
+        part = [attitude() for _ in range(50)]
+        for frame in part:
+            net.vehicle.send(frame)
+        sent += part
+        net.ground.until(part[-1])
+    harness.wait_for(lambda: stat()["records"] == len(sent), what="all frames in the ring")
+    status = stat()
+    assert status["bytes"] > 2 * 65536 and status["dropped"] == 0 and status["evictions"] == 1
+    held, = status["readers"]
+    assert held["lossless"] and not held["holds"] and held["pid"] == stalled.pid
     stalled.kill()
 
 
@@ -274,6 +291,27 @@ def test_killed_it_carries_on(tapped, spawn, run):
     again.router.process.process.terminate()
     assert again.router.process.wait().status == 143
     assert not shared(again.ring).exists() and not os.path.exists(inlet)
+
+
+def test_frames_of_a_killed_router_keep_the_names_of_its_links(tapped, run):
+    """Whoever lags behind reads them while the next router writes."""
+    net = tapped()
+    first = [heartbeat(), attitude()]
+    net.sent_by(net.vehicle, *first)
+    net.router.process.process.kill()
+    net.router.process.wait()
+    net.close()
+    again = tapped()
+    later = [heartbeat(), attitude()]
+    again.sent_by(again.vehicle, *later)
+
+    wanted = [(frame.hex(), f"vehicle#127.0.0.1:{end.port}") for end, sent in ((net.vehicle, first), (again.vehicle, later)) for frame in sent]
+    held = {r.data.hex(): r.link for r in records(again.ring)}
+    assert len({held[frame] for frame, _ in wanted}) == 2, "no number stands for two links"
+    all_records = records(again.ring)
+    listed = run("listen", f"shm://{again.ring}?from=oldest", "--json", "--count", len(all_records))
+    links = dict(zip((r.data.hex() for r in all_records), (json.loads(line)["link"] for line in listed.lines)))
+    assert [(frame, links[frame]) for frame, _ in wanted] == wanted
 
 
 def test_a_second_writer_is_refused(tapped, run):

@@ -274,9 +274,18 @@ def test_files_that_are_no_rings(run, ring, make, text):
         done = run("shm", *words, input="x\n")
         assert done.status == 3 and text in done.stderr, done
     listed = run("shm", "list")
-    assert listed.status == 0 and ring in listed.stdout
+    assert listed.status == 0 and text in next(line for line in listed.lines if line.startswith(ring))
     assert run("shm", "remove", ring).status == 0
     assert not path_of(ring).exists()
+
+
+@short
+def test_the_numbers_of_a_damaged_ring_are_not_shown(run, ring):
+    write(run, ring, "x\n" * 10)
+    damage(path_of(ring), 128, b"\xff" * 16)  # its end, and the number of records
+    assert f"{ring}  64 KiB, no writer, 0 readers, damaged\n" in run("shm", "list").stdout
+    assert run("shm", "stat", ring).stdout.splitlines() == [f"{ring}  64 KiB, no writer, 0 readers, damaged", f"  {path_of(ring)}, 0600, {path_of(ring).owner()}"]
+    assert stat_of(run, ring)["damaged"]
 
 
 @short
@@ -405,6 +414,38 @@ def test_the_hold_of_a_killed_reader_is_released(run, start, ring):
     assert writer.alive and stat_of(run, ring)["dropped"] == 0
 
 
+def stopped_reader_holds(run, start, ring, seconds):
+    """Silence is never taken for death: the writer waits for a lossless reader that is stopped, and afterwards both go on where they were."""
+    writer = start("write", ring, "0", "wait")
+    writer.wait_output("ready")
+    reader = start("read", ring, "lossless", "0")
+    reader.wait_output("ready")
+    reader.send(signal.SIGSTOP)
+    full = 65536 - 2 * 1528  # no room for one of the longest records, with padding before it
+    harness.wait_for(lambda: stat_of(run, ring)["readers"][0]["behind_bytes"] >= full, what="a held writer")
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        time.sleep(min(1, seconds / 5))  # how long it is stopped is what is tested
+        status = stat_of(run, ring)
+        assert (status["evictions"], status["dropped"]) == (0, 0)
+        held, = status["readers"]
+        assert held["pid"] == reader.pid and held["holds"] and full <= held["behind_bytes"] <= 65536
+    reader.send(signal.SIGCONT)
+    harness.wait_for(lambda: stat_of(run, ring)["records"] > status["records"] + 1000, what="both to go on")
+    status = stat_of(run, ring)
+    assert status["evictions"] == 0 and status["readers"][0]["missed"] == 0 and reader.alive and writer.alive
+
+
+@short
+def test_a_stopped_reader_is_not_taken_for_dead(run, start, ring):
+    stopped_reader_holds(run, start, ring, 0.5)  # 50 looks of a waiting writer
+
+
+@pytest.mark.long
+def test_a_reader_stopped_for_half_a_minute_is_not_taken_for_dead(run, start, ring):
+    stopped_reader_holds(run, start, ring, 30)
+
+
 def count_of(reader):
     done = reader.wait()
     assert done.status == 0, done
@@ -422,14 +463,26 @@ def test_lapped_readers_are_told_by_how_many(start, ring):
     assert writer.alive
 
 
+def follow_numbers(start, ring, count):
+    """The payload is the sequence number, so that the reader sees itself how many it missed."""
+    writer = start("count", ring)
+    writer.wait_output("ready")
+    reader = start("follow", ring, str(count))
+    done = reader.wait(timeout=3600)
+    assert done.status == 0, done
+    told = json.loads(done.stdout.splitlines()[-1])
+    assert told["missed"] > 0 and told["delivered"] + told["missed"] == told["next"] - told["first"] and writer.alive
+
+
+@short
+def test_lapped_readers_over_a_few_million_records(start, ring):
+    follow_numbers(start, ring, 3_000_000)
+
+
 @pytest.mark.long
 @pytest.mark.timeout(4000)
 def test_lapped_readers_over_a_thousand_million_records(start, ring):
-    writer = start("write", ring, "0", "evict")
-    writer.wait_output("ready")
-    reader = start("read", ring, "lossy", "1000000000")
-    done = reader.wait(timeout=3600)
-    assert done.status == 0, done
+    follow_numbers(start, ring, 1_000_000_000)
 
 
 def come_and_go(run, start, rng, ring, rounds, at_once):

@@ -361,6 +361,16 @@ def test_the_next_writer_gives_links_other_numbers(run, spawn, feed, ring):
 
 
 @short
+def test_the_page_of_a_killed_writer_names_no_links_of_the_next(run, spawn, feed, ring):
+    writer = feed(ring, names={1: "radio"})
+    writer.kill_now()
+    feed(ring).write([(1_700_000_000_000_000, frames.attitude(), 1)])
+    wait_written(run, ring, 1)
+    done = run("listen", f"shm://{ring}?from=oldest", "--json", "--count", "1")
+    assert [json.loads(line)["link"] for line in done.lines] == [f"shm://{ring}/1"]
+
+
+@short
 def test_records_that_are_no_frames_are_counted_and_never_passed(run, spawn, feed, ring, sink):
     good = [heartbeat(sequence=n) for n in range(5)]
     bad = bytearray(good[4])

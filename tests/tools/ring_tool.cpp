@@ -3,6 +3,8 @@
 //   ring_tool write NAME COUNT POLICY       COUNT records (0: without end); "ready" on stdout once the ring is open
 //   ring_tool die NAME RECORDS STEP         RECORDS whole ones, then SIGKILL of itself before the STEPth access to shared memory from then on
 //   ring_tool read NAME lossy|lossless|polling COUNT   until record COUNT - 1 was there (0: until killed); checks each, ends with a JSON object
+//   ring_tool count NAME                    for ever, evicting, records that hold their sequence number and nothing else: tens of millions a second
+//   ring_tool follow NAME COUNT             a lossy reader of these, until number COUNT - 1 was there; it dozes off now and then until it is lapped; a JSON object
 //   ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" or "TIME_NS LINK/KIND/VERDICT HEX" of stdin becomes a record; "ready" on stdout;
 //                                           a counter page where names are given
 //   ring_tool check NAME                    all that the ring holds, whole and in order; a JSON object
@@ -10,6 +12,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -74,6 +77,44 @@ int write(const std::string& name, std::uint64_t count, std::string_view policy)
             !written && written.error() != WriteError::full)
             fail(to_text(written.error()));
     }
+    return 0;
+}
+
+// ---- very many small records
+
+int count(const std::string& name) {
+    auto writer = RingWriter::open(name, options_of("evict"));
+    if (!writer) fail(writer.error().text);
+    ready();
+    for (;;) {
+        std::array<std::uint8_t, 8> number;
+        store_le(number.data(), writer->records());
+        if (const auto written = writer->write(number, {}); !written) fail(to_text(written.error()));
+    }
+}
+
+int follow(const std::string& name, std::uint64_t end) {
+    auto reader = RingReader::open(name);
+    if (!reader) fail(reader.error().text);
+    ready();
+    constexpr std::uint64_t doze_after = 1'000'000;
+    std::optional<std::uint64_t> first;
+    std::uint64_t next = 0, delivered = 0, missed = 0;
+    while (next < end) {
+        const auto record = reader->read();
+        if (!record) fail(to_text(record.error()));
+        if (record->data.size() != 8) fail("a record of another size");
+        const auto number = load_le<std::uint64_t>(record->data.data());
+        if (!first) first = next = number - record->missed;
+        if (number != record->sequence || number != next + record->missed)
+            fail(fmt::format("number {} where {} was due behind {} that were missed", number, next + record->missed,
+                             record->missed));
+        next = number + 1;
+        missed += record->missed;
+        if (++delivered % doze_after != 0) continue;
+        while (reader->end_position() - reader->position() < 2 * min_capacity) ::usleep(100);
+    }
+    fmt::print("{{\"first\":{},\"delivered\":{},\"missed\":{},\"next\":{}}}\n", *first, delivered, missed, next);
     return 0;
 }
 
@@ -228,6 +269,8 @@ int main(int argc, char** argv) {
     if (words.size() == 4 && words[0] == "write") return write(words[1], number(2), words[3]);
     if (words.size() == 4 && words[0] == "die") return die(words[1], number(2), number(3));
     if (words.size() == 4 && words[0] == "read") return read(words[1], words[2], number(3));
+    if (words.size() == 2 && words[0] == "count") return count(words[1]);
+    if (words.size() == 3 && words[0] == "follow") return follow(words[1], number(2));
     if (words.size() >= 4 && words[0] == "feed")
         return feed(words[1], words[2], number(3), {words.begin() + 4, words.end()});
     if (words.size() == 2 && words[0] == "check") return check(words[1]);

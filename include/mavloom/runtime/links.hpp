@@ -118,6 +118,9 @@ public:
     Links& operator=(const Links&) = delete;
     ~Links();
 
+    // Links get numbers behind `last`, not from 1: before the first is added.
+    void count_from(LinkId last) noexcept;
+
     // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
     // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
     // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.

@@ -130,6 +130,7 @@ private:
     bool send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now);
     void ask_for_streams(const RxFrame& rx);
     void look_after(MonoTime now);
+    void look_after_ring();
     void refresh_page();
     void tell_more_links(OpenedEndpoint& opened);
     [[nodiscard]] MonoTime next_due() const noexcept;

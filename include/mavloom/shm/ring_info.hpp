@@ -38,6 +38,7 @@ struct RingStatus {
     std::uint64_t capacity = 0;  // bytes
     WallTime created{};
     bool retired = false;
+    bool damaged = false;  // refused by readers and writers: what stands before its end are no records, and no number below means anything
     bool writer_alive = false;
     std::uint32_t writer_pid = 0;  // of the last writer; 0 when it closed cleanly
     WallTime writer_opened{};

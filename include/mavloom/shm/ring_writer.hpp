@@ -27,6 +27,9 @@ struct RingOptions {
     unsigned mode = 0600;  // of a new ring, whatever the umask; readers that register need to write
 };
 
+// Link numbers from here up are no count of links, and leave no room behind them.
+inline constexpr LinkId end_of_link_numbers{0xf000'0000};
+
 class RingWriter {
 public:
     // `in_use` while another writer is alive (the text names its process), `no_space` before a ring is made that does not fit, `bad_input` for a file
@@ -66,7 +69,10 @@ public:
     [[nodiscard]] bool created() const noexcept { return created_; }
     [[nodiscard]] std::size_t longest() const noexcept { return max_payload(options_.capacity); }
     [[nodiscard]] std::uint64_t records() const noexcept { return producer_.records(); }  // since the ring was made
-    [[nodiscard]] std::uint64_t dropped() const noexcept;                                 // likewise
+    // The largest link number below `end_of_link_numbers` of the records that the ring holds, 0 without: who counts links in a ring that others wrote goes
+    // on behind it. Looks at all of them.
+    [[nodiscard]] LinkId last_link() const noexcept;
+    [[nodiscard]] std::uint64_t dropped() const noexcept;  // likewise
 
 private:
     RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment);
@@ -82,6 +88,7 @@ private:
     std::unique_ptr<Segment> segment_;           // empty once closed
     const std::atomic<bool>* forked_ = nullptr;  // of the segment
     detail::Producer<SharedWords> producer_;
+    MonoTime looked_for_dead_{};
     bool created_ = false;
 };
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/ring_tap.hpp"
 
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <array>
+#include <csignal>
+#include <map>
+#include <semaphore>
 
 #include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_reader.hpp"
@@ -24,8 +29,9 @@ RingConfig config_of(const RingName& name) {
     return {.name = name.text(), .capacity_bytes = 1 << 20, .full = WhenFull::evict, .mode = 0600};
 }
 
-std::unique_ptr<RingTap> open(const RingName& name) {
-    auto tap = RingTap::open(config_of(name));
+std::unique_ptr<RingTap> open(
+    const RingName& name, std::function<void()> ready = [] {}) {
+    auto tap = RingTap::open(config_of(name), std::move(ready));
     if (!tap) throw std::runtime_error(tap.error().text);
     return std::move(*tap);
 }
@@ -87,6 +93,21 @@ TEST(RingTap, GoesWithRingAndPage) {
     EXPECT_FALSE(shm::read_counters(name.text()));
 }
 
+TEST(RingTap, GoesWithTheRingThatIsBeingMadeAnew) {
+    const RingName name;
+    Node node;
+    std::binary_semaphore ready{0};
+    auto tap = open(name, [&] { ready.release(); });
+    ::unlink(name.path().c_str());
+    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
+    const Bytes bytes = attitude(7);
+    tap->write(received(bytes), route::Verdict::forwarded, false);
+    ready.acquire();
+    EXPECT_EQ(shm::ring_status(name.text())->records, 0u) << "what came meanwhile went into the old one";
+    tap.reset();
+    EXPECT_FALSE(shm::ring_status(name.text()));
+}
+
 TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     const RingName name;
     Node node;
@@ -94,16 +115,64 @@ TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     const auto peer = PlainSocket::udp();
     peer.send_to(node.port(in), heartbeat(1));
     ASSERT_TRUE(until([&] { return !node.recorder.ups.empty(); }, node));
-    const auto tap = open(name);
+    std::binary_semaphore ready{0};
+    const auto tap = open(name, [&] { ready.release(); });
     tap->on_link_up(node.recorder.ups[0].first, node.recorder.ups[0].second);
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     ASSERT_TRUE(shm::remove_ring(name.text()));
 
+    EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty()) << "another thread makes it";
+    ready.acquire();
     EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is made anew")));
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     const auto page = shm::read_counters(name.text());
     ASSERT_TRUE(page);
     EXPECT_THAT(page->links, ::testing::ElementsAre(node.recorder.ups[0]));
+}
+
+// Of a router that is killed: links 1 to `links`, and a frame of link 2.
+void leave_a_ring(const RingName& name, std::uint32_t links) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto tap = open(name);
+        for (std::uint32_t id = 1; id <= links; ++id)
+            tap->on_link_up(LinkId{tap->last_link().value + id}, fmt::format("link {}", tap->last_link().value + id));
+        tap->write(received(attitude(7), LinkId{tap->last_link().value + 2}), route::Verdict::forwarded, false);
+        ::kill(::getpid(), SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+}
+
+TEST(RingTap, LinksOfARouterThatWasKilledKeepTheirNamesAndNumbers) {
+    const RingName name;
+    EXPECT_EQ(open(name)->last_link(), LinkId{0});
+    leave_a_ring(name, 3);
+    leave_a_ring(name, 2);
+    const auto tap = open(name);
+    EXPECT_EQ(tap->last_link(), LinkId{5});
+    tap->on_link_up(LinkId{6}, "link 6");
+    const auto page = shm::read_counters(name.text());
+    ASSERT_TRUE(page);
+    std::map<LinkId, std::string> names;
+    for (std::uint32_t id = 1; id <= 6; ++id) names.emplace(LinkId{id}, fmt::format("link {}", id));
+    EXPECT_EQ(page->links, names);
+}
+
+TEST(RingTap, GoesOnBehindTheNumbersOfRecordsWhereThereIsNoPage) {
+    const RingName name;
+    leave_a_ring(name, 3);
+    ASSERT_EQ(::unlink((name.path() + ".stat").c_str()), 0);
+    EXPECT_EQ(open(name)->last_link(), LinkId{2});
+}
+
+TEST(RingTap, LinksCountOnFromAGivenNumber) {
+    Node node;
+    node.links->count_from(LinkId{1000});
+    const auto in = node.add("udpin://127.0.0.1:0");
+    for (int i = 0; i < 2; ++i) PlainSocket::udp().send_to(node.port(in), heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+    EXPECT_EQ(node.recorder.ups[0].first, LinkId{1001});
+    EXPECT_EQ(node.recorder.ups[1].first, LinkId{1002});
 }
 
 // ---- the page

@@ -127,6 +127,26 @@ TEST(CounterPage, OfALivingOwnerIsRefusedAndOfADeadOneReplaced) {
     EXPECT_TRUE(read(name).counters.empty());
 }
 
+TEST(CounterPage, TheNextWriterOfARingTakesAwayWhatADeadOneLeft) {
+    const RingName name;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto writer = RingWriter::open(name.text(), {.capacity = 64 << 10});
+        auto page = create(name);
+        page.name_link(LinkId{1}, "radio");
+        ::kill(::getpid(), SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(read(name).links.size(), 1u);
+    const auto writer = RingWriter::open(name.text(), {.capacity = 64 << 10});
+    EXPECT_EQ(read_counters(name.text()).error().code, SetupCode::not_found) << "its numbers mean other links";
+
+    const RingName other;
+    const auto page = create(other);
+    ASSERT_TRUE(RingWriter::open(other.text(), {.capacity = 64 << 10}));
+    EXPECT_TRUE(read(other).owner_alive) << "whose owner lives stays";
+}
+
 TEST(CounterPage, RemovalOfTheRingTakesItAlong) {
     const RingName name;
     const auto writer = RingWriter::open(name.text(), {.capacity = 64 << 10});
@@ -161,6 +181,12 @@ TEST(CounterPage, DamagedFilesAreErrors) {
     expect_error(12, 9, "byte order");
     expect_error(17, 9, "truncated");
     expect_error(23, 9, "truncated");
+    auto newer = good;
+    newer[10] = 9;  // a higher minor version only adds
+    const int fd = ::open(path.c_str(), O_RDWR);
+    ASSERT_EQ(::pwrite(fd, newer.data(), newer.size(), 0), static_cast<ssize_t>(newer.size()));
+    ::close(fd);
+    EXPECT_EQ(read(name).counters.at(0).label, "x");
 }
 
 TEST(CounterPage, AReaderNeverSeesALabelOfTwoCounters) {

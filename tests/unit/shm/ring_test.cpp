@@ -370,6 +370,23 @@ TEST(Ring, TheNextWriterCarriesOnInPlace) {
     EXPECT_EQ(ring_status(name.text())->writers, 2u);
 }
 
+TEST(Ring, TheLastLinkIsThatOfAllRecordsThatTheRingHolds) {
+    const RingName name;
+    auto writer = open_writer(name);
+    EXPECT_EQ(writer.last_link(), LinkId{0});
+    const std::string text(1000, 'x');
+    write(writer, text, {.link = LinkId{4000}});
+    write(writer, text, {.link = LinkId{0xffffffff}});
+    write(writer, text, {.link = LinkId{7}});
+    EXPECT_EQ(open_reader(name, lossy_oldest).try_read()->info.link, LinkId{4000});
+    EXPECT_EQ(writer.last_link(), LinkId{4000}) << "0xffffffff leaves no number behind it";
+    write_many(writer, 100);
+    write(writer, text, {.link = LinkId{9}});
+    EXPECT_EQ(writer.last_link(), LinkId{9});
+    ASSERT_TRUE(writer.close());
+    EXPECT_EQ(open_writer(name).last_link(), LinkId{9});
+}
+
 TEST(Ring, AWriterKnowsWhetherItMadeTheRing) {
     const RingName name;
     EXPECT_TRUE(open_writer(name).created());
@@ -503,6 +520,23 @@ TEST(Ring, StatusTellsWhoIsAttachedAndHowFarBehind) {
     EXPECT_THAT(ring_names(), ::testing::Contains(name.text()));
 }
 
+// Whoever waits for a reader to be listed may count on it that what is written from then on reaches it.
+TEST(Ring, AReaderIsListedOnceItHasItsPlace) {
+    const RingName name;
+    const auto writer = open_writer(name);
+    const int opening = ::open(name.path().c_str(), O_RDWR | O_CLOEXEC);
+    struct flock first_slot {};
+    first_slot.l_type = F_WRLCK;
+    first_slot.l_start = 1;
+    first_slot.l_len = 1;
+    ASSERT_EQ(::fcntl(opening, F_OFD_SETLK, &first_slot), 0);
+    EXPECT_TRUE(ring_status(name.text())->readers.empty());
+    const auto reader = open_reader(name);
+    ASSERT_EQ(ring_status(name.text())->readers.size(), 1u);
+    EXPECT_EQ(ring_status(name.text())->readers[0].slot, 1u);
+    ::close(opening);
+}
+
 TEST(Ring, TheModeCountsAndTheUmaskDoesNot) {
     const RingName name;
     const mode_t before = ::umask(077);
@@ -607,6 +641,18 @@ TEST_F(RingDamage, AHigherMinorVersionIsRead) {
     put(10, {9, 0});
     EXPECT_EQ(std::stoi(text_of(*open_reader(name_, lossy_oldest).try_read())), 0);
 }
+TEST_F(RingDamage, AHigherMinorVersionIsWrittenToAndKeptAsItIs) {
+    put(10, {9, 0});
+    put(44, {1, 2, 3});  // what is reserved for this program
+    auto writer = open_writer(name_);
+    EXPECT_FALSE(writer.created());
+    write(writer, "from an older one");
+    auto reader = open_reader(name_, lossless_oldest);
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(std::stoi(text_of(*reader.try_read())), i);
+    EXPECT_EQ(text_of(*reader.try_read()), "from an older one");
+    EXPECT_EQ(test::content_of(name_.path()).at(10), 9u);
+    EXPECT_EQ(test::content_of(name_.path()).at(44), 1u);
+}
 TEST_F(RingDamage, AnotherByteOrderIsNamed) {
     put(12, {1, 2, 3, 4});
     expect_refused("another byte order");
@@ -667,6 +713,11 @@ TEST_F(RingDamage, ARecordOutOfSequenceIsDamage) {
     auto reader = open_reader(name_, lossy_oldest);
     EXPECT_TRUE(reader.try_read());
     EXPECT_EQ(reader.try_read().error(), ReadError::damaged);
+}
+TEST_F(RingDamage, TheStatusOfADamagedRingSaysSo) {
+    EXPECT_FALSE(ring_status(name_.text())->damaged);
+    put(128, {0, 0x28, 0, 0, 0, 0, 0, 0x80});  // a tail far beyond the intent
+    EXPECT_TRUE(ring_status(name_.text())->damaged);
 }
 TEST_F(RingDamage, PositionsThatCannotBeAreDamage) {
     put(128, {1});  // a tail that is no multiple of 8
