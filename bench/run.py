@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|python|listen|inside|shm|route ...]
+"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|python|listen|inside|shm|pipeline|route ...]
 Options that are not known here go to the one benchmark that is named: ./run bench route --quick"""
 import argparse
 import pathlib
@@ -21,6 +21,7 @@ def commands(program, build):
         "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
         "inside": [[folder / "inside_bench", FLIGHT, frames] for frames in ("8", "1")],
         "shm": [[sys.executable, HERE / "shm.py", "--tools", folder]],
+        "pipeline": [[sys.executable, HERE / "pipeline.py", "--program", program, "--tools", folder]],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
     }
 

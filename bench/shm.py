@@ -109,13 +109,15 @@ class Latency:
 
 # ---- what is measured
 
-def throughputs(tools, folder, scale, missing):
+def throughputs(tools, folder, scale, without, missing):
     """[(title, us, name of the peer, peer, readers, mode, target)]"""
     ring = Program(tools, "ring", 20_000_000 // scale)
     peers = {"UDP on loopback": lambda: Program(tools, "udp", 600_000 // scale), "Aeron IPC": lambda: Aeron(folder, 20_000_000 // scale),
              "iceoryx": lambda: Iceoryx(tools, 1_000_000 // scale)}
     at_hand = {}
     for name, make in peers.items():
+        if name.split()[0].lower() in without:
+            continue
         try:
             at_hand[name] = make()
         except Missing as why:
@@ -167,12 +169,13 @@ def main():
     parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers", help="where Aeron is, or will be put")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--quick", action="store_true", help="one round of a tenth of the records: whether it works, not how fast it is")
+    parser.add_argument("--without", default="", help="peers to leave out: aeron,iceoryx,udp")
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
     options = parser.parse_args()
     options.tools, missing = options.tools.resolve(), []
     if options.quick:
         options.rounds = 1
-    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, missing)
+    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, options.without.split(","), missing)
     run([options.tools / "shm_throughput", "ring", 1, "threads", 200_000, FLIGHT, "verify"])
     bench = Bench(options)
     print(f"shm: {options.rounds} rounds; every record was compared", file=sys.stderr, flush=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The instrument of `bench route` itself: a router that loses, damages and repeats frames in known numbers is reported with these numbers. Nothing
+"""The instruments of `bench` themselves. Of `bench route`: a router that loses, damages and repeats frames in known numbers is reported with these numbers. Nothing
 here asserts a time."""
 import pathlib
 import sys
@@ -71,3 +71,19 @@ def test_a_router_that_does_not_run_is_named(kit):
             return ["sh", "-c", "echo no such option >&2; exit 2"]
     with pytest.raises(measure.NoAnswer, match="broken: status 2; it said: 'no such option'"):
         measure.measure(kit, Broken("broken"), measure.Load("none", "", 1000), 1)
+
+
+def test_every_part_of_bench_shm_gives_its_row(kit):
+    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "shm.py", "--tools", kit.tools, "--quick", "--json", "--without", "aeron,iceoryx"],
+                          capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    assert {row["peer"] for row in rows} == {"UDP on loopback", "bare copy", "cache line", "pipe"}
+    assert all(row["mavloom"] > 0 and row["theirs"] > 0 for row in rows)
+
+
+def test_every_byte_of_the_recorded_mix_comes_through(kit):
+    for mode in ("threads", "processes"):
+        done = subprocess.run([kit.tools / "shm_throughput", "ring", "3", mode, "50000", kit.flight, "verify"], capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.split()[0] == "50000"
