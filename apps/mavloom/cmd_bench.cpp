@@ -2,15 +2,23 @@
 // Our own figures on this machine; `./run bench` puts the peers of docs/performance.md beside them.
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
+#include <cstring>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/record/tlog_reader.hpp"
+#include "mavloom/shm/ring_reader.hpp"
+#include "mavloom/shm/ring_writer.hpp"
 #include "mavloom/wire/stream_parser.hpp"
 
 namespace mavloom::app {
@@ -130,6 +138,102 @@ Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
     return bench(options, *dialect, *recording);
 }
 
+// ---- shm -------------------------------------------------------------------------------------------------------------
+
+struct RingOptions {
+    unsigned readers = 1, bytes = 64;
+    std::uint64_t records = 5'000'000;
+    int turns = 5;
+    bool json = false;
+};
+
+// Up to record `end`, whose payload begins with its number. False: not so, or nobody writes any more.
+bool read_up_to(shm::RingReader& reader, std::uint64_t& next, std::uint64_t end) {
+    std::array<shm::RingRecord, 256> batch;
+    while (next < end) {
+        auto count = reader.try_read_batch(batch);
+        if (!count) {
+            const auto record = reader.read();
+            if (!record) return false;
+            batch[0] = *record;
+            count = 1;
+        }
+        for (std::size_t i = 0; i < *count; ++i, ++next)
+            if (std::memcmp(batch[i].data.data(), &next, sizeof next) != 0) return false;
+    }
+    return true;
+}
+
+// Once through the ring to every reader.
+bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, const RingOptions& options,
+               std::uint64_t& first) {
+    const std::uint64_t end = first + options.records;
+    std::atomic<bool> good{true};
+    {
+        std::vector<std::jthread> threads;
+        for (auto& reader : readers)
+            threads.emplace_back([&reader, &good, first, end] {
+                auto next = first;
+                if (!read_up_to(reader, next, end)) good = false;
+                reader.release();
+            });
+        Bytes payload(options.bytes);
+        for (; first < end && good; ++first) {
+            std::memcpy(payload.data(), &first, sizeof first);
+            if (!writer.write(payload, {}, mono_now() + std::chrono::seconds(10))) good = false;
+        }
+        writer.flush();
+    }
+    return good;
+}
+
+Exit bench_shm(const RingOptions& options) {
+    const auto name = fmt::format("bench-{}", ::getpid());
+    auto writer = shm::RingWriter::open(name);
+    if (!writer) return fail(writer.error());
+    std::vector<shm::RingReader> readers;
+    for (unsigned i = 0; i < options.readers; ++i) {
+        auto reader = shm::RingReader::open(name, {.lossless = true});
+        if (!reader) return fail(reader.error());
+        readers.push_back(std::move(*reader));
+    }
+    std::uint64_t next = 0;
+    bool good = true;
+    const double rate = per_second(options.turns, static_cast<double>(options.records),
+                                   [&] { good = good && hand_over(*writer, readers, options, next); });
+    readers.clear();
+    (void)writer->close(shm::RingWriter::Leave::nothing);
+    if (!good) return fail(Exit::mismatch, "a reader did not get what was written");
+    if (options.json)
+        fmt::print(
+            "{{\"bench\":\"shm\",\"per_second\":{:.0f},\"unit\":\"records\",\"readers\":{},\"bytes\":{},\"records\":{},"
+            "\"turns\":{}}}\n",
+            rate, options.readers, options.bytes, options.records, options.turns);
+    else
+        fmt::print("{:<14} {:>14.0f} records/s   ({} bytes each, {}, median of {})\n", "shm", rate, options.bytes,
+                   counted(options.readers, "lossless reader"),
+                   counted(static_cast<std::uint64_t>(options.turns), "turn"));
+    return Exit::done;
+}
+
+Arguments declare_shm(Arguments command, RingOptions& options) {
+    auto sub = command.add_subcommand("shm", "hand records over by a ring to other threads: records a second");
+    sub.add_option("--readers", options.readers, "lossless readers, each with a thread; 1 to 64")
+        .capture_default_str()
+        .type_name("N")
+        .range(1, 64);
+    sub.add_option("--bytes", options.bytes, "of a record, 8 to 65536").capture_default_str().type_name("N").range(8, 65536);
+    sub.add_option("--records", options.records, "for each turn").capture_default_str().type_name("N").range(1, 1 << 30);
+    sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
+        .capture_default_str()
+        .type_name("N")
+        .range(1, 10'000);
+    sub.add_flag("--json", options.json, "one JSON object");
+    sub.fallthrough();
+    sub.footer("Example:\n  mavloom bench shm --readers 3 --turns 5");
+    return sub;
+}
+
 Arguments declare_one(Arguments command, Options& options, const char* name, const char* description) {
     auto sub = command.add_subcommand(name, description);
     sub.add_option("file", options.file, "a recording").required().type_name("FILE.tlog");
@@ -153,10 +257,13 @@ Run declare_bench(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
     auto parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
+    auto ring_options = std::make_shared<RingOptions>();
+    auto ring = declare_shm(command, *ring_options);
     command.require_subcommand();
     command.footer(
         "Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
-    return [options, parse, &common] {
+    return [options, ring_options, parse, ring, &common] {
+        if (ring.parsed()) return bench_shm(*ring_options);
         return parse.parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
     };
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What every command does with a line that is not right, and the words it uses: nothing is passed over in silence, nothing raw reaches the terminal."""
+import json
 import re
 
 import pytest
@@ -159,6 +160,13 @@ def test_an_option_of_a_subcommand_has_a_nearest_spelling(run):
     assert done.status == 2 and "'--tunrs' is not expected here" in done.stderr and "--turns" in done.stderr
     assert "did you mean '--version'" in run("--versoin").stderr
     assert "--dialect" in run("dialect", "show", "ATTITUDE", "--dialet", "x.xml").stderr
+
+
+def test_bench_shm_hands_every_record_to_every_reader(run):
+    done = run("bench", "shm", "--readers", "3", "--records", "20000", "--bytes", "40", "--turns", "2", "--json")
+    assert done.returncode == 0, done.stderr
+    assert {**json.loads(done.stdout), "per_second": 0} == {"bench": "shm", "per_second": 0, "unit": "records", "readers": 3, "bytes": 40, "records": 20000,
+                                                            "turns": 2}
 
 
 def test_benchmarks_take_the_options_of_every_command(run):
