@@ -4,11 +4,14 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "looks.hpp"
 #include "mavloom/shm/ring_reader.hpp"
+#include "ring_alarm.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -30,18 +33,22 @@ public:
     [[nodiscard]] const std::shared_ptr<RingSource>& source() const noexcept { return source_; }
 
     // Whoever looks at the bytes does so between these two. False: they were released.
-    [[nodiscard]] bool look() noexcept;
+    [[nodiscard]] bool look() noexcept { return looks_.begin(); }
     void look_away() noexcept;
     // False: somebody looks. Success again and again.
-    [[nodiscard]] bool release() noexcept;
+    [[nodiscard]] bool release() noexcept { return looks_.finish(); }
 
 private:
-    static constexpr int released = -1;
-
     const std::shared_ptr<RingSource> source_;
     const std::vector<shm::RingRecord> records_;
     const std::vector<std::uint64_t> copies_;
-    std::atomic<int> lookers_{0};
+    Looks looks_;
+};
+
+// Some of a lease's records: those from `first` on.
+struct Portion {
+    std::shared_ptr<Lease> lease;
+    std::size_t first = 0;
 };
 
 class RingSource : public std::enable_shared_from_this<RingSource> {
@@ -49,11 +56,17 @@ public:
     RingSource(shm::RingReader reader, bool lossless) : lossless_(lossless), reader_(std::move(reader)) {}
 
     enum class State : std::uint8_t { found, nothing, no_writer, removed, damaged, forked, closed, looked_at };
-    // Up to `most` records, waiting until `deadline` or the end of a slice. Without the GIL. `nothing`: worth another call.
-    [[nodiscard]] State read(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    // The same without waiting, also with the GIL; `nothing` also while another thread reads.
-    [[nodiscard]] State poll(std::size_t most, std::shared_ptr<Lease>& out);
+    // Reading is two steps, and what the first one found waits for the second, of whatever thread: a signal's handler may come between them.
+    // Up to `most` records, where none wait yet. Waits until `deadline` or the end of a slice, without the GIL; MonoTime{}: not at all. `nothing`: worth
+    // another call; it may have been another thread's turn.
+    [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
+    // One of them, or all that are left of what was read together. `nothing`: another thread took them, or has its turn.
+    [[nodiscard]] State take(std::size_t most, Portion& out);
     void give_way() const { turns_.give_way(); }
+
+    // For loops: a descriptor, made at the first call, that `arm` lets become readable when there may be something to fetch, or nothing ever will.
+    [[nodiscard]] SetupResult<int> event_fd();
+    void arm();
 
     // Ends the views of a lease, and tells the writer. False: somebody looks.
     [[nodiscard]] bool release(Lease& lease);
@@ -74,12 +87,17 @@ public:
     [[nodiscard]] bool is_removed() const noexcept { return reader_.is_retired() || !reader_.is_named(); }
 
 private:
-    [[nodiscard]] State read_locked(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    [[nodiscard]] State view(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    [[nodiscard]] State copy(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
+    // All of these with turns_ held.
+    [[nodiscard]] State fill(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State view(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State copy(std::size_t most, MonoTime deadline);
     [[nodiscard]] shm::ReadResult<shm::RingRecord> next(MonoTime deadline);
     [[nodiscard]] bool release_current();
     [[nodiscard]] bool close_locked();
+
+    // For the alarm: without waiting for a turn.
+    [[nodiscard]] Nanoseconds nap();
+    [[nodiscard]] RingAlarm* alarm();
 
     const BeforeFork fork_;
     const bool lossless_;
@@ -88,8 +106,12 @@ private:
     std::atomic<std::uint64_t> missed_{0};
     // Guarded by turns_, but for its const members.
     shm::RingReader reader_;
+    Portion pending_;                       // was fetched, and not taken yet
     std::weak_ptr<Lease> current_;          // of a lossless reader: what it holds
     std::vector<shm::RingRecord> scratch_;  // likewise: where batches are read to
+
+    std::mutex making_alarm_;
+    std::unique_ptr<RingAlarm> alarm_;  // made under that mutex, and never changed
 };
 
 }  // namespace mavloom::python

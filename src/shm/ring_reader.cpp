@@ -158,7 +158,8 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
 }
 
 Nanoseconds RingReader::arm() noexcept {
-    if (forked() || !slot_) return poll_distance;
+    if (forked()) return poll_distance;
+    if (!slot_) return consumer_.more_waits() ? Nanoseconds{} : poll_distance;
     const MonoTime now = mono_now();
     if (!consumer_.fall_asleep()) armed_ = now;
     if (consumer_.more_waits()) return {};

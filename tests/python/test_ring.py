@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory listed in docs/guide/python.md; other rows
 and examples: the wishes there."""
+import asyncio
 import contextlib
 import ctypes
 import gc
@@ -12,6 +13,7 @@ import signal
 import socket
 import stat
 import struct
+import selectors
 import subprocess
 import sys
 import threading
@@ -956,14 +958,20 @@ print("ready", flush=True)
 
 
 SIGNALLED = """
+import ctypes
 class Raised(Exception):
     pass
+raise_signal = ctypes.PyDLL(None)["raise"]  # keeps the GIL, as signal.raise_signal does not
 def handler(*_):
+    for record in HANDLER:
+        taken.append(int(bytes(record.data)))
     raise Raised
 signal.signal(signal.SIGUSR1, handler)
 sys.setswitchinterval(DEADLINE)  # whoever reads gets the GIL back when the signal is there, and not before
 writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=sys.argv[2] == "True")
+reads = threading.Event()
 def write():
+    reads.wait()
     for number in range(0, 90, 3):
         time.sleep(0.005)
         for each in range(number, number + 3):
@@ -971,11 +979,12 @@ def write():
         end = time.monotonic() + 0.005
         while time.monotonic() < end:
             pass
-        signal.raise_signal(signal.SIGUSR1)
+        raise_signal(signal.SIGUSR1)
     writer.close()
 taken, raised = [], 0
 thread = threading.Thread(target=write)
 thread.start()
+reads.set()
 while True:
     try:
         records = READ
@@ -994,8 +1003,300 @@ print(raised > 0, taken == list(range(90)), reader.missed)
 @pytest.mark.parametrize("read", ["[*filter(None, [reader.read()])]", "[*filter(None, [next(reader, None)])]", "next(reader.batches(), ())",
                                   "next(reader.batches(), ()) if len(taken) % 2 else [*filter(None, [reader.read()])]"])
 def test_a_signal_handler_that_raises_costs_no_record(ring, start, read, lossless):
-    process = start(SIGNALLED.replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+    process = start(SIGNALLED.replace("HANDLER", "()").replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
     assert ended(process) == (0, "True True 0\n", "")
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("reads", ["filter(None, [reader.read(0)])", "next(reader.batches(0), ())"])
+def test_a_signal_handler_that_reads_the_same_reader_costs_no_record(ring, start, reads, lossless):
+    """What its caller had in hand comes first, once and whole."""
+    for read in ("[*filter(None, [reader.read()])]", "next(reader.batches(), ())"):
+        process = start(SIGNALLED.replace("HANDLER", reads).replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+        assert ended(process) == (0, "True True 0\n", "")
+
+
+# ---- asyncio: rows 19 and 3.21
+
+MANY_TASKS = """
+import asyncio
+def threads():
+    return len(os.listdir("/proc/self/task"))
+async def take(reader, count):
+    found = []
+    async for record in reader:
+        found.append(int(bytes(record.data)))
+        if len(found) == count:
+            return found
+async def main():
+    before = threads()
+    readers = [mavloom.RingReader(ring, lossless=number % 2 == 0 and number < 64) for number in range(200)]
+    writer.write(b"0")
+    assert all(bytes(reader.read(0).data) == b"0" for reader in readers) and threads() == before
+    tasks = [asyncio.create_task(take(reader, 50)) for reader in readers]
+    for number in range(1, 51):
+        writer.write(b"%d" % number)
+        await asyncio.sleep(0.002)
+    assert await asyncio.gather(*tasks) == [list(range(1, 51))] * 200
+    assert asyncio.get_running_loop()._default_executor is None and threading.active_count() == 1
+    return threads() - before
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+print(asyncio.run(asyncio.wait_for(main(), 60)))
+"""
+
+
+def test_rows_19_and_3_21_many_tasks_one_thread_and_none_before_somebody_asks(ring, start):
+    """64 readers with a slot and 136 that only poll, on one loop."""
+    assert ended(start(MANY_TASKS, ring)) == (0, "1\n", "")
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("batches", [False, True])
+def test_row_19_records_come_in_order_while_they_are_written(writer, ring, lossless, batches):
+    async def take(reader, count):
+        found = []
+        if batches:
+            async for batch in reader.batches():
+                found += numbers(batch)
+                if len(found) >= count:
+                    return found
+        async for record in reader:
+            found.append(int(bytes(record.data)))
+            if len(found) == count:
+                return found
+
+    with mavloom.RingReader(ring, lossless=lossless) as reader:
+        thread = threading.Thread(target=lambda: [fill(writer, 100, first) or time.sleep(0.0001) for first in range(0, 10_000, 100)])
+        thread.start()
+        count = 10_000 if lossless else 1
+        found = asyncio.run(asyncio.wait_for(take(reader, count), DEADLINE_S))
+        thread.join()
+        assert found == list(range(found[0], found[0] + len(found))) and len(found) >= count
+
+
+def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
+    monkeypatch.setattr("mavloom._async.LOOK_FOR_RING_S", 1e6)
+
+    async def run():
+        reader = mavloom.RingReader(ring)
+        records = aiter(reader)
+        for number in range(20):
+            following = asyncio.create_task(anext(records))
+            await asyncio.sleep(0.005)  # asleep by then, or not: both are to work
+            await asyncio.to_thread(fill, writer, 1, number)
+            assert (await asyncio.wait_for(following, DEADLINE_S)).data == b"%d" % number
+    asyncio.run(run())
+
+
+@as_root
+def test_rows_3_21_and_3_23_who_may_only_read_is_told_too(start, ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
+        process = start(AS_NOBODY + """
+import asyncio
+async def main():
+    reader, found = mavloom.RingReader(ring), []
+    print("open", flush=True)
+    async for record in reader:
+        found.append(int(record.data))
+        if len(found) == 100:
+            return found
+print(asyncio.run(main()) == list(range(100)))
+""", ring)
+        assert process.stdout.readline() == "open\n"
+        for number in range(100):
+            fill(writer, 1, number)
+            time.sleep(0.001)
+        assert ended(process) == (0, "True\n", "")
+
+
+@pytest.mark.parametrize("take_away", [mavloom.remove_ring, lambda name: path_of(name).unlink()], ids=["removed", "rm"])
+def test_row_19_a_loop_waits_for_the_next_writer_and_ends_with_the_ring(writer, ring, take_away):
+    found = []
+
+    async def take():
+        async for record in mavloom.RingReader(ring):
+            found.append(record.data)
+
+    async def until_found(count):
+        while len(found) < count:
+            await asyncio.sleep(0.001)
+
+    async def run():
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0)
+        writer.write(b"first")
+        writer.close()
+        await asyncio.wait_for(until_found(1), DEADLINE_S)
+        with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+            second.write(b"second")
+            await asyncio.wait_for(until_found(2), DEADLINE_S)
+        assert not task.done()
+        take_away(ring)
+        await asyncio.wait_for(task, DEADLINE_S)
+    asyncio.run(run())
+    assert found == [b"first", b"second"]
+
+
+def test_row_19_batches_end_where_nothing_comes_in_time(writer, ring):
+    async def run():
+        return [numbers(batch) async for batch in mavloom.RingReader(ring, start="oldest").batches(timeout=0.01)]
+    fill(writer, 3)
+    assert asyncio.run(asyncio.wait_for(run(), DEADLINE_S)) == [[0, 1, 2]]
+    writer.close()
+    assert asyncio.run(asyncio.wait_for(run(), DEADLINE_S)) == [[0, 1, 2]]
+
+
+def test_row_19_one_task_waits_on_one_reader_of_a_ring(writer, ring):
+    reader = mavloom.RingReader(ring)
+
+    async def first():
+        async for record in reader:
+            return record.data
+
+    async def run():
+        task = asyncio.create_task(first())
+        await asyncio.sleep(0.01)
+        with pytest.raises(mavloom.UsageError, match="its own"):
+            await asyncio.wait_for(first(), DEADLINE_S)
+        writer.write(b"x")
+        assert await asyncio.wait_for(task, DEADLINE_S) == b"x"
+    asyncio.run(run())
+
+
+def test_row_19_cancel_and_close_of_a_ring(writer, ring):
+    """A cancelled task is done as soon as the loop has turned, whatever the ring does."""
+    reader = mavloom.RingReader(ring)
+
+    async def take():
+        async for _ in reader:
+            pass
+
+    async def run():
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0.01)
+        task.cancel()
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+        assert task.cancelled()
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0.01)
+        reader.close()
+        await asyncio.wait_for(task, DEADLINE_S)
+        with pytest.raises(mavloom.ClosedError):
+            await take()
+    asyncio.run(run())
+
+
+def test_row_19_a_loop_that_is_closed_first_leaves_the_reader_as_it_is(writer, ring):
+    reader = mavloom.RingReader(ring)
+
+    async def take():
+        async for record in reader:
+            return record.data
+
+    loop = asyncio.new_event_loop()
+    loop.set_exception_handler(lambda *_: None)  # of the task that is destroyed while it waits
+    task = loop.create_task(take())
+    loop.run_until_complete(asyncio.sleep(0.01))
+    loop.close()
+    del task
+    gc.collect()
+    fill(writer, 2)
+    assert reader.read(0).data == b"0" and asyncio.run(take()) == b"1"
+    reader.close()
+
+
+def test_row_3_17_a_view_that_is_kept_ends_the_loop_with_an_error(held):
+    views = []
+
+    async def run():
+        async for record in held:
+            views.append(record.data)
+    with pytest.raises(BufferError, match="still alive"):
+        asyncio.run(run())
+    views.clear()
+    assert held.read(0).position == 32
+
+
+def test_row_3_21_a_loop_of_ones_own(writer, ring):
+    reader, found = mavloom.RingReader(ring), []
+    assert reader.poll() is None
+    thread = threading.Thread(target=fill, args=[writer, 100])
+    with selectors.DefaultSelector() as selector:
+        selector.register(reader.event_fd(), selectors.EVENT_READ)
+        thread.start()
+        while len(found) < 100:
+            assert selector.select(DEADLINE_S)
+            os.read(reader.event_fd(), 8)
+            found += numbers(iter(reader.poll, None))
+    thread.join()
+    assert found == list(range(100))
+    mavloom.remove_ring(ring)
+    with pytest.raises(mavloom.ClosedError, match="removed or replaced"):
+        reader.poll()
+
+
+@pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
+def test_rows_3_21_and_3_22_an_exit_while_tasks_wait_is_silent(ring, start, leaks):
+    process = start(f"""
+import asyncio
+if {leaks}:
+    mavloom._core.set_leak_warnings(True)
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+readers = [mavloom.RingReader(ring, lossless=number % 2 == 0) for number in range(4)]
+waiting = []
+async def take(reader):
+    async for record in reader:
+        waiting.append(bytes(record.data))
+async def main():
+    await asyncio.gather(*map(take, readers[:2]))
+async def short():
+    tasks = [asyncio.create_task(take(reader)) for reader in readers[2:]]
+    while len(waiting) < 2:
+        writer.write(b"x")
+        await asyncio.sleep(0.001)
+asyncio.run(short())
+if not {leaks}:  # a thread that never ends keeps what it has
+    threading.Thread(target=lambda: asyncio.run(main()), daemon=True).start()
+    time.sleep(0.01)
+""", ring)
+    assert ended(process) == (0, "", "")
+    assert status_of(ring)["readers"] == [] and not status_of(ring)["writer_alive"]
+
+
+def test_row_3_21_and_example_11_a_forked_child_has_a_waiter_of_its_own(ring, start):
+    process = start("""
+import asyncio
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+async def take(reader, what):
+    async for record in reader:
+        assert record.data == what
+        return
+async def write_and_take(writer, reader, what):
+    task = asyncio.create_task(take(reader, what))
+    await asyncio.sleep(0.005)
+    writer.write(what)
+    await asyncio.wait_for(task, 60)
+asyncio.run(write_and_take(writer, reader, b"before"))
+pid = os.fork()
+if pid == 0:
+    for call in (reader.event_fd, reader.poll, reader.batches().event_fd, lambda: asyncio.run(take(reader, b"before"))):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    del reader
+    gc.collect()
+    with mavloom.RingWriter(sys.argv[2], capacity=1 << 16) as own, mavloom.RingReader(sys.argv[2]) as reader:
+        asyncio.run(write_and_take(own, reader, b"of the child"))
+        own.close(remove=True)
+    sys.exit(0)
+print(os.waitpid(pid, 0)[1])
+asyncio.run(write_and_take(writer, reader, b"after"))
+""", ring, ring + "-child")
+    assert ended(process) == (0, "0\n", "")
 
 
 # ---- threads
