@@ -5,6 +5,7 @@ import asyncio
 import contextlib
 import ctypes
 import gc
+import io
 import json
 import os
 import pathlib
@@ -369,6 +370,206 @@ with mavloom.RingWriter(ring, capacity=1 << 22, full="evict") as writer:
             assert (last["number"] == last["number"][0, 0] + numpy.arange(len(last))[:, None]).all()
             copied += 1
         batch.release()
+
+
+# ---- claims: records that are filled in place
+
+def test_a_claim_is_filled_and_committed(writer, ring):
+    reader = mavloom.RingReader(ring)
+    before = time.time_ns()
+    with writer.claim(4, link=3, kind=300, verdict=2) as view:
+        assert (len(view), view.readonly, view.format, reader.read(0)) == (4, False, "B", None)
+        view[:] = b"abcd"
+    record = reader.read(0)
+    assert (record.data, record.link, record.kind, record.verdict) == (b"abcd", 3, 300, 2) and before <= record.time_ns <= time.time_ns()
+    with writer.claim(24, time_ns=7) as view:
+        numpy.frombuffer(view, "<f8")[:] = 1, 2, 3
+    claim = writer.claim(100)
+    struct.pack_into("<I", claim.data, 0, 42)
+    assert claim.commit(4, time_ns=9) is True
+    with writer.claim(0):
+        pass
+    with writer.claim(10) as view, io.BytesIO(b"12345") as file:
+        claim_of_ten = file.readinto(view)
+    assert [(r.data, r.time_ns) for r in (reader.read(0), reader.read(0))] == [(struct.pack("<3d", 1, 2, 3), 7), (struct.pack("<I", 42), 9)]
+    assert reader.read(0).data == b"" and reader.read(0).data[:claim_of_ten] == b"12345" and writer.records == 5
+
+
+def test_a_claim_that_is_given_up_writes_nothing(writer, ring):
+    reader = mavloom.RingReader(ring)
+    with pytest.raises(ZeroDivisionError):
+        with writer.claim(4) as view:
+            view[:] = b"lost"
+            raise ZeroDivisionError
+    abandoned = writer.claim(4)
+    abandoned.data[:] = b"lost"
+    abandoned.abandon()
+    abandoned.abandon()
+    writer.claim(4)  # dropped
+    fill(writer, 1)
+    assert numbers([reader.read(0)]) == [0] and reader.read(0) is None
+    for call in (abandoned.commit, lambda: abandoned.data):
+        with pytest.raises(mavloom.ClosedError, match="over"):
+            call()
+    with pytest.raises(ValueError):
+        view[0] = 1
+
+
+CLAIM_LOOKS = {
+    "slice": lambda view: view[1:3],
+    "cast": lambda view: view.cast("b"),
+    "frombuffer": lambda view: numpy.frombuffer(view, "u1"),
+    "slice of an array": lambda view: numpy.frombuffer(view, "u1")[2:],
+    "asarray": lambda view: numpy.asarray(view),
+    "ndarray": lambda view: numpy.ndarray(4, "u1", buffer=view),
+}
+
+
+@pytest.mark.parametrize("look", CLAIM_LOOKS.values(), ids=CLAIM_LOOKS)
+def test_row_3_16_nothing_writes_into_a_record_that_is_committed(writer, ring, look):
+    """Whatever was made of a claim's view holds it: the record is not written, nor anything else by this thread, until it is gone."""
+    reader = mavloom.RingReader(ring)
+    claim = writer.claim(4)
+    claim.data[:] = b"abcd"
+    seen = look(claim.data)
+    for go_on in (claim.commit, lambda: writer.write(b"x"), lambda: writer.claim(1), writer.close):
+        with pytest.raises(BufferError, match="still alive|is open"):
+            go_on()
+    assert reader.read(0) is None and bytes(b"abcd").find(bytes(seen)) >= 0
+    del seen
+    assert claim.commit() and reader.read(0).data == b"abcd"
+    claim = writer.claim(4)
+    seen = look(claim.data)
+    claim.abandon()
+    with pytest.raises(BufferError, match="is open"):
+        writer.write(b"x")
+    del seen
+    assert writer.write(b"x")
+
+
+def test_row_3_16_a_view_that_outlives_its_claim_keeps_the_room(writer, ring):
+    reader = mavloom.RingReader(ring)
+    with pytest.raises(BufferError, match="still alive"):
+        with writer.claim(4) as view:
+            array = numpy.frombuffer(view, "u1")
+    gc.collect()
+    with pytest.raises(BufferError, match="is open"):
+        writer.write(b"x")
+    array[:] = 7
+    del array
+    fill(writer, 1)
+    assert numbers(iter(lambda: reader.read(0), None)) == [0]
+    name = writer.name
+    claim = writer.claim(4)
+    writer.close()
+    with pytest.raises(mavloom.ClosedError, match="over"):
+        claim.commit()
+    with mavloom.RingWriter(name, capacity=64 * KIB) as second:
+        view = second.claim(4).data
+        with pytest.raises(BufferError):
+            second.close()
+        del view
+        fill(second, 1)
+
+
+def test_row_29_a_claim_of_what_does_not_fit_is_a_value_error(writer):
+    for length, what in ((-1, "length: -1 is out of range, 0 to 16360"), (16361, "16361 bytes: a record of ring .* has at most 16360")):
+        with pytest.raises(ValueError, match=what):
+            writer.claim(length)
+    with writer.claim(16360):
+        pass
+    claim = writer.claim(4)
+    for length in (-1, 5):
+        with pytest.raises(ValueError, match=f"length: {length} is out of range, 0 to 4"):
+            claim.commit(length)
+    with pytest.raises(ValueError, match="link"):
+        writer.claim(4, link=-1)
+    assert claim.commit() and writer.records == 2
+
+
+def test_a_claim_in_a_full_ring_is_dropped_or_waits(ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer, mavloom.RingReader(ring, lossless=True) as reader:
+        taken = []
+        for number in range(200):
+            claim = writer.claim(1000)
+            claim.data[:] = bytes([number]) * 1000
+            taken.append(claim.commit())
+        found = [bytes(record.data) for record in iter(lambda: reader.read(0), None)]
+        assert found == [bytes([number]) * 1000 for number in range(200) if taken[number]] and taken.count(False) == writer.dropped > 100
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer, mavloom.RingReader(ring, lossless=True) as reader:
+        def write():
+            for number in range(200):
+                with writer.claim(1000) as view:
+                    view[:] = bytes([number]) * 1000
+        thread = threading.Thread(target=write, daemon=True)
+        thread.start()
+        assert [bytes(reader.read(DEADLINE_S).data) for _ in range(200)] == [bytes([number]) * 1000 for number in range(200)]
+        thread.join()
+
+
+@pytest.mark.parametrize("full", ["wait", "evict"])
+def test_row_17_claims_of_several_threads_take_turns(ring, full):
+    threads, count = 8, 300
+    with mavloom.RingWriter(ring, capacity=8 << 20, full=full) as writer, mavloom.RingReader(ring) as reader:
+        def write(thread):
+            for number in range(count):
+                with writer.claim(8) as view:
+                    struct.pack_into("<I", view, 0, thread)
+                    if number % 50 == 0:
+                        time.sleep(0.0001)  # the others come by
+                    struct.pack_into("<I", view, 4, number)
+                writer.write(struct.pack("<II", thread, number))
+        workers = [threading.Thread(target=write, args=[thread], daemon=True) for thread in range(threads)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join(DEADLINE_S)
+        found = [struct.unpack("<II", record.data) for record in iter(lambda: reader.read(0), None)]
+        assert [[n for t, n in found if t == thread] for thread in range(threads)] == [[n for n in range(count) for _ in "ab"]] * threads
+
+
+def test_example_10_a_writer_that_is_killed_while_it_fills_a_claim(writer, ring, start):
+    writer.close()
+    reader = mavloom.RingReader(ring, lossless=True)
+    for _ in range(3):
+        process = start("""
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+writer.write(b"whole")
+claim = writer.claim(1000)
+claim.data[:] = b"x" * 1000
+os.kill(os.getpid(), signal.SIGKILL)
+""", ring)
+        assert ended(process)[0] == -signal.SIGKILL
+    assert [bytes(record.data) for record in reader] == [b"whole"] * 3
+
+
+def test_example_11_a_claim_at_a_fork_and_at_the_exit(ring, start):
+    process = start("""
+mavloom._core.set_leak_warnings(True)
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+claim = writer.claim(4)
+pid = os.fork()
+if pid == 0:
+    for call in (lambda: claim.data, claim.commit, lambda: writer.claim(1)):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    del claim
+    sys.exit(0)
+claim.data[:] = b"abcd"
+claim.commit()
+print(os.waitpid(pid, 0)[1], reader.read(0).data)
+left, view = writer.claim(4), writer
+view = left.data
+around = [left]
+around.append(around)
+""", ring)
+    assert ended(process) == (0, "0 b'abcd'\n", "")
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+        fill(second, 1)
 
 
 # ---- errors
