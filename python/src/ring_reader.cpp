@@ -39,8 +39,39 @@ void append(std::vector<std::uint64_t>& copies, ByteView bytes) {
 
 // ---- Lease
 
+const std::vector<shm::RingRecord>& Lease::records() const noexcept {
+    return kept_.load() == Kept::copies ? kept_records_ : records_;
+}
+
+Lease::Look Lease::look() noexcept {
+    if (looks_.begin()) {
+        std::uint64_t first = 0;
+        if (const auto here = this_thread(); !looker_.compare_exchange_strong(first, here) && first != here)
+            has_several_lookers_.store(true);
+        return Look::counted;
+    }
+    while (kept_.load() == Kept::soon) std::this_thread::yield();
+    return kept_.load() == Kept::copies ? Look::free : Look::refused;
+}
+
 void Lease::look_away() noexcept {
     if (looks_.end() && source_) source_->nobody_looks();
+}
+
+bool Lease::is_another_threads() const noexcept {
+    return !has_several_lookers_.load() && looker_.load() != this_thread();
+}
+
+bool Lease::keep() {
+    kept_records_ = records_;
+    kept_.store(Kept::soon);
+    const bool finished = looks_.finish();
+    if (finished) {
+        for (const auto& record : records_) append(copies_, record.data);
+        point_to(kept_records_, copies_);
+    }
+    kept_.store(finished && source_->holds() ? Kept::copies : Kept::nothing);
+    return finished;
 }
 
 // ---- RingSource
@@ -55,6 +86,8 @@ RingSource::State RingSource::fetch(std::size_t most, MonoTime deadline) {
 RingSource::State RingSource::take(std::size_t most, Portion& out) {
     const auto lock = turns_.try_take();
     if (!lock.owns_lock() || !pending_.lease) return State::nothing;
+    if (const auto here = lossless_ ? this_thread() : 0; here != 0)
+        taker_ = pending_.first == 0 || taker_ == here ? here : 0;
     if (most != 1 || pending_.first + 1 == pending_.lease->records().size()) out = std::exchange(pending_, {});
     else out = {pending_.lease, pending_.first++};
     return State::found;
@@ -63,7 +96,8 @@ RingSource::State RingSource::take(std::size_t most, Portion& out) {
 RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
     if (is_closed()) return State::closed;
     if (pending_.lease) return State::found;
-    if (lossless_ && !release_current()) return State::looked_at;
+    if (lossless_ && !release_current())
+        return current_.lock()->is_another_threads() ? State::used_elsewhere : State::looked_at;
     const State state = lossless_ ? view(most, deadline) : copy(most, deadline);
     missed_.store(reader_.missed(), std::memory_order_relaxed);
     return state;
@@ -106,7 +140,9 @@ RingSource::State RingSource::copy(std::size_t most, MonoTime deadline) {
 
 bool RingSource::release_current() {
     const auto lease = current_.lock();
-    return !lease || lease->release();
+    if (lease && !(taker_ == this_thread() ? lease->release() : lease->keep())) return false;
+    current_.reset();
+    return true;
 }
 
 bool RingSource::release(Lease& lease) {
@@ -125,7 +161,7 @@ bool RingSource::close() {
 
 bool RingSource::close_locked() {
     if (is_closed()) return true;
-    if (!release_current()) return false;
+    if (const auto lease = current_.lock(); lease && !lease->release()) return false;
     closed_.store(true, std::memory_order_relaxed);
     pending_ = {};
     reader_.detach();

@@ -19,25 +19,30 @@ namespace mavloom::python {
 namespace {
 
 constexpr std::size_t most_in_batch = 1024;
+constexpr auto look_again = std::chrono::microseconds{100};  // whether another thread still looks at what it read
+constexpr auto longest_patience = std::chrono::seconds{10};  // with one that does not stop
 
 // ---- what is given out
 
 class View {
 public:
-    View(std::shared_ptr<Lease> lease, ByteView bytes) : bytes_(bytes) {
+    // `bytes_of(lease)`: what is looked at, asked once it cannot move any more.
+    template <class BytesOf>
+    View(std::shared_ptr<Lease> lease, BytesOf bytes_of) {
         if (!lease->is_copy()) lease->source()->fork().check();
-        if (!lease->look())
+        const auto look = lease->look();
+        if (look == Lease::Look::refused)
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
+        is_counted_ = look == Lease::Look::counted;
         lease_ = std::move(lease);
+        bytes_ = bytes_of(*lease_);
         if (holds()) return;
-        std::exchange(lease_, nullptr)->look_away();
+        end();
         raise_taken_away();
     }
     View(View&& other) noexcept = default;
     View& operator=(View&&) = delete;
-    ~View() {
-        if (lease_) lease_->look_away();
-    }
+    ~View() { end(); }
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
     // What was copied counts only if this comes behind it.
     void check() const {
@@ -46,11 +51,15 @@ public:
 
 private:
     [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->source()->holds(); }
+    void end() noexcept {
+        if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
+    }
     [[noreturn]] static void raise_taken_away() {
         raise_error("the writer took the record away from this reader (it evicts who is slow)");
     }
 
     std::shared_ptr<Lease> lease_;
+    bool is_counted_ = false;
     ByteView bytes_;
 };
 
@@ -91,10 +100,13 @@ public:
     explicit Record(Portion taken) : lease_(std::move(taken.lease)), index_(taken.first) {}
 
     [[nodiscard]] const shm::RingRecord& get() const noexcept { return lease_->records()[index_]; }
-    [[nodiscard]] nb::object view() const { return nb::cast(View(lease_, get().data)); }
+    [[nodiscard]] View look() const {
+        return View(lease_, [this](const Lease& lease) { return lease.records()[index_].data; });
+    }
+    [[nodiscard]] nb::object view() const { return nb::cast(look()); }
     [[nodiscard]] nb::object data() const {
         if (!lease_->is_copy()) return nb::steal(PyMemoryView_FromObject(view().ptr()));
-        const View view(lease_, get().data);
+        const View view = look();
         return nb::bytes(view.bytes().data(), view.bytes().size());
     }
 
@@ -143,15 +155,16 @@ public:
     [[nodiscard]] nb::object array(const nb::object& dtype) const {
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
+        const View view(lease_, [](const Lease&) { return ByteView(); });
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
         const auto records = this->records();
         if (const auto stride = distance()) {
             const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
-            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, all)), "u1");
+            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, [&](const Lease&) { return all; })),
+                                                              "u1");
             return numpy.attr("ndarray")(nb::arg("shape") = size(), nb::arg("dtype") = type, nb::arg("buffer") = bytes,
                                          nb::arg("strides") = nb::make_tuple(*stride));
         }
-        const View view(lease_, {});
         std::vector<std::uint8_t> copy;
         copy.reserve(size() * records.front().data.size());
         for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
@@ -271,12 +284,17 @@ private:
         fork_.check();
         // One record costs less than letting go of the GIL.
         State state = most == 1 ? source_->fetch(most, MonoTime{}) : State::nothing;
+        MonoTime patient_until{};
         for (bool first = most != 1;; first = false) {
             check_signals();  // what a handler that raises, or reads, finds here is not in hand yet
             if (state == State::found) state = source_->take(most, taken);
-            if (state != State::nothing || !(first || mono_now() < deadline)) return state;
+            const bool is_used = state == State::used_elsewhere;
+            if ((state != State::nothing && !is_used) || !(first || mono_now() < deadline)) return state;
+            if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
+            if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
             source_->give_way();
+            if (is_used) std::this_thread::sleep_for(look_again);
             state = source_->fetch(most, deadline);
         }
     }
@@ -298,6 +316,7 @@ private:
             case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", source_->name()));
             case State::forked: raise_closed("opened before fork: open it again in this process");
             case State::looked_at:
+            case State::used_elsewhere:
                 raise_buffer(
                     "a view of the last record or batch is still alive (a memoryview, or an array made of one): "
                     "release or delete it first");
@@ -436,7 +455,8 @@ void bind_ring_reader(nb::module_& module) {
                              "the writer may not pass them. `start`: `newest` reads what comes from now on, `oldest` "
                              "what the ring holds, too. "
                              "Iterate over records until nobody writes any more.\n"
-                             "Any thread; two that read take turns.")
+                             "Any thread: those that share it take turns, each record is one's, and a read of one does "
+                             "not end what another got.")
         .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
              "start"_a = "newest",
              nb::sig(

@@ -64,7 +64,7 @@ void PyRingWriter::check_open() const {
 
 void PyRingWriter::check() const {
     check_open();
-    if (claimer_.load() == std::this_thread::get_id())
+    if (const auto claimer = claimer_.load(); claimer != 0 && claimer == this_thread())
         raise_buffer(fmt::format("a claim of the writer of ring {} is open: commit or abandon it first", name_));
 }
 
@@ -125,7 +125,7 @@ void PyRingWriter::raise(shm::WriteError error, std::size_t length) const {
 // ---- claims
 
 void PyRingWriter::let_claim_end() {
-    while (claimer_.load() != std::thread::id()) {
+    while (claimer_.load() != 0) {
         {
             const WithoutGil outside;
             static_cast<void>(turn(MonoTime::max()));
@@ -165,7 +165,7 @@ shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_locked(std::size_
     if (!room && room.error() == shm::WriteError::full && !waits()) return std::make_shared<Claimed>(length);
     if (!room) return tl::unexpected(room.error());
     claim_ = std::make_shared<Claimed>(*room);
-    claimer_ = std::this_thread::get_id();
+    claimer_ = this_thread();
     return claim_;
 }
 
@@ -210,7 +210,7 @@ void PyRingWriter::nobody_looks(Claimed& claimed) noexcept {
 
 void PyRingWriter::end_claim() noexcept {
     claim_.reset();
-    claimer_ = std::thread::id();
+    claimer_ = 0;
     claim_ended_.notify_all();
 }
 

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "looks.hpp"
@@ -93,7 +92,7 @@ private:
     bool created_ = false;
     Turns turns_;
     std::condition_variable_any claim_ended_;
-    std::atomic<std::thread::id> claimer_{};  // whose thread's claim is open; set with turns_ held
+    std::atomic<std::uint64_t> claimer_{0};  // whose thread's claim is open; set with turns_ held
     std::atomic<bool> closed_{false};
     // Guarded by turns_.
     std::optional<shm::RingWriter> writer_;  // empty once closed

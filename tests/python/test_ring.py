@@ -2,6 +2,7 @@
 """RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory listed in docs/guide/python.md; other rows
 and examples: the wishes there."""
 import asyncio
+import concurrent.futures
 import contextlib
 import ctypes
 import gc
@@ -1535,6 +1536,79 @@ def test_row_17_readers_of_several_threads_take_turns(writer, ring):
     for thread in threads:
         thread.join(DEADLINE_S)
     assert sorted(sum(found, [])) == list(range(1000)) and all(mine == sorted(mine) for mine in found)
+
+
+@pytest.mark.parametrize("batches", [False, True])
+def test_row_17_threads_share_a_lossless_reader(writer, ring, batches):
+    """Each record is one thread's, whole, whatever the others read meanwhile."""
+    reader, found = mavloom.RingReader(ring, lossless=True), [[] for _ in range(4)]
+
+    def take(mine):
+        for batch in reader.batches() if batches else ([record] for record in reader):
+            for record in batch:
+                seen = numpy.frombuffer(record, "u1")
+                number = int(bytes(record.data))
+                assert bytes(seen) == b"%d" % number
+                mine.append(number)
+                del seen
+    threads = [threading.Thread(target=take, args=[mine], daemon=True) for mine in found]
+    for thread in threads:
+        thread.start()
+    for first in range(0, 4000, 10):
+        fill(writer, 10, first)
+    until(lambda: sum(map(len, found)) == 4000)
+    writer.close()
+    for thread in threads:
+        thread.join(DEADLINE_S)
+    assert sorted(sum(found, [])) == list(range(4000)) and reader.missed == 0 and all(mine == sorted(mine) for mine in found)
+
+
+def in_thread(call):
+    """What a call gives, or raises, in a thread of its own."""
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        return pool.submit(call).result(DEADLINE_S)
+
+
+def test_row_17_a_record_outlives_the_reads_of_other_threads(held):
+    records = [in_thread(held.read) for _ in range(3)]
+    batch = in_thread(lambda: next(held.batches(0)))
+    assert held.read(0) is None
+    assert [bytes(record.data) for record in (*records, *batch)] == [b"abcd"] * 4 and batch.array("S4").tolist() == [b"abcd"]
+    assert [record.position for record in records] == [0, 32, 64] and status_of(held.name)["readers"][0]["behind_records"] == 0
+    views = [memoryview(record) for record in records]
+    held.close()
+    assert views == [b"abcd"] * 3
+
+
+def test_row_17_a_read_waits_for_the_views_of_another_thread(held):
+    looking, done = threading.Event(), threading.Event()
+
+    def look():
+        view = held.read().data
+        looking.set()
+        done.wait(DEADLINE_S)
+        assert view == b"abcd"
+        view.release()
+    thread = threading.Thread(target=look, daemon=True)
+    thread.start()
+    looking.wait(DEADLINE_S)
+    for call in (lambda: held.read(0), lambda: held.read(0.02), lambda: next(held.batches(0)), held.close):
+        with pytest.raises(BufferError, match="still alive"):
+            call()
+    threading.Timer(0.02, done.set).start()
+    assert held.read().position == 32
+    thread.join(DEADLINE_S)
+
+
+def test_row_17_who_looks_too_is_not_waited_for(held):
+    """It would never end."""
+    record = in_thread(held.read)
+    view = in_thread(lambda: record.data)
+    mine = record.data
+    with pytest.raises(BufferError, match="still alive"):
+        held.read()
+    del view, mine
+    assert held.read().position == 32
 
 
 def test_row_26_who_waits_wakes_when_it_is_closed(ring):
