@@ -1768,12 +1768,12 @@ def hear(child_environment):
     """hear(words) -> a running `python -m mavloom.hear` that listens, and its port."""
     processes = []
 
-    def call(*words, url=None):
+    def call(*words, url=None, **options):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         processes.append(subprocess.Popen([sys.executable, "-m", "mavloom.hear", url or f"udpin://127.0.0.1:{port}", *words], env=child_environment,
-                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True))
+                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options))
         return processes[-1], port
     yield call
     for process in processes:
@@ -1791,6 +1791,24 @@ def test_hear_writes_what_it_hears_and_takes_its_ring_away(hear, ring, frames, n
         process.send_signal(number)
         assert ended(process) == (128 + number, "", f"{ring}: {len(frames)} frames heard, {len(frames)} written\n")
         assert reader.read() is None and reader.removed and ring not in mavloom.rings()
+
+
+def ignoring(*signals):
+    """For preexec_fn: as nohup starts a program, or a shell script its background jobs."""
+    return lambda: [signal.signal(number, signal.SIG_IGN) for number in signals]
+
+
+def test_hear_leaves_alone_what_it_was_started_to_ignore(hear, ring, frames):
+    process, port = hear("--ring", ring, preexec_fn=ignoring(signal.SIGINT, signal.SIGHUP))
+    process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        for number in (signal.SIGINT, signal.SIGHUP):
+            process.send_signal(number)
+            for _ in range(3):  # it looks at signals in between
+                send(port, frames[:1])
+                assert bytes(reader.read(DEADLINE_S).data) == frames[0]
+    process.send_signal(signal.SIGTERM)
+    assert ended(process) == (143, "", f"{ring}: 6 frames heard, 6 written\n") and not path_of(ring).exists()
 
 
 def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
