@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: MIT
 """RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory listed in docs/guide/python.md; other rows
-and examples: the wishes there."""
+and examples: the wishes there. What is not here, or not all of it:
+
+    3.4, 3.6  a writer killed at each step of a commit   tests/system/test_shm.py, test_a_writer_killed_at_each_step_of_a_commit and ..._at_a_thousand_random_instants
+    3.8       across PID namespaces                      tests/system/test_shm.py, test_locks_are_seen_from_another_pid_namespace
+    3.11      `shm remove` names the owner               tests/system/test_shm.py, test_another_user
+    3.15      counts only; what it costs the others in time is for measurements, not for tests
+    3.18      all schedules of a few operations          tests/unit/shm/ring_schedules_test.cpp, and threads under ThreadSanitizer: ring_threads_test.cpp
+    3.21      the thread behind descriptors by itself    tests/unit/shm/ring_waiter_test.cpp
+"""
 import asyncio
 import concurrent.futures
 import contextlib
@@ -647,6 +655,48 @@ def test_rows_3_3_3_5_and_3_19_what_is_no_ring_of_this_version_is_named_and_stay
     assert not path_of(ring).exists()
 
 
+def test_row_3_3_another_size_is_another_file_and_readers_of_the_old_one_are_told(writer, ring):
+    reader = mavloom.RingReader(ring, lossless=True)
+    fill(writer, 3)
+    writer.close()
+    before = path_of(ring).stat()
+    with path_of(ring).open("rb") as old, mavloom.RingWriter(ring, capacity=128 * KIB) as larger:
+        fill(larger, 1, first=3)
+        assert larger.created and path_of(ring).stat().st_ino != before.st_ino and os.fstat(old.fileno()).st_size == before.st_size
+        assert numbers(reader) == [0, 1, 2] and reader.removed  # iteration ends, for nothing comes there any more
+        with mavloom.RingReader(ring, start="oldest") as again:
+            assert numbers([again.read(0)]) == [3]
+
+
+def test_row_3_4_creators_that_are_killed_leave_no_ring_or_a_whole_one(ring, start):
+    process = start("""
+import random
+rng = random.Random(6)
+for number in range(150):
+    pid = os.fork()
+    if pid == 0:
+        mavloom.RingWriter(ring, capacity=1 << 20)
+        time.sleep(3600)
+    time.sleep(rng.random() * 0.003)
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+    try:
+        with mavloom.RingReader(ring, start="oldest") as reader:
+            assert reader.read() is None
+        found = True
+    except mavloom.NotFoundError as error:
+        assert "there is no ring" in str(error)
+        found = False
+    with mavloom.RingWriter(ring, capacity=1 << 20) as writer:
+        assert writer.created or found
+        writer.close(remove=True)
+    print(int(found), end="")
+""", ring)
+    status, out, talk = ended(process)
+    assert (status, talk, len(out)) == (0, "", 150)
+    assert [path.name for path in SHM.iterdir() if ring in path.name] == []
+
+
 def test_damage_under_a_reader_is_an_error(writer, ring):
     reader, lossless = mavloom.RingReader(ring), mavloom.RingReader(ring, lossless=True)
     fill(writer)
@@ -920,7 +970,8 @@ def feed(pipe):
             pipe.write(b"%d.%s\n" % (number, b"." * (number % 50)))
 
 
-def test_row_3_9_a_stopped_reader_is_not_dead(ring, start):
+@pytest.mark.parametrize("seconds", [0.5, pytest.param(30, marks=pytest.mark.long)])
+def test_row_3_9_a_stopped_reader_is_not_dead(ring, start, seconds):
     with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
         process = start("""
 reader = mavloom.RingReader(ring, lossless=True)
@@ -931,7 +982,7 @@ print(len(list(reader)))
         process.send_signal(signal.SIGSTOP)
         until(lambda: pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "T")
         taken = sum(writer.write(bytes(1000)) for _ in range(100))
-        time.sleep(0.5)
+        time.sleep(seconds)
         assert not writer.write(bytes(1000)) and [r["pid"] for r in status_of(ring)["readers"]] == [process.pid]
         process.send_signal(signal.SIGCONT)
         until(lambda: status_of(ring)["readers"][0]["behind_records"] == 0)
