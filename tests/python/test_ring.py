@@ -1814,6 +1814,25 @@ def test_pump_keeps_what_a_full_ring_has_no_room_for(writer, ring, frames):
         assert found == frames and link.stats.missed == 0
 
 
+@pytest.mark.parametrize("full", ["wait", "drop_newest"])
+def test_pump_waits_for_the_claim_of_another_thread(ring, frames, full):
+    with mavloom.RingWriter(ring, full=full) as writer, mavloom.connect("udpin://127.0.0.1:0") as link, mavloom.RingReader(ring) as reader:
+        send(link.port, frames[:100])
+        until(lambda: link.stats.frames_in == 100)
+        claim = writer.claim(5)
+        with pytest.raises(BufferError, match="is open"):
+            link.pump(writer, 0)
+        moved = []
+        thread = threading.Thread(target=lambda: moved.append(link.pump(writer, 0.05)), daemon=True)
+        thread.start()
+        claim.data[:] = b"claim"
+        time.sleep(0.01)  # pump has begun by then, or not: both are to work
+        claim.commit()
+        thread.join(DEADLINE_S)
+        until(lambda: moved.append(link.pump(writer, 0)) or sum(moved) == 100)
+        assert [record.data for record in iter(lambda: reader.read(0), None)] == [b"claim", *frames[:100]] and writer.dropped == 0
+
+
 @pytest.fixture
 def hear(child_environment):
     """hear(words) -> a running `python -m mavloom.hear` that listens, and its port."""
