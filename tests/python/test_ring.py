@@ -1834,8 +1834,8 @@ def test_pump_waits_for_the_claim_of_another_thread(ring, frames, full):
 
 
 @pytest.fixture
-def hear(child_environment):
-    """hear(words) -> a running `python -m mavloom.hear` that listens, and its port."""
+def hear(child_environment, ring):
+    """hear(words) -> a running `python -m mavloom.hear` that listens, and its port. Ended before the ring is taken away, which it would make anew."""
     processes = []
 
     def call(*words, url=None, **options):
