@@ -18,7 +18,8 @@ listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring
 [ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
 log=$(mktemp)
 
-"$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(tee "$log" >&2) &
+# Ctrl-C goes to all: who passes on what hear says must outlive it.
+"$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(trap '' INT TERM HUP && exec tee "$log" >&2) &
 hear=$!
 "$mavloom" relay "shm://$ring?from=oldest" --to "$to" &
 relay=$!

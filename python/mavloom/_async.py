@@ -1,55 +1,85 @@
 # SPDX-License-Identifier: MIT
-"""Iteration on an asyncio loop: one descriptor for each reader, no thread and no executor."""
+"""Iteration on an asyncio loop: one descriptor for each reader, no executor. Those of links tell of themselves, behind those of rings stands one thread for all."""
 from __future__ import annotations
 
 import asyncio
 import contextlib
 import os
-from typing import AsyncGenerator
+from collections.abc import Callable
+from typing import AsyncGenerator, TypeVar
 
-from ._core import Message, Subscription
+from ._core import Message, Record, RecordBatch, RecordBatches, RingReader, Subscription
 from ._errors import ClosedError, UsageError
 
-MOST_AT_ONCE = 256  # messages, then others on the loop get their turn
+T = TypeVar("T")
+
+MOST_AT_ONCE = 256  # messages or records, then others on the loop get their turn
+LOOK_FOR_RING_S = 1.0  # of a ring whose file was deleted by hand nobody is told
 
 waiting: set[int] = set()  # descriptors on which a task waits
+os.register_at_fork(after_in_child=waiting.clear)
 
 
-async def messages(subscription: Subscription) -> AsyncGenerator[Message, None]:
+def messages(subscription: Subscription) -> AsyncGenerator[Message, None]:
     """What arrives, until the link or the subscription is closed."""
-    descriptor = subscription.event_fd()
+    return each(subscription, lambda: subscription.recv(0))
+
+
+def records(reader: RingReader) -> AsyncGenerator[Record, None]:
+    """What is written, until the ring is removed or the reader closed."""
+    return each(reader, reader.poll, look_again_s=LOOK_FOR_RING_S)
+
+
+def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[RecordBatch, None]:
+    """The same, many at once, and no longer than until nothing came for `timeout` seconds."""
+    return each(source, source.poll, most=1, timeout=timeout, look_again_s=LOOK_FOR_RING_S)
+
+
+async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None], most: int = MOST_AT_ONCE, timeout: float | None = None,
+               look_again_s: float | None = None) -> AsyncGenerator[T, None]:
+    """What `poll` gives, until it raises ClosedError; where it gives None, the source's descriptor tells when to ask again."""
+    descriptor = source.event_fd()
     check_free(descriptor)
-    given = 0
+    loop = asyncio.get_running_loop()
+    given, deadline = 0, None
     while True:
         try:
-            message = subscription.recv(0)
+            found = poll()
         except ClosedError:
             return
-        if message is None:
-            await readable(descriptor)
+        if found is None:
+            if deadline is None and timeout is not None:
+                deadline = loop.time() + timeout
+            left = None if deadline is None else deadline - loop.time()
+            if left is not None and left <= 0:
+                return
+            await readable(descriptor, min((s for s in (left, look_again_s) if s is not None), default=None))
             continue
-        yield message
-        given += 1
-        if given % MOST_AT_ONCE == 0:
+        yield found
+        given, deadline = given + 1, None
+        if given % most == 0:
             await asyncio.sleep(0)
 
 
 def check_free(descriptor: int) -> None:
     if descriptor in waiting:
-        raise UsageError("another task waits on this reader: give each task its own, link.subscribe()")
+        raise UsageError("another task waits on this reader: give each task its own (link.subscribe(), or another RingReader)")
 
 
-async def readable(descriptor: int) -> None:
+async def readable(descriptor: int, timeout: float | None) -> None:
     """Waits until the descriptor tells. Watched no longer than that: a loop that was left is cleaned up late, and the next may have begun."""
     check_free(descriptor)
     loop = asyncio.get_running_loop()
     ready = asyncio.Event()
     loop.add_reader(descriptor, ready.set)
+    timer = None if timeout is None else loop.call_later(timeout, ready.set)
     waiting.add(descriptor)
     try:
         await ready.wait()
     finally:
         waiting.discard(descriptor)
+        if timer is not None:
+            timer.cancel()
         if not loop.is_closed():
             loop.remove_reader(descriptor)
     with contextlib.suppress(BlockingIOError):

@@ -22,7 +22,8 @@ Each record is one good frame, byte for byte, of kind 1, with its receive time (
 
 While a lossless reader holds the ring full, frames wait in a buffer of 16 MiB; what is overwritten there is "missed". A ring that is there
 already is carried on, one of another capacity replaced, if nobody writes to it; one that somebody removes is made anew. Ctrl-C or SIGTERM ends
-it cleanly (status 130, 143) and takes the ring away, unless --keep. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
+it cleanly (status 130, 143) and takes the ring away, unless --keep; a signal that it was started to ignore (by nohup, or as a job that a script runs
+in the background) does not: use SIGTERM there. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
 """
 
 

@@ -16,6 +16,7 @@
 #include "gil.hpp"
 #include "hub.hpp"
 #include "mavloom/runtime/ring_frames.hpp"
+#include "ring_alarm.hpp"
 #include "ring_writer.hpp"
 #include "waiting.hpp"
 
@@ -466,6 +467,7 @@ void bind_link(nb::module_& module) {
         const nb::gil_scoped_release release;
         WithoutGil::end();
         Hub::stop_all();
+        RingAlarm::stop_all();
     });
 }
 

@@ -39,82 +39,110 @@ void append(std::vector<std::uint64_t>& copies, ByteView bytes) {
 
 // ---- Lease
 
-bool Lease::look() noexcept {
-    int lookers = lookers_.load(std::memory_order_relaxed);
-    do
-        if (lookers == released) return false;
-    while (!lookers_.compare_exchange_weak(lookers, lookers + 1, std::memory_order_acquire));
-    return true;
+const std::vector<shm::RingRecord>& Lease::records() const noexcept {
+    return kept_.load() == Kept::copies ? kept_records_ : records_;
+}
+
+Lease::Look Lease::look() noexcept {
+    if (looks_.begin()) {
+        std::uint64_t first = 0;
+        if (const auto here = this_thread(); !looker_.compare_exchange_strong(first, here) && first != here)
+            has_several_lookers_.store(true);
+        return Look::counted;
+    }
+    while (kept_.load() == Kept::soon) std::this_thread::yield();
+    return kept_.load() == Kept::copies ? Look::free : Look::refused;
 }
 
 void Lease::look_away() noexcept {
-    if (lookers_.fetch_sub(1, std::memory_order_acq_rel) == 1 && source_) source_->nobody_looks();
+    if (looks_.end() && source_) source_->nobody_looks();
 }
 
-bool Lease::release() noexcept {
-    int nobody = 0;
-    return lookers_.compare_exchange_strong(nobody, released, std::memory_order_acq_rel) || nobody == released;
+bool Lease::is_another_threads() const noexcept {
+    return !has_several_lookers_.load() && looker_.load() != this_thread();
+}
+
+bool Lease::keep() {
+    kept_records_ = records_;
+    kept_.store(Kept::soon);
+    const bool finished = looks_.finish();
+    if (finished) {
+        for (const auto& record : records_) append(copies_, record.data);
+        point_to(kept_records_, copies_);
+    }
+    kept_.store(finished && source_->holds() ? Kept::copies : Kept::nothing);
+    return finished;
 }
 
 // ---- RingSource
 
-RingSource::State RingSource::read(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out) {
-    const MonoTime end = end_of_slice(deadline);
-    const auto lock = turns_.take_until(end);
-    return lock.owns_lock() ? read_locked(most, end, out) : State::nothing;
+RingSource::State RingSource::fetch(std::size_t most, MonoTime deadline) {
+    const bool waits = deadline != MonoTime{};
+    const MonoTime end = waits ? end_of_slice(deadline) : MonoTime{};
+    const auto lock = waits ? turns_.take_until(end) : turns_.try_take();
+    return lock.owns_lock() ? fill(most, end) : State::nothing;
 }
 
-RingSource::State RingSource::poll(std::size_t most, std::shared_ptr<Lease>& out) {
+RingSource::State RingSource::take(std::size_t most, Portion& out) {
     const auto lock = turns_.try_take();
-    return lock.owns_lock() ? read_locked(most, MonoTime{}, out) : State::nothing;
+    if (!lock.owns_lock() || !pending_.lease) return State::nothing;
+    if (const auto here = lossless_ ? this_thread() : 0; here != 0)
+        taker_ = pending_.first == 0 || taker_ == here ? here : 0;
+    if (most != 1 || pending_.first + 1 == pending_.lease->records().size()) out = std::exchange(pending_, {});
+    else out = {pending_.lease, pending_.first++};
+    return State::found;
 }
 
-RingSource::State RingSource::read_locked(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out) {
+RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
     if (is_closed()) return State::closed;
-    if (lossless_ && !release_current()) return State::looked_at;
-    const State state = lossless_ ? view(most, deadline, out) : copy(most, deadline, out);
+    if (pending_.lease) return State::found;
+    if (lossless_ && !release_current())
+        return current_.lock()->is_another_threads() ? State::used_elsewhere : State::looked_at;
+    const State state = lossless_ ? view(most, deadline) : copy(most, deadline);
     missed_.store(reader_.missed(), std::memory_order_relaxed);
     return state;
 }
 
 shm::ReadResult<shm::RingRecord> RingSource::next(MonoTime deadline) {
-    return deadline == MonoTime{} ? reader_.try_read() : reader_.read(deadline);
+    return deadline == MonoTime{} ? reader_.poll() : reader_.read(deadline);
 }
 
-RingSource::State RingSource::view(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out) {
+RingSource::State RingSource::view(std::size_t most, MonoTime deadline) {
     if (scratch_.size() < most) scratch_.resize(most);
     auto count = reader_.try_read_batch({scratch_.data(), most});
-    if (!count && count.error() == shm::ReadError::empty && deadline != MonoTime{}) {
-        const auto first = reader_.read(deadline);
+    if (!count && count.error() == shm::ReadError::empty) {
+        const auto first = next(deadline);
         if (!first) return state_of(first.error());
         scratch_.front() = *first;
         count = 1;
     }
     if (!count) return state_of(count.error());
     const auto end = scratch_.begin() + static_cast<std::ptrdiff_t>(*count);
-    out = std::make_shared<Lease>(shared_from_this(), std::vector<shm::RingRecord>(scratch_.begin(), end));
-    current_ = out;
+    pending_ = {std::make_shared<Lease>(shared_from_this(), std::vector<shm::RingRecord>(scratch_.begin(), end))};
+    current_ = pending_.lease;
     return State::found;
 }
 
-RingSource::State RingSource::copy(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out) {
+RingSource::State RingSource::copy(std::size_t most, MonoTime deadline) {
     std::vector<shm::RingRecord> records;
     std::vector<std::uint64_t> copies;
     while (records.size() < most && copies.size() * sizeof copies[0] < most_copied_bytes) {
-        const auto record = next(records.empty() ? deadline : MonoTime{});
+        const auto record = records.empty() ? next(deadline) : reader_.try_read();
         if (!record && records.empty()) return state_of(record.error());
         if (!record) break;
         records.push_back(*record);
         append(copies, record->data);
     }
     point_to(records, copies);
-    out = std::make_shared<Lease>(std::move(records), std::move(copies));
+    pending_ = {std::make_shared<Lease>(std::move(records), std::move(copies))};
     return State::found;
 }
 
 bool RingSource::release_current() {
     const auto lease = current_.lock();
-    return !lease || lease->release();
+    if (lease && !(taker_ == this_thread() ? lease->release() : lease->keep())) return false;
+    current_.reset();
+    return true;
 }
 
 bool RingSource::release(Lease& lease) {
@@ -133,9 +161,11 @@ bool RingSource::close() {
 
 bool RingSource::close_locked() {
     if (is_closed()) return true;
-    if (!release_current()) return false;
+    if (const auto lease = current_.lock(); lease && !lease->release()) return false;
     closed_.store(true, std::memory_order_relaxed);
+    pending_ = {};
     reader_.detach();
+    if (auto* const alarm = this->alarm()) alarm->tell();
     return true;
 }
 
@@ -146,6 +176,35 @@ void RingSource::abandon() {
 
 void RingSource::nobody_looks() {
     if (abandoned_.load() && fork_.is_here()) static_cast<void>(close());
+}
+
+// ---- for loops
+
+SetupResult<int> RingSource::event_fd() {
+    const std::lock_guard lock(making_alarm_);
+    if (!alarm_) {
+        auto made = RingAlarm::make(reader_.wake_word(), [this] { return nap(); });
+        if (!made) return tl::unexpected(std::move(made.error()));
+        alarm_ = std::move(*made);
+    }
+    return alarm_->fd();
+}
+
+RingAlarm* RingSource::alarm() {
+    const std::lock_guard lock(making_alarm_);
+    return alarm_.get();
+}
+
+void RingSource::arm() {
+    if (auto* const alarm = this->alarm()) alarm->arm();
+}
+
+Nanoseconds RingSource::nap() {
+    constexpr auto until_next_look = std::chrono::milliseconds{1};
+    const auto lock = turns_.try_take();
+    if (!lock.owns_lock()) return until_next_look;  // somebody reads
+    if (is_closed() || pending_.lease) return {};
+    return reader_.arm();
 }
 
 }  // namespace mavloom::python

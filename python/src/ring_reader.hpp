@@ -4,19 +4,22 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "looks.hpp"
 #include "mavloom/shm/ring_reader.hpp"
+#include "ring_alarm.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
 
 class RingSource;
 
-// Records that were read together: copies, or (lossless) views into the ring. Views end with the next read, and that must wait for those who look at
-// them. Immutable but for the count of these.
+// Records that were read together: copies, or (lossless) views into the ring. Views end with the next read of their thread, and that must wait for those
+// who look at them; before one of another thread they become copies, for theirs may be about to look. Immutable but for that.
 class Lease {
 public:
     Lease(std::shared_ptr<RingSource> source, std::vector<shm::RingRecord> records)
@@ -24,36 +27,68 @@ public:
     Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
         : records_(std::move(records)), copies_(std::move(copies)) {}
 
-    [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept { return records_; }
-    [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr; }
+    // Where the bytes are: look first, or they may move.
+    [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
+    [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr || kept_.load() == Kept::copies; }
     // Where the ring is; null for copies. Keeps it mapped.
     [[nodiscard]] const std::shared_ptr<RingSource>& source() const noexcept { return source_; }
 
-    // Whoever looks at the bytes does so between these two. False: they were released.
-    [[nodiscard]] bool look() noexcept;
+    // Whoever looks at the bytes does so between these two, but for copies of what was in the ring, which nobody ends.
+    enum class Look : std::uint8_t { refused, counted, free };
+    [[nodiscard]] Look look() noexcept;
     void look_away() noexcept;
+    // Whether this thread is not among those that looked, and only one other is.
+    [[nodiscard]] bool is_another_threads() const noexcept;
     // False: somebody looks. Success again and again.
-    [[nodiscard]] bool release() noexcept;
+    [[nodiscard]] bool release() noexcept { return looks_.finish(); }
+    // Makes copies of views, while the ring is held for them. False: somebody looks.
+    [[nodiscard]] bool keep();
 
 private:
-    static constexpr int released = -1;
+    enum class Kept : std::uint8_t { nothing, soon, copies };
 
     const std::shared_ptr<RingSource> source_;
     const std::vector<shm::RingRecord> records_;
-    const std::vector<std::uint64_t> copies_;
-    std::atomic<int> lookers_{0};
+    std::vector<std::uint64_t> copies_;
+    std::vector<shm::RingRecord> kept_records_;  // the same, in copies_
+    std::atomic<Kept> kept_{Kept::nothing};
+    Looks looks_;
+    std::atomic<std::uint64_t> looker_{0};  // the first
+    std::atomic<bool> has_several_lookers_{false};
+};
+
+// Some of a lease's records: those from `first` on.
+struct Portion {
+    std::shared_ptr<Lease> lease;
+    std::size_t first = 0;
 };
 
 class RingSource : public std::enable_shared_from_this<RingSource> {
 public:
     RingSource(shm::RingReader reader, bool lossless) : lossless_(lossless), reader_(std::move(reader)) {}
 
-    enum class State : std::uint8_t { found, nothing, no_writer, removed, damaged, forked, closed, looked_at };
-    // Up to `most` records, waiting until `deadline` or the end of a slice. Without the GIL. `nothing`: worth another call.
-    [[nodiscard]] State read(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    // The same without waiting, also with the GIL; `nothing` also while another thread reads.
-    [[nodiscard]] State poll(std::size_t most, std::shared_ptr<Lease>& out);
+    enum class State : std::uint8_t {
+        found,
+        nothing,
+        no_writer,
+        removed,
+        damaged,
+        forked,
+        closed,
+        looked_at,
+        used_elsewhere
+    };
+    // Reading is two steps, and what the first one found waits for the second, of whatever thread: a signal's handler may come between them.
+    // Up to `most` records, where none wait yet. Waits until `deadline` or the end of a slice, without the GIL; MonoTime{}: not at all. `nothing`: worth
+    // another call; it may have been another thread's turn. `used_elsewhere`: another thread looks at what was read last.
+    [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
+    // One of them, or all that are left of what was read together. `nothing`: another thread took them, or has its turn.
+    [[nodiscard]] State take(std::size_t most, Portion& out);
     void give_way() const { turns_.give_way(); }
+
+    // For loops: a descriptor, made at the first call, that `arm` lets become readable when there may be something to fetch, or nothing ever will.
+    [[nodiscard]] SetupResult<int> event_fd();
+    void arm();
 
     // Ends the views of a lease, and tells the writer. False: somebody looks.
     [[nodiscard]] bool release(Lease& lease);
@@ -74,12 +109,17 @@ public:
     [[nodiscard]] bool is_removed() const noexcept { return reader_.is_retired() || !reader_.is_named(); }
 
 private:
-    [[nodiscard]] State read_locked(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    [[nodiscard]] State view(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
-    [[nodiscard]] State copy(std::size_t most, MonoTime deadline, std::shared_ptr<Lease>& out);
+    // All of these with turns_ held.
+    [[nodiscard]] State fill(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State view(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State copy(std::size_t most, MonoTime deadline);
     [[nodiscard]] shm::ReadResult<shm::RingRecord> next(MonoTime deadline);
     [[nodiscard]] bool release_current();
     [[nodiscard]] bool close_locked();
+
+    // For the alarm: without waiting for a turn.
+    [[nodiscard]] Nanoseconds nap();
+    [[nodiscard]] RingAlarm* alarm();
 
     const BeforeFork fork_;
     const bool lossless_;
@@ -88,8 +128,13 @@ private:
     std::atomic<std::uint64_t> missed_{0};
     // Guarded by turns_, but for its const members.
     shm::RingReader reader_;
+    Portion pending_;                       // was fetched, and not taken yet
     std::weak_ptr<Lease> current_;          // of a lossless reader: what it holds
+    std::uint64_t taker_ = 0;               // of that; none where several took of it
     std::vector<shm::RingRecord> scratch_;  // likewise: where batches are read to
+
+    std::mutex making_alarm_;
+    std::unique_ptr<RingAlarm> alarm_;  // made under that mutex, and never changed
 };
 
 }  // namespace mavloom::python

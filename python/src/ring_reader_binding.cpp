@@ -19,25 +19,30 @@ namespace mavloom::python {
 namespace {
 
 constexpr std::size_t most_in_batch = 1024;
+constexpr auto look_again = std::chrono::microseconds{100};  // whether another thread still looks at what it read
+constexpr auto longest_patience = std::chrono::seconds{10};  // with one that does not stop
 
 // ---- what is given out
 
 class View {
 public:
-    View(std::shared_ptr<Lease> lease, ByteView bytes) : bytes_(bytes) {
+    // `bytes_of(lease)`: what is looked at, asked once it cannot move any more.
+    template <class BytesOf>
+    View(std::shared_ptr<Lease> lease, BytesOf bytes_of) {
         if (!lease->is_copy()) lease->source()->fork().check();
-        if (!lease->look())
+        const auto look = lease->look();
+        if (look == Lease::Look::refused)
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
+        is_counted_ = look == Lease::Look::counted;
         lease_ = std::move(lease);
+        bytes_ = bytes_of(*lease_);
         if (holds()) return;
-        std::exchange(lease_, nullptr)->look_away();
+        end();
         raise_taken_away();
     }
     View(View&& other) noexcept = default;
     View& operator=(View&&) = delete;
-    ~View() {
-        if (lease_) lease_->look_away();
-    }
+    ~View() { end(); }
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
     // What was copied counts only if this comes behind it.
     void check() const {
@@ -46,11 +51,15 @@ public:
 
 private:
     [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->source()->holds(); }
+    void end() noexcept {
+        if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
+    }
     [[noreturn]] static void raise_taken_away() {
         raise_error("the writer took the record away from this reader (it evicts who is slow)");
     }
 
     std::shared_ptr<Lease> lease_;
+    bool is_counted_ = false;
     ByteView bytes_;
 };
 
@@ -88,13 +97,16 @@ PyType_Slot view_slots[] = {
 
 class Record {
 public:
-    Record(std::shared_ptr<Lease> lease, std::size_t index) : lease_(std::move(lease)), index_(index) {}
+    explicit Record(Portion taken) : lease_(std::move(taken.lease)), index_(taken.first) {}
 
     [[nodiscard]] const shm::RingRecord& get() const noexcept { return lease_->records()[index_]; }
-    [[nodiscard]] nb::object view() const { return nb::cast(View(lease_, get().data)); }
+    [[nodiscard]] View look() const {
+        return View(lease_, [this](const Lease& lease) { return lease.records()[index_].data; });
+    }
+    [[nodiscard]] nb::object view() const { return nb::cast(look()); }
     [[nodiscard]] nb::object data() const {
         if (!lease_->is_copy()) return nb::steal(PyMemoryView_FromObject(view().ptr()));
-        const View view(lease_, get().data);
+        const View view = look();
         return nb::bytes(view.bytes().data(), view.bytes().size());
     }
 
@@ -121,16 +133,15 @@ PyType_Slot record_slots[] = {
 
 class Batch {
 public:
-    // The lease's records from `first` on.
-    Batch(std::shared_ptr<Lease> lease, std::size_t first, std::shared_ptr<RingSource> source)
-        : lease_(std::move(lease)), first_(first), source_(std::move(source)) {}
+    Batch(Portion taken, std::shared_ptr<RingSource> source)
+        : lease_(std::move(taken.lease)), first_(taken.first), source_(std::move(source)) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return records().size(); }
     [[nodiscard]] Record at(Py_ssize_t index) const {
         const auto count = static_cast<Py_ssize_t>(size());
         if (index < 0) index += count;
         if (index < 0 || index >= count) throw nb::index_error(fmt::format("a batch of {} records", count).c_str());
-        return {lease_, first_ + static_cast<std::size_t>(index)};
+        return Record({lease_, first_ + static_cast<std::size_t>(index)});
     }
     void release() {
         fork_.check();
@@ -144,15 +155,16 @@ public:
     [[nodiscard]] nb::object array(const nb::object& dtype) const {
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
+        const View view(lease_, [](const Lease&) { return ByteView(); });
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
         const auto records = this->records();
         if (const auto stride = distance()) {
             const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
-            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, all)), "u1");
+            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, [&](const Lease&) { return all; })),
+                                                              "u1");
             return numpy.attr("ndarray")(nb::arg("shape") = size(), nb::arg("dtype") = type, nb::arg("buffer") = bytes,
                                          nb::arg("strides") = nb::make_tuple(*stride));
         }
-        const View view(lease_, {});
         std::vector<std::uint8_t> copy;
         copy.reserve(size() * records.front().data.size());
         for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
@@ -199,6 +211,8 @@ shm::ReaderOptions options_of(bool lossless, const std::string& start) {
 }
 
 class PyRingReader {
+    using State = RingSource::State;
+
 public:
     PyRingReader(const std::string& name, bool lossless, const std::string& start) {
         auto opened = [&, options = options_of(lossless, start)] {
@@ -213,41 +227,41 @@ public:
     PyRingReader(const PyRingReader&) = delete;
     PyRingReader& operator=(const PyRingReader&) = delete;
 
-    // Null: nothing came in time, or nothing comes because nobody writes.
-    [[nodiscard]] std::shared_ptr<Lease> take(std::size_t most, MonoTime deadline) {
-        std::shared_ptr<Lease> lease;
-        // One record costs less than letting go of the GIL.
-        State state = most == 1 ? source_->poll(most, lease) : State::nothing;
-        if (lease) check_signals_keeping(lease);
-        for (bool first = most != 1; state == State::nothing && (first || mono_now() < deadline); first = false) {
-            {
-                const WithoutGil outside;
-                source_->give_way();
-                state = source_->read(most, deadline, lease);
-            }
-            check_signals_keeping(lease);
-        }
+    // Empty: nothing came in time, or nothing comes because nobody writes.
+    [[nodiscard]] Portion take(std::size_t most, MonoTime deadline) {
+        Portion taken;
+        check(take(most, deadline, taken));
+        return taken;
+    }
+    // Empty: the descriptor tells when to ask again.
+    [[nodiscard]] Portion poll(std::size_t most) {
+        Portion taken;
+        const State state = take(most, MonoTime{}, taken);
         check(state);
-        return lease;
+        if (state == State::removed || (state == State::no_writer && source_->is_removed()))
+            raise_closed(fmt::format("ring {} was removed or replaced: open it again", source_->name()));
+        if (!taken.lease) source_->arm();
+        return taken;
+    }
+    [[nodiscard]] int event_fd() {
+        static_cast<void>(open());
+        return value_or_raise(source_->event_fd());
     }
 
     // None where there is no record.
-    [[nodiscard]] nb::object read(MonoTime deadline) {
-        if (is_pending()) return read_pending();
-        auto lease = take(1, deadline);
-        return lease ? nb::cast(Record(std::move(lease), 0)) : nb::none();
-    }
+    [[nodiscard]] nb::object read(MonoTime deadline) { return record_or_none(take(1, deadline)); }
+    [[nodiscard]] nb::object poll_record() { return record_or_none(poll(1)); }
     [[nodiscard]] nb::object next() {
         auto record = read(MonoTime::max());
         if (record.is_none()) throw nb::stop_iteration();
         return record;
     }
     [[nodiscard]] nb::object next_batch(MonoTime deadline) {
-        const std::size_t first = is_pending() ? pending_first_ : 0;
-        auto lease = is_pending() ? std::exchange(pending_, nullptr) : take(most_in_batch, deadline);
-        if (!lease) throw nb::stop_iteration();
-        return nb::cast(Batch(std::move(lease), first, source_));
+        auto batch = batch_or_none(take(most_in_batch, deadline));
+        if (batch.is_none()) throw nb::stop_iteration();
+        return batch;
     }
+    [[nodiscard]] nb::object poll_batch() { return batch_or_none(poll(most_in_batch)); }
 
     void close() {
         if (!fork_.is_here()) return;
@@ -256,7 +270,6 @@ public:
             return source_->close();
         }();
         if (!closed) check(State::looked_at);
-        pending_ = nullptr;
     }
 
     [[nodiscard]] const RingSource& open() const {
@@ -267,26 +280,30 @@ public:
     [[nodiscard]] const RingSource& source() const noexcept { return *source_; }
 
 private:
-    using State = RingSource::State;
-
-    // A signal's handler that raises must not cost what was read meanwhile: the next read gives it.
-    void check_signals_keeping(std::shared_ptr<Lease>& lease) {
-        if (PyErr_CheckSignals() == 0) return;
-        if (lease) {
-            pending_ = std::move(lease);
-            pending_first_ = 0;
-        }
-        throw nb::python_error();
-    }
-    [[nodiscard]] bool is_pending() const {
+    [[nodiscard]] State take(std::size_t most, MonoTime deadline, Portion& taken) {
         fork_.check();
-        return pending_ != nullptr;
+        // One record costs less than letting go of the GIL.
+        State state = most == 1 ? source_->fetch(most, MonoTime{}) : State::nothing;
+        MonoTime patient_until{};
+        for (bool first = most != 1;; first = false) {
+            check_signals();  // what a handler that raises, or reads, finds here is not in hand yet
+            if (state == State::found) state = source_->take(most, taken);
+            const bool is_used = state == State::used_elsewhere;
+            if ((state != State::nothing && !is_used) || !(first || mono_now() < deadline)) return state;
+            if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
+            if (is_used && mono_now() >= patient_until) return state;
+            const WithoutGil outside;
+            source_->give_way();
+            if (is_used) std::this_thread::sleep_for(look_again);
+            state = source_->fetch(most, deadline);
+        }
     }
-    [[nodiscard]] nb::object read_pending() {
-        const auto lease = pending_;
-        const std::size_t index = pending_first_++;
-        if (pending_first_ == lease->records().size()) pending_ = nullptr;
-        return nb::cast(Record(lease, index));
+
+    [[nodiscard]] static nb::object record_or_none(Portion taken) {
+        return taken.lease ? nb::cast(Record(std::move(taken))) : nb::none();
+    }
+    [[nodiscard]] nb::object batch_or_none(Portion taken) const {
+        return taken.lease ? nb::cast(Batch(std::move(taken), source_)) : nb::none();
     }
 
     void check(State state) const {
@@ -299,6 +316,7 @@ private:
             case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", source_->name()));
             case State::forked: raise_closed("opened before fork: open it again in this process");
             case State::looked_at:
+            case State::used_elsewhere:
                 raise_buffer(
                     "a view of the last record or batch is still alive (a memoryview, or an array made of one): "
                     "release or delete it first");
@@ -311,8 +329,6 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<RingSource> source_;
-    std::shared_ptr<Lease> pending_;  // was read and not given out, from pending_first_ on; with the GIL
-    std::size_t pending_first_ = 0;
 };
 
 class Batches {
@@ -323,6 +339,16 @@ public:
     [[nodiscard]] nb::object next() const {
         if (!holder_.is_valid()) throw nb::stop_iteration();
         return reader_->next_batch(deadline_after(timeout_));
+    }
+    [[nodiscard]] nb::object poll() const { return holder_.is_valid() ? reader_->poll_batch() : nb::none(); }
+    [[nodiscard]] int event_fd() const {
+        if (!holder_.is_valid()) throw nb::stop_iteration();
+        return reader_->event_fd();
+    }
+    // Seconds, or None.
+    [[nodiscard]] nb::object timeout() const {
+        if (!timeout_) return nb::none();
+        return nb::cast(std::chrono::duration<double>(*timeout_).count());
     }
     [[nodiscard]] PyObject* holder() const noexcept { return holder_.ptr(); }
     void clear() noexcept { holder_.reset(); }
@@ -356,6 +382,7 @@ auto of_record(Of of) {
 }
 
 nb::object itself(nb::handle self) { return nb::borrow(self); }
+nb::module_ asynchronous() { return nb::module_::import_("mavloom._async"); }
 
 void bind_record(nb::module_& module) {
     nb::class_<View>(module, "RecordView", nb::type_slots(view_slots), nb::is_final(), "Bytes of records, as a buffer.");
@@ -405,7 +432,14 @@ void bind_batch(nb::module_& module) {
              "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
     nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(), "Iterator over batches.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
-        .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"));
+        .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"))
+        .def(
+            "__aiter__",
+            [](nb::handle self) { return asynchronous().attr("batches")(self, nb::inst_ptr<Batches>(self)->timeout()); },
+            nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[RecordBatch, None]"),
+            "As iteration, but nobody's writing does not end it: the time-out does, the ring's removal, and closing.")
+        .def("poll", &Batches::poll, nb::sig("def poll(self) -> RecordBatch | None"), "As RingReader.poll.")
+        .def("event_fd", &Batches::event_fd);
 }
 
 }  // namespace
@@ -421,7 +455,8 @@ void bind_ring_reader(nb::module_& module) {
                              "the writer may not pass them. `start`: `newest` reads what comes from now on, `oldest` "
                              "what the ring holds, too. "
                              "Iterate over records until nobody writes any more.\n"
-                             "Any thread; two that read take turns.")
+                             "Any thread: those that share it take turns, each record is one's, and a read of one does "
+                             "not end what another got.")
         .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
              "start"_a = "newest",
              nb::sig(
@@ -444,6 +479,17 @@ void bind_ring_reader(nb::module_& module) {
             "`read` does; ends where `read` gives None.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RingReader"))
         .def("__next__", &PyRingReader::next, nb::sig("def __next__(self) -> Record"))
+        .def(
+            "__aiter__", [](nb::handle self) { return asynchronous().attr("records")(self); },
+            nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Record, None]"),
+            "On asyncio, one task at a time: waits on where nobody writes, for the next writer carries on in the ring; "
+            "ends with its removal, and with close().")
+        .def("event_fd", &PyRingReader::event_fd,
+             "For loops of your own: a descriptor that becomes readable when `poll()`, which gave None, is worth "
+             "another call. Read its 8 bytes first; the reader closes it.")
+        .def("poll", &PyRingReader::poll_record, nb::sig("def poll(self) -> Record | None"),
+             "The next record, or None where there is none yet. ClosedError when all is read and nothing will come: "
+             "the ring was removed.")
         .def("close", &PyRingReader::close,
              "Gives the ring back; BufferError while a view is alive. May be called again, later reads raise "
              "ClosedError.")

@@ -14,6 +14,7 @@
 #include "errors.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/shm/ring_info.hpp"
+#include "ring_claim.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -36,6 +37,12 @@ T in_range(const char* what, std::int64_t value) {
 
 }  // namespace
 
+shm::RecordInfo record_info(std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
+                            std::int64_t verdict) {
+    return {time_ns ? WallTime{Nanoseconds{*time_ns}} : wall_now(), LinkId{in_range<std::uint32_t>("link", link)},
+            in_range<std::uint16_t>("kind", kind), in_range<std::uint8_t>("verdict", verdict)};
+}
+
 PyRingWriter::PyRingWriter(const std::string& name, std::int64_t capacity, const std::string& full, std::int64_t mode)
     : name_(name), when_full_(policy_of(full)) {
     const shm::RingOptions options{.capacity = static_cast<std::uint64_t>(std::max<std::int64_t>(capacity, 0)),
@@ -50,19 +57,24 @@ PyRingWriter::PyRingWriter(const std::string& name, std::int64_t capacity, const
     created_ = writer_->created();
 }
 
-void PyRingWriter::check() const {
+void PyRingWriter::check_open() const {
     fork_.check();
     if (closed_) raise_closed(fmt::format("the writer of ring {} is closed", name_));
+}
+
+void PyRingWriter::check() const {
+    check_open();
+    if (const auto claimer = claimer_.load(); claimer != 0 && claimer == this_thread())
+        raise_buffer(fmt::format("a claim of the writer of ring {} is open: commit or abandon it first", name_));
 }
 
 bool PyRingWriter::write(const nb::object& data, std::optional<std::int64_t> time_ns, std::int64_t link,
                          std::int64_t kind, std::int64_t verdict) {
     check();
     const Buffer bytes(data);
-    const shm::RecordInfo info{time_ns ? WallTime{Nanoseconds{*time_ns}} : wall_now(),
-                               LinkId{in_range<std::uint32_t>("link", link)}, in_range<std::uint16_t>("kind", kind),
-                               in_range<std::uint8_t>("verdict", verdict)};
+    const auto info = record_info(time_ns, link, kind, verdict);
     for (;;) {
+        let_claim_end();
         const auto written = put_or_wait(bytes.bytes(), info);
         if (written) return true;
         if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
@@ -74,7 +86,7 @@ bool PyRingWriter::write(const nb::object& data, std::optional<std::int64_t> tim
 }
 
 shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::RecordInfo& info) {
-    if (const auto lock = turns_.try_take(); lock.owns_lock()) {
+    if (const auto lock = turns_.try_take(); lock.owns_lock() && !claim_) {
         const auto written = put_locked(data, info, MonoTime{});
         if (written || written.error() != shm::WriteError::full || !waits()) return written;
     }
@@ -83,9 +95,17 @@ shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::Recor
 }
 
 shm::WriteResult<void> PyRingWriter::put(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
-    const auto lock = waits() ? turns_.take_until(deadline) : turns_.take();
+    auto lock = turn(deadline);
+    while (!lock.owns_lock() && !waits()) lock = turn(MonoTime::max());  // `full` would say that it was dropped
     if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
     return put_locked(data, info, deadline);
+}
+
+Turns::Lock PyRingWriter::turn(MonoTime deadline) {
+    auto lock = turns_.take_until(deadline);
+    if (lock.owns_lock() && !claim_ended_.wait_until(lock, end_of_slice(deadline), [&] { return !claim_; }))
+        lock.unlock();
+    return lock;
 }
 
 shm::WriteResult<void> PyRingWriter::put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
@@ -96,22 +116,118 @@ shm::WriteResult<void> PyRingWriter::put_locked(ByteView data, const shm::Record
 void PyRingWriter::raise(shm::WriteError error, std::size_t length) const {
     if (error == shm::WriteError::too_long)
         raise_usage(fmt::format("{} bytes: a record of ring {} has at most {}", length, name_, longest_));
-    check();
+    check_open();
     if (error == shm::WriteError::removed)
         raise_closed(fmt::format("ring {} was removed or replaced: open it again", name_));
     raise_closed(std::string(shm::to_text(error)));
 }
 
-void PyRingWriter::close(bool remove) {
-    if (!fork_.is_here()) return;
-    closed_ = true;
-    bool comes_late = false;
-    auto closed = [&] {
+// ---- claims
+
+void PyRingWriter::let_claim_end() {
+    while (claimer_.load() != 0) {
+        {
+            const WithoutGil outside;
+            static_cast<void>(turn(MonoTime::max()));
+        }
+        check_signals();
+        check();
+    }
+}
+
+std::shared_ptr<Claimed> PyRingWriter::claim(std::size_t length) {
+    for (;;) {
+        check();
+        let_claim_end();
+        auto claimed = claim_or_wait(length);
+        if (claimed) return std::move(*claimed);
+        if (claimed.error() != shm::WriteError::full) raise(claimed.error(), length);
+        turns_.give_way();
+        check_signals();
+    }
+}
+
+shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_or_wait(std::size_t length) {
+    if (const auto lock = turns_.try_take(); lock.owns_lock() && !claim_) {
+        auto claimed = claim_locked(length, MonoTime{});
+        if (claimed || claimed.error() != shm::WriteError::full) return claimed;
+    }
+    const WithoutGil outside;
+    const auto deadline = mono_now() + longest_slice;
+    const auto lock = turn(deadline);
+    if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
+    return claim_locked(length, deadline);
+}
+
+shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_locked(std::size_t length, MonoTime deadline) {
+    if (!writer_) return tl::unexpected(shm::WriteError::removed);
+    const auto room = writer_->claim(length, deadline);
+    if (!room && room.error() == shm::WriteError::full && !waits()) return std::make_shared<Claimed>(length);
+    if (!room) return tl::unexpected(room.error());
+    claim_ = std::make_shared<Claimed>(*room);
+    claimer_ = this_thread();
+    return claim_;
+}
+
+bool PyRingWriter::commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length) {
+    fork_.check();
+    const Committed committed = [&] {
+        if (const auto lock = turns_.try_take(); lock.owns_lock()) return commit_locked(claimed, info, length);
         const WithoutGil outside;
         const auto lock = turns_.take();
+        return commit_locked(claimed, info, length);
+    }();
+    if (committed == Committed::over) raise_over();
+    if (committed == Committed::looked_at) raise_looked_at();
+    return committed == Committed::yes;
+}
+
+PyRingWriter::Committed PyRingWriter::commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length) {
+    if (!claimed.is_dropped && claim_.get() != &claimed) return Committed::over;
+    if (!claimed.looks.finish()) return Committed::looked_at;
+    if (claimed.is_dropped) return Committed::dropped;
+    writer_->commit(info, length);
+    end_claim();
+    return Committed::yes;
+}
+
+void PyRingWriter::raise_looked_at() {
+    raise_buffer("a view of the claim is still alive (a slice, or an array made of it): release or delete it first");
+}
+void PyRingWriter::raise_over() { raise_closed("the claim is over: it was committed or given up"); }
+
+void PyRingWriter::give_up(Claimed& claimed) noexcept {
+    claimed.given_up.store(true);
+    nobody_looks(claimed);
+}
+
+// While a claim is open the lock is held for moments only, and by nobody who needs the GIL.
+void PyRingWriter::nobody_looks(Claimed& claimed) noexcept {
+    if (!claimed.given_up.load() || !fork_.is_here() || !claimed.looks.finish()) return;
+    const auto lock = turns_.take();
+    if (claim_.get() == &claimed) end_claim();
+}
+
+void PyRingWriter::end_claim() noexcept {
+    claim_.reset();
+    claimer_ = 0;
+    claim_ended_.notify_all();
+}
+
+void PyRingWriter::close(bool remove) {
+    if (!fork_.is_here()) return;
+    bool comes_late = false, is_filled = false;
+    auto closed = [&]() -> SetupResult<void> {
+        const WithoutGil outside;
+        const auto lock = turns_.take();
+        is_filled = claim_ && !claim_->looks.finish();
+        if (is_filled) return {};
+        end_claim();
+        closed_ = true;
         comes_late = remove && !writer_ && !removed_;
         return close_locked(remove);
     }();
+    if (is_filled) raise_looked_at();
     if (comes_late)
         raise_closed(fmt::format("the writer of ring {} was closed and left the ring: remove_ring takes it away", name_));
     value_or_raise(std::move(closed));
@@ -134,7 +250,7 @@ void PyRingWriter::note_counters() {
 }
 
 bool PyRingWriter::is_removed() {
-    check();
+    check_open();
     const WithoutGil outside;
     const auto lock = turns_.take();
     return !writer_ || writer_->is_removed();
@@ -158,6 +274,7 @@ std::uint64_t PyRingWriter::dropped() {
 
 void bind_ring_writer(nb::module_& module) {
     using namespace nb::literals;
+    bind_ring_claim(module);
     nb::class_<PyRingWriter>(
         module, "RingWriter", nb::is_final(),
         "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "
@@ -188,6 +305,15 @@ void bind_ring_writer(nb::module_& module) {
             "while lossless readers hold the ring. False: the record was left out, and counted in `dropped` (only with "
             "full=\"drop_newest\"). ClosedError once the ring\n"
             "was removed.")
+        .def("claim", &claim_room, "length"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0, "kind"_a = 0,
+             "verdict"_a = 0,
+             nb::sig("def claim(self, length: int, *, time_ns: int | None = None, link: int = 0, kind: int = 0, "
+                     "verdict: int "
+                     "= 0) -> RingClaim"),
+             "Room for one record of up to `length` bytes, to be filled in place: `with writer.claim(n) as view` "
+             "commits "
+             "it at the end of the block. Waits for room as `write` does. One\n"
+             "claim is open at a time: other threads wait, its own gets BufferError from all that writes.")
         .def(
             "close", &PyRingWriter::close, "remove"_a = false,
             "Ends writing; may be called again. With `remove` the ring goes too: its readers read what is left and are "

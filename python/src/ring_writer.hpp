@@ -4,13 +4,34 @@
 
 #include <nanobind/nanobind.h>
 
+#include <atomic>
+#include <condition_variable>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "looks.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
+
+// Room in the ring that is being filled; or, where a full ring drops the record, memory that is thrown away.
+struct Claimed {
+    explicit Claimed(ByteSpan room) : bytes(room) {}
+    explicit Claimed(std::size_t length) : thrown_away(length), bytes(thrown_away), is_dropped(true) {}
+
+    std::vector<std::uint8_t> thrown_away;
+    const ByteSpan bytes;
+    const bool is_dropped = false;
+    Looks looks;
+    std::atomic<bool> given_up{false};
+};
+
+// As users give it: now unless a time is given; UsageError for what is out of range.
+[[nodiscard]] shm::RecordInfo record_info(std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
+                                          std::int64_t verdict);
 
 class PyRingWriter {
 public:
@@ -20,6 +41,17 @@ public:
     bool write(const nb::object& data, std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
                std::int64_t verdict);
     void close(bool remove);
+
+    // Room for one record. One is open at a time: other threads wait until it is committed or given up, and its own gets BufferError from all that writes.
+    [[nodiscard]] std::shared_ptr<Claimed> claim(std::size_t length);
+    // Publishes the first `length` bytes; false: dropped. BufferError while somebody looks at them, ClosedError for a claim that is over.
+    bool commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
+    // At once, or as soon as nobody looks.
+    void give_up(Claimed& claimed) noexcept;
+    void nobody_looks(Claimed& claimed) noexcept;
+
+    [[noreturn]] static void raise_over();
+    [[noreturn]] static void raise_looked_at();
 
     // Without the GIL: waits for room until `deadline`. `removed` once it is closed.
     [[nodiscard]] shm::WriteResult<void> put(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
@@ -33,9 +65,20 @@ public:
     [[nodiscard]] bool is_removed();
     [[nodiscard]] std::uint64_t records();
     [[nodiscard]] std::uint64_t dropped();
-    void check() const;  // raises ClosedError
+    // Raises ClosedError; BufferError where this thread has a claim open.
+    void check() const;
 
 private:
+    void check_open() const;
+    // The turn to write, with no claim open; not owned: not yet, or not before the deadline.
+    [[nodiscard]] Turns::Lock turn(MonoTime deadline);
+    // With the GIL. Until no other thread's claim is open.
+    void let_claim_end();
+    [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);
+    [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_locked(std::size_t length, MonoTime deadline);
+    enum class Committed : std::uint8_t { yes, dropped, over, looked_at };
+    [[nodiscard]] Committed commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
+    void end_claim() noexcept;
     // With the GIL, which is let go where there is no room at once, for a slice at most.
     [[nodiscard]] shm::WriteResult<void> put_or_wait(ByteView data, const shm::RecordInfo& info);
     [[nodiscard]] shm::WriteResult<void> put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
@@ -48,9 +91,12 @@ private:
     std::size_t longest_ = 0;
     bool created_ = false;
     Turns turns_;
+    std::condition_variable_any claim_ended_;
+    std::atomic<std::uint64_t> claimer_{0};  // whose thread's claim is open; set with turns_ held
     std::atomic<bool> closed_{false};
     // Guarded by turns_.
     std::optional<shm::RingWriter> writer_;  // empty once closed
+    std::shared_ptr<Claimed> claim_;         // that is open
     bool removed_ = false;                   // with the ring
     std::uint64_t records_ = 0, dropped_ = 0;
 };

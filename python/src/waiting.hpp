@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -29,6 +30,13 @@ inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 [[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);
 [[nodiscard]] inline MonoTime deadline_after(const nb::object& timeout) { return deadline_after(timeout_of(timeout)); }
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
+
+// Never 0, and never another thread's, as a std::thread::id may be once its thread has ended.
+[[nodiscard]] inline std::uint64_t this_thread() noexcept {
+    static std::atomic<std::uint64_t> threads{0};
+    thread_local const std::uint64_t number = threads.fetch_add(1, std::memory_order_relaxed) + 1;
+    return number;
+}
 
 // Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.
 class BeforeFork {

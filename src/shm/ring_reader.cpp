@@ -168,7 +168,8 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
 }
 
 Nanoseconds RingReader::arm() noexcept {
-    if (forked() || !slot_) return poll_distance;
+    if (forked()) return poll_distance;
+    if (!slot_) return consumer_.more_waits() ? Nanoseconds{} : poll_distance;
     const MonoTime now = mono_now();
     if (waiting_since_ == MonoTime{}) waiting_since_ = now;
     const bool asks = now >= waiting_since_ + detail::wake_distance;  // see Consumer::sleep()

@@ -29,9 +29,12 @@ struct Watched {
     std::uint32_t seen = 0;  // of what came up to here it is decided whether it is told
 };
 
-[[nodiscard]] bool sleep_on_all(std::span<futex_waitv> words) noexcept {
-    const auto woken = ::syscall(SYS_futex_waitv, words.data(), static_cast<unsigned>(words.size()), 0u, nullptr,
-                                 CLOCK_MONOTONIC);
+[[nodiscard]] bool sleep_on_all(std::span<futex_waitv> words, MonoTime until) noexcept {
+    const auto since_epoch = until.time_since_epoch();
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
+    const timespec end{seconds.count(), (since_epoch - seconds).count()};
+    const auto woken = ::syscall(SYS_futex_waitv, words.data(), static_cast<unsigned>(words.size()), 0u,
+                                 until == MonoTime::max() ? nullptr : &end, CLOCK_MONOTONIC);
     return woken >= 0 || (errno != ENOSYS && errno != EPERM);
 }
 
@@ -62,6 +65,14 @@ public:
         interrupt();
     }
     void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
+    void arm_until(MonoTime due) noexcept {
+        arm();
+        MonoTime before = due_.load(std::memory_order_relaxed);
+        do
+            if (before <= due) return;
+        while (!due_.compare_exchange_weak(before, due, std::memory_order_relaxed));
+        interrupt();
+    }
     void disarm() noexcept { armed_.store(false, std::memory_order_relaxed); }
 
 private:
@@ -78,7 +89,7 @@ private:
                 const std::lock_guard lock(mutex_);
                 if (next_) rings_ = std::move(*std::exchange(next_, std::nullopt));
             }
-            if (look()) tell();
+            if (look() | is_due()) tell();
             if (!ends_.load(std::memory_order_relaxed)) sleep(changes);
         }
     }
@@ -89,6 +100,12 @@ private:
         for (auto& [word, seen] : rings_) changed |= std::exchange(seen, word->load(std::memory_order_seq_cst)) != seen;
         return changed;
     }
+    bool is_due() noexcept {
+        MonoTime due = due_.load(std::memory_order_relaxed);
+        if (due == MonoTime::max() || mono_now() < due) return false;
+        due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_relaxed);  // another is earlier, and due too
+        return true;
+    }
     void tell() {
         if (armed_.exchange(false, std::memory_order_seq_cst)) wake_();
     }
@@ -98,14 +115,16 @@ private:
         std::size_t count = 0;
         words[count++] = sleep_on(changes_, changes);
         for (const auto& [word, seen] : rings_) words[count++] = sleep_on(*word, seen);
-        if (waits_for_all_ && (waits_for_all_ = sleep_on_all(std::span(words).first(count)))) return;
-        if (rings_.empty()) SharedWords::sleep(changes_, changes, nap_of_one);
-        else
-            SharedWords::sleep(*rings_.front().word, rings_.front().seen, rings_.size() == 1 ? nap_of_one : nap_of_many);
+        const MonoTime due = due_.load(std::memory_order_relaxed);
+        if (waits_for_all_ && (waits_for_all_ = sleep_on_all(std::span(words).first(count), due))) return;
+        const Nanoseconds nap = std::min(rings_.size() > 1 ? nap_of_many : nap_of_one, due - mono_now());
+        if (rings_.empty()) SharedWords::sleep(changes_, changes, nap);
+        else SharedWords::sleep(*rings_.front().word, rings_.front().seen, nap);
     }
 
     const std::function<void()>& wake_;
     std::atomic<bool> ends_{false}, armed_{false};
+    std::atomic<MonoTime> due_{MonoTime::max()};
     SharedWords::Word32 changes_{0};
     std::mutex mutex_;
     std::optional<std::vector<Watched>> next_;  // guarded by mutex_
@@ -130,6 +149,10 @@ void RingWaiter::watch(std::vector<WakeWord> rings) {
 
 void RingWaiter::arm() noexcept {
     if (thread_) thread_->arm();
+}
+
+void RingWaiter::arm(Nanoseconds longest) noexcept {
+    if (thread_) thread_->arm_until(mono_now() + longest);
 }
 
 void RingWaiter::disarm() noexcept {

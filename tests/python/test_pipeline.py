@@ -157,6 +157,17 @@ def test_the_script_ends_when_the_port_is_taken(start, ring, ground, flight):
     assert done.status == 1 and "in use" in done.stderr, done
 
 
+def test_the_script_ends_with_ctrl_c_at_its_terminal(start, ring, port, ground):
+    """A signal to all of its processes: the relay ends, mavloom.hear was started to ignore it, and the script ends that, which still says what it heard."""
+    script = start(SCRIPT, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=f"udpin://127.0.0.1:{port}", RING=ring,
+                   TO=f"udpout://127.0.0.1:{ground.getsockname()[1]}")
+    script.wait_output("writing to ring", stream="err")
+    os.killpg(script.pid, signal.SIGINT)
+    done = script.wait()
+
+    assert done.status == 130 and "0 frames heard" in done.stderr, done
+
+
 @pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_the_script_ends_with_a_signal(start, ring, port, ground, number, status):
     script = start(SCRIPT, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=f"udpin://127.0.0.1:{port}", RING=ring,

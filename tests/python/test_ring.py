@@ -1,9 +1,20 @@
 # SPDX-License-Identifier: MIT
 """RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory listed in docs/guide/python.md; other rows
-and examples: the wishes there."""
+and examples: the wishes there. What is not here, or not all of it:
+
+    3.4, 3.6  a writer killed at each step of a commit   tests/system/test_shm.py, test_a_writer_killed_at_each_step_of_a_commit and ..._at_a_thousand_random_instants
+    3.8       across PID namespaces                      tests/system/test_shm.py, test_locks_are_seen_from_another_pid_namespace
+    3.11      `shm remove` names the owner               tests/system/test_shm.py, test_another_user
+    3.15      counts only; what it costs the others in time is for measurements, not for tests
+    3.18      all schedules of a few operations          tests/unit/shm/ring_schedules_test.cpp, and threads under ThreadSanitizer: ring_threads_test.cpp
+    3.21      the thread behind descriptors by itself    tests/unit/shm/ring_waiter_test.cpp
+"""
+import asyncio
+import concurrent.futures
 import contextlib
 import ctypes
 import gc
+import io
 import json
 import os
 import pathlib
@@ -12,6 +23,7 @@ import signal
 import socket
 import stat
 import struct
+import selectors
 import subprocess
 import sys
 import threading
@@ -369,6 +381,206 @@ with mavloom.RingWriter(ring, capacity=1 << 22, full="evict") as writer:
         batch.release()
 
 
+# ---- claims: records that are filled in place
+
+def test_a_claim_is_filled_and_committed(writer, ring):
+    reader = mavloom.RingReader(ring)
+    before = time.time_ns()
+    with writer.claim(4, link=3, kind=300, verdict=2) as view:
+        assert (len(view), view.readonly, view.format, reader.read(0)) == (4, False, "B", None)
+        view[:] = b"abcd"
+    record = reader.read(0)
+    assert (record.data, record.link, record.kind, record.verdict) == (b"abcd", 3, 300, 2) and before <= record.time_ns <= time.time_ns()
+    with writer.claim(24, time_ns=7) as view:
+        numpy.frombuffer(view, "<f8")[:] = 1, 2, 3
+    claim = writer.claim(100)
+    struct.pack_into("<I", claim.data, 0, 42)
+    assert claim.commit(4, time_ns=9) is True
+    with writer.claim(0):
+        pass
+    with writer.claim(10) as view, io.BytesIO(b"12345") as file:
+        claim_of_ten = file.readinto(view)
+    assert [(r.data, r.time_ns) for r in (reader.read(0), reader.read(0))] == [(struct.pack("<3d", 1, 2, 3), 7), (struct.pack("<I", 42), 9)]
+    assert reader.read(0).data == b"" and reader.read(0).data[:claim_of_ten] == b"12345" and writer.records == 5
+
+
+def test_a_claim_that_is_given_up_writes_nothing(writer, ring):
+    reader = mavloom.RingReader(ring)
+    with pytest.raises(ZeroDivisionError):
+        with writer.claim(4) as view:
+            view[:] = b"lost"
+            raise ZeroDivisionError
+    abandoned = writer.claim(4)
+    abandoned.data[:] = b"lost"
+    abandoned.abandon()
+    abandoned.abandon()
+    writer.claim(4)  # dropped
+    fill(writer, 1)
+    assert numbers([reader.read(0)]) == [0] and reader.read(0) is None
+    for call in (abandoned.commit, lambda: abandoned.data):
+        with pytest.raises(mavloom.ClosedError, match="over"):
+            call()
+    with pytest.raises(ValueError):
+        view[0] = 1
+
+
+CLAIM_LOOKS = {
+    "slice": lambda view: view[1:3],
+    "cast": lambda view: view.cast("b"),
+    "frombuffer": lambda view: numpy.frombuffer(view, "u1"),
+    "slice of an array": lambda view: numpy.frombuffer(view, "u1")[2:],
+    "asarray": lambda view: numpy.asarray(view),
+    "ndarray": lambda view: numpy.ndarray(4, "u1", buffer=view),
+}
+
+
+@pytest.mark.parametrize("look", CLAIM_LOOKS.values(), ids=CLAIM_LOOKS)
+def test_row_3_16_nothing_writes_into_a_record_that_is_committed(writer, ring, look):
+    """Whatever was made of a claim's view holds it: the record is not written, nor anything else by this thread, until it is gone."""
+    reader = mavloom.RingReader(ring)
+    claim = writer.claim(4)
+    claim.data[:] = b"abcd"
+    seen = look(claim.data)
+    for go_on in (claim.commit, lambda: writer.write(b"x"), lambda: writer.claim(1), writer.close):
+        with pytest.raises(BufferError, match="still alive|is open"):
+            go_on()
+    assert reader.read(0) is None and bytes(b"abcd").find(bytes(seen)) >= 0
+    del seen
+    assert claim.commit() and reader.read(0).data == b"abcd"
+    claim = writer.claim(4)
+    seen = look(claim.data)
+    claim.abandon()
+    with pytest.raises(BufferError, match="is open"):
+        writer.write(b"x")
+    del seen
+    assert writer.write(b"x")
+
+
+def test_row_3_16_a_view_that_outlives_its_claim_keeps_the_room(writer, ring):
+    reader = mavloom.RingReader(ring)
+    with pytest.raises(BufferError, match="still alive"):
+        with writer.claim(4) as view:
+            array = numpy.frombuffer(view, "u1")
+    gc.collect()
+    with pytest.raises(BufferError, match="is open"):
+        writer.write(b"x")
+    array[:] = 7
+    del array
+    fill(writer, 1)
+    assert numbers(iter(lambda: reader.read(0), None)) == [0]
+    name = writer.name
+    claim = writer.claim(4)
+    writer.close()
+    with pytest.raises(mavloom.ClosedError, match="over"):
+        claim.commit()
+    with mavloom.RingWriter(name, capacity=64 * KIB) as second:
+        view = second.claim(4).data
+        with pytest.raises(BufferError):
+            second.close()
+        del view
+        fill(second, 1)
+
+
+def test_row_29_a_claim_of_what_does_not_fit_is_a_value_error(writer):
+    for length, what in ((-1, "length: -1 is out of range, 0 to 16360"), (16361, "16361 bytes: a record of ring .* has at most 16360")):
+        with pytest.raises(ValueError, match=what):
+            writer.claim(length)
+    with writer.claim(16360):
+        pass
+    claim = writer.claim(4)
+    for length in (-1, 5):
+        with pytest.raises(ValueError, match=f"length: {length} is out of range, 0 to 4"):
+            claim.commit(length)
+    with pytest.raises(ValueError, match="link"):
+        writer.claim(4, link=-1)
+    assert claim.commit() and writer.records == 2
+
+
+def test_a_claim_in_a_full_ring_is_dropped_or_waits(ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer, mavloom.RingReader(ring, lossless=True) as reader:
+        taken = []
+        for number in range(200):
+            claim = writer.claim(1000)
+            claim.data[:] = bytes([number]) * 1000
+            taken.append(claim.commit())
+        found = [bytes(record.data) for record in iter(lambda: reader.read(0), None)]
+        assert found == [bytes([number]) * 1000 for number in range(200) if taken[number]] and taken.count(False) == writer.dropped > 100
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer, mavloom.RingReader(ring, lossless=True) as reader:
+        def write():
+            for number in range(200):
+                with writer.claim(1000) as view:
+                    view[:] = bytes([number]) * 1000
+        thread = threading.Thread(target=write, daemon=True)
+        thread.start()
+        assert [bytes(reader.read(DEADLINE_S).data) for _ in range(200)] == [bytes([number]) * 1000 for number in range(200)]
+        thread.join()
+
+
+@pytest.mark.parametrize("full", ["wait", "evict"])
+def test_row_17_claims_of_several_threads_take_turns(ring, full):
+    threads, count = 8, 300
+    with mavloom.RingWriter(ring, capacity=8 << 20, full=full) as writer, mavloom.RingReader(ring) as reader:
+        def write(thread):
+            for number in range(count):
+                with writer.claim(8) as view:
+                    struct.pack_into("<I", view, 0, thread)
+                    if number % 50 == 0:
+                        time.sleep(0.0001)  # the others come by
+                    struct.pack_into("<I", view, 4, number)
+                writer.write(struct.pack("<II", thread, number))
+        workers = [threading.Thread(target=write, args=[thread], daemon=True) for thread in range(threads)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join(DEADLINE_S)
+        found = [struct.unpack("<II", record.data) for record in iter(lambda: reader.read(0), None)]
+        assert [[n for t, n in found if t == thread] for thread in range(threads)] == [[n for n in range(count) for _ in "ab"]] * threads
+
+
+def test_example_10_a_writer_that_is_killed_while_it_fills_a_claim(writer, ring, start):
+    writer.close()
+    reader = mavloom.RingReader(ring, lossless=True)
+    for _ in range(3):
+        process = start("""
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+writer.write(b"whole")
+claim = writer.claim(1000)
+claim.data[:] = b"x" * 1000
+os.kill(os.getpid(), signal.SIGKILL)
+""", ring)
+        assert ended(process)[0] == -signal.SIGKILL
+    assert [bytes(record.data) for record in reader] == [b"whole"] * 3
+
+
+def test_example_11_a_claim_at_a_fork_and_at_the_exit(ring, start):
+    process = start("""
+mavloom._core.set_leak_warnings(True)
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+claim = writer.claim(4)
+pid = os.fork()
+if pid == 0:
+    for call in (lambda: claim.data, claim.commit, lambda: writer.claim(1)):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    del claim
+    sys.exit(0)
+claim.data[:] = b"abcd"
+claim.commit()
+print(os.waitpid(pid, 0)[1], reader.read(0).data)
+left, view = writer.claim(4), writer
+view = left.data
+around = [left]
+around.append(around)
+""", ring)
+    assert ended(process) == (0, "0 b'abcd'\n", "")
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+        fill(second, 1)
+
+
 # ---- errors
 
 def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
@@ -441,6 +653,48 @@ def test_rows_3_3_3_5_and_3_19_what_is_no_ring_of_this_version_is_named_and_stay
     assert head == wrong[:64] and path_of(ring).stat().st_size == len(wrong)
     mavloom.remove_ring(ring)
     assert not path_of(ring).exists()
+
+
+def test_row_3_3_another_size_is_another_file_and_readers_of_the_old_one_are_told(writer, ring):
+    reader = mavloom.RingReader(ring, lossless=True)
+    fill(writer, 3)
+    writer.close()
+    before = path_of(ring).stat()
+    with path_of(ring).open("rb") as old, mavloom.RingWriter(ring, capacity=128 * KIB) as larger:
+        fill(larger, 1, first=3)
+        assert larger.created and path_of(ring).stat().st_ino != before.st_ino and os.fstat(old.fileno()).st_size == before.st_size
+        assert numbers(reader) == [0, 1, 2] and reader.removed  # iteration ends, for nothing comes there any more
+        with mavloom.RingReader(ring, start="oldest") as again:
+            assert numbers([again.read(0)]) == [3]
+
+
+def test_row_3_4_creators_that_are_killed_leave_no_ring_or_a_whole_one(ring, start):
+    process = start("""
+import random
+rng = random.Random(6)
+for number in range(150):
+    pid = os.fork()
+    if pid == 0:
+        mavloom.RingWriter(ring, capacity=1 << 20)
+        time.sleep(3600)
+    time.sleep(rng.random() * 0.003)
+    os.kill(pid, signal.SIGKILL)
+    os.waitpid(pid, 0)
+    try:
+        with mavloom.RingReader(ring, start="oldest") as reader:
+            assert reader.read() is None
+        found = True
+    except mavloom.NotFoundError as error:
+        assert "there is no ring" in str(error)
+        found = False
+    with mavloom.RingWriter(ring, capacity=1 << 20) as writer:
+        assert writer.created or found
+        writer.close(remove=True)
+    print(int(found), end="")
+""", ring)
+    status, out, talk = ended(process)
+    assert (status, talk, len(out)) == (0, "", 150)
+    assert [path.name for path in SHM.iterdir() if ring in path.name] == []
 
 
 def test_damage_under_a_reader_is_an_error(writer, ring):
@@ -716,7 +970,8 @@ def feed(pipe):
             pipe.write(b"%d.%s\n" % (number, b"." * (number % 50)))
 
 
-def test_row_3_9_a_stopped_reader_is_not_dead(ring, start):
+@pytest.mark.parametrize("seconds", [0.5, pytest.param(30, marks=pytest.mark.long)])
+def test_row_3_9_a_stopped_reader_is_not_dead(ring, start, seconds):
     with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
         process = start("""
 reader = mavloom.RingReader(ring, lossless=True)
@@ -727,7 +982,7 @@ print(len(list(reader)))
         process.send_signal(signal.SIGSTOP)
         until(lambda: pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "T")
         taken = sum(writer.write(bytes(1000)) for _ in range(100))
-        time.sleep(0.5)
+        time.sleep(seconds)
         assert not writer.write(bytes(1000)) and [r["pid"] for r in status_of(ring)["readers"]] == [process.pid]
         process.send_signal(signal.SIGCONT)
         until(lambda: status_of(ring)["readers"][0]["behind_records"] == 0)
@@ -954,14 +1209,20 @@ print("ready", flush=True)
 
 
 SIGNALLED = """
+import ctypes
 class Raised(Exception):
     pass
+raise_signal = ctypes.PyDLL(None)["raise"]  # keeps the GIL, as signal.raise_signal does not
 def handler(*_):
+    for record in HANDLER:
+        taken.append(int(bytes(record.data)))
     raise Raised
 signal.signal(signal.SIGUSR1, handler)
 sys.setswitchinterval(DEADLINE)  # whoever reads gets the GIL back when the signal is there, and not before
 writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring, lossless=sys.argv[2] == "True")
+reads = threading.Event()
 def write():
+    reads.wait()
     for number in range(0, 90, 3):
         time.sleep(0.005)
         for each in range(number, number + 3):
@@ -969,11 +1230,12 @@ def write():
         end = time.monotonic() + 0.005
         while time.monotonic() < end:
             pass
-        signal.raise_signal(signal.SIGUSR1)
+        raise_signal(signal.SIGUSR1)
     writer.close()
 taken, raised = [], 0
 thread = threading.Thread(target=write)
 thread.start()
+reads.set()
 while True:
     try:
         records = READ
@@ -992,8 +1254,300 @@ print(raised > 0, taken == list(range(90)), reader.missed)
 @pytest.mark.parametrize("read", ["[*filter(None, [reader.read()])]", "[*filter(None, [next(reader, None)])]", "next(reader.batches(), ())",
                                   "next(reader.batches(), ()) if len(taken) % 2 else [*filter(None, [reader.read()])]"])
 def test_a_signal_handler_that_raises_costs_no_record(ring, start, read, lossless):
-    process = start(SIGNALLED.replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+    process = start(SIGNALLED.replace("HANDLER", "()").replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
     assert ended(process) == (0, "True True 0\n", "")
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("reads", ["filter(None, [reader.read(0)])", "next(reader.batches(0), ())"])
+def test_a_signal_handler_that_reads_the_same_reader_costs_no_record(ring, start, reads, lossless):
+    """What its caller had in hand comes first, once and whole."""
+    for read in ("[*filter(None, [reader.read()])]", "next(reader.batches(), ())"):
+        process = start(SIGNALLED.replace("HANDLER", reads).replace("READ", read).replace("DEADLINE", str(DEADLINE_S)), ring, lossless)
+        assert ended(process) == (0, "True True 0\n", "")
+
+
+# ---- asyncio: rows 19 and 3.21
+
+MANY_TASKS = """
+import asyncio
+def threads():
+    return len(os.listdir("/proc/self/task"))
+async def take(reader, count):
+    found = []
+    async for record in reader:
+        found.append(int(bytes(record.data)))
+        if len(found) == count:
+            return found
+async def main():
+    before = threads()
+    readers = [mavloom.RingReader(ring, lossless=number % 2 == 0 and number < 64) for number in range(200)]
+    writer.write(b"0")
+    assert all(bytes(reader.read(0).data) == b"0" for reader in readers) and threads() == before
+    tasks = [asyncio.create_task(take(reader, 50)) for reader in readers]
+    for number in range(1, 51):
+        writer.write(b"%d" % number)
+        await asyncio.sleep(0.002)
+    assert await asyncio.gather(*tasks) == [list(range(1, 51))] * 200
+    assert asyncio.get_running_loop()._default_executor is None and threading.active_count() == 1
+    return threads() - before
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+print(asyncio.run(asyncio.wait_for(main(), 60)))
+"""
+
+
+def test_rows_19_and_3_21_many_tasks_one_thread_and_none_before_somebody_asks(ring, start):
+    """64 readers with a slot and 136 that only poll, on one loop."""
+    assert ended(start(MANY_TASKS, ring)) == (0, "1\n", "")
+
+
+@pytest.mark.parametrize("lossless", [False, True])
+@pytest.mark.parametrize("batches", [False, True])
+def test_row_19_records_come_in_order_while_they_are_written(writer, ring, lossless, batches):
+    async def take(reader, count):
+        found = []
+        if batches:
+            async for batch in reader.batches():
+                found += numbers(batch)
+                if len(found) >= count:
+                    return found
+        async for record in reader:
+            found.append(int(bytes(record.data)))
+            if len(found) == count:
+                return found
+
+    with mavloom.RingReader(ring, lossless=lossless) as reader:
+        thread = threading.Thread(target=lambda: [fill(writer, 100, first) or time.sleep(0.0001) for first in range(0, 10_000, 100)])
+        thread.start()
+        count = 10_000 if lossless else 1
+        found = asyncio.run(asyncio.wait_for(take(reader, count), DEADLINE_S))
+        thread.join()
+        assert found == list(range(found[0], found[0] + len(found))) and len(found) >= count
+
+
+def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
+    monkeypatch.setattr("mavloom._async.LOOK_FOR_RING_S", 1e6)
+
+    async def run():
+        reader = mavloom.RingReader(ring)
+        records = aiter(reader)
+        for number in range(20):
+            following = asyncio.create_task(anext(records))
+            await asyncio.sleep(0.005)  # asleep by then, or not: both are to work
+            await asyncio.to_thread(fill, writer, 1, number)
+            assert (await asyncio.wait_for(following, DEADLINE_S)).data == b"%d" % number
+    asyncio.run(run())
+
+
+@as_root
+def test_rows_3_21_and_3_23_who_may_only_read_is_told_too(start, ring):
+    with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
+        process = start(AS_NOBODY + """
+import asyncio
+async def main():
+    reader, found = mavloom.RingReader(ring), []
+    print("open", flush=True)
+    async for record in reader:
+        found.append(int(record.data))
+        if len(found) == 100:
+            return found
+print(asyncio.run(main()) == list(range(100)))
+""", ring)
+        assert process.stdout.readline() == "open\n"
+        for number in range(100):
+            fill(writer, 1, number)
+            time.sleep(0.001)
+        assert ended(process) == (0, "True\n", "")
+
+
+@pytest.mark.parametrize("take_away", [mavloom.remove_ring, lambda name: path_of(name).unlink()], ids=["removed", "rm"])
+def test_row_19_a_loop_waits_for_the_next_writer_and_ends_with_the_ring(writer, ring, take_away):
+    found = []
+
+    async def take():
+        async for record in mavloom.RingReader(ring):
+            found.append(record.data)
+
+    async def until_found(count):
+        while len(found) < count:
+            await asyncio.sleep(0.001)
+
+    async def run():
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0)
+        writer.write(b"first")
+        writer.close()
+        await asyncio.wait_for(until_found(1), DEADLINE_S)
+        with mavloom.RingWriter(ring, capacity=64 * KIB) as second:
+            second.write(b"second")
+            await asyncio.wait_for(until_found(2), DEADLINE_S)
+        assert not task.done()
+        take_away(ring)
+        await asyncio.wait_for(task, DEADLINE_S)
+    asyncio.run(run())
+    assert found == [b"first", b"second"]
+
+
+def test_row_19_batches_end_where_nothing_comes_in_time(writer, ring):
+    async def run():
+        return [numbers(batch) async for batch in mavloom.RingReader(ring, start="oldest").batches(timeout=0.01)]
+    fill(writer, 3)
+    assert asyncio.run(asyncio.wait_for(run(), DEADLINE_S)) == [[0, 1, 2]]
+    writer.close()
+    assert asyncio.run(asyncio.wait_for(run(), DEADLINE_S)) == [[0, 1, 2]]
+
+
+def test_row_19_one_task_waits_on_one_reader_of_a_ring(writer, ring):
+    reader = mavloom.RingReader(ring)
+
+    async def first():
+        async for record in reader:
+            return record.data
+
+    async def run():
+        task = asyncio.create_task(first())
+        await asyncio.sleep(0.01)
+        with pytest.raises(mavloom.UsageError, match="its own"):
+            await asyncio.wait_for(first(), DEADLINE_S)
+        writer.write(b"x")
+        assert await asyncio.wait_for(task, DEADLINE_S) == b"x"
+    asyncio.run(run())
+
+
+def test_row_19_cancel_and_close_of_a_ring(writer, ring):
+    """A cancelled task is done as soon as the loop has turned, whatever the ring does."""
+    reader = mavloom.RingReader(ring)
+
+    async def take():
+        async for _ in reader:
+            pass
+
+    async def run():
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0.01)
+        task.cancel()
+        await asyncio.sleep(0)
+        await asyncio.sleep(0)
+        assert task.cancelled()
+        task = asyncio.create_task(take())
+        await asyncio.sleep(0.01)
+        reader.close()
+        await asyncio.wait_for(task, DEADLINE_S)
+        with pytest.raises(mavloom.ClosedError):
+            await take()
+    asyncio.run(run())
+
+
+def test_row_19_a_loop_that_is_closed_first_leaves_the_reader_as_it_is(writer, ring):
+    reader = mavloom.RingReader(ring)
+
+    async def take():
+        async for record in reader:
+            return record.data
+
+    loop = asyncio.new_event_loop()
+    loop.set_exception_handler(lambda *_: None)  # of the task that is destroyed while it waits
+    task = loop.create_task(take())
+    loop.run_until_complete(asyncio.sleep(0.01))
+    loop.close()
+    del task
+    gc.collect()
+    fill(writer, 2)
+    assert reader.read(0).data == b"0" and asyncio.run(take()) == b"1"
+    reader.close()
+
+
+def test_row_3_17_a_view_that_is_kept_ends_the_loop_with_an_error(held):
+    views = []
+
+    async def run():
+        async for record in held:
+            views.append(record.data)
+    with pytest.raises(BufferError, match="still alive"):
+        asyncio.run(run())
+    views.clear()
+    assert held.read(0).position == 32
+
+
+def test_row_3_21_a_loop_of_ones_own(writer, ring):
+    reader, found = mavloom.RingReader(ring), []
+    assert reader.poll() is None
+    thread = threading.Thread(target=fill, args=[writer, 100])
+    with selectors.DefaultSelector() as selector:
+        selector.register(reader.event_fd(), selectors.EVENT_READ)
+        thread.start()
+        while len(found) < 100:
+            assert selector.select(DEADLINE_S)
+            os.read(reader.event_fd(), 8)
+            found += numbers(iter(reader.poll, None))
+    thread.join()
+    assert found == list(range(100))
+    mavloom.remove_ring(ring)
+    with pytest.raises(mavloom.ClosedError, match="removed or replaced"):
+        reader.poll()
+
+
+@pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
+def test_rows_3_21_and_3_22_an_exit_while_tasks_wait_is_silent(ring, start, leaks):
+    process = start(f"""
+import asyncio
+if {leaks}:
+    mavloom._core.set_leak_warnings(True)
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+readers = [mavloom.RingReader(ring, lossless=number % 2 == 0) for number in range(4)]
+waiting = []
+async def take(reader):
+    async for record in reader:
+        waiting.append(bytes(record.data))
+async def main():
+    await asyncio.gather(*map(take, readers[:2]))
+async def short():
+    tasks = [asyncio.create_task(take(reader)) for reader in readers[2:]]
+    while len(waiting) < 2:
+        writer.write(b"x")
+        await asyncio.sleep(0.001)
+asyncio.run(short())
+if not {leaks}:  # a thread that never ends keeps what it has
+    threading.Thread(target=lambda: asyncio.run(main()), daemon=True).start()
+    time.sleep(0.01)
+""", ring)
+    assert ended(process) == (0, "", "")
+    assert status_of(ring)["readers"] == [] and not status_of(ring)["writer_alive"]
+
+
+def test_row_3_21_and_example_11_a_forked_child_has_a_waiter_of_its_own(ring, start):
+    process = start("""
+import asyncio
+writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
+async def take(reader, what):
+    async for record in reader:
+        assert record.data == what
+        return
+async def write_and_take(writer, reader, what):
+    task = asyncio.create_task(take(reader, what))
+    await asyncio.sleep(0.005)
+    writer.write(what)
+    await asyncio.wait_for(task, 60)
+asyncio.run(write_and_take(writer, reader, b"before"))
+pid = os.fork()
+if pid == 0:
+    for call in (reader.event_fd, reader.poll, reader.batches().event_fd, lambda: asyncio.run(take(reader, b"before"))):
+        try:
+            call()
+        except mavloom.ClosedError as error:
+            assert "before fork" in str(error)
+        else:
+            os._exit(1)
+    del reader
+    gc.collect()
+    with mavloom.RingWriter(sys.argv[2], capacity=1 << 16) as own, mavloom.RingReader(sys.argv[2]) as reader:
+        asyncio.run(write_and_take(own, reader, b"of the child"))
+        own.close(remove=True)
+    sys.exit(0)
+print(os.waitpid(pid, 0)[1])
+asyncio.run(write_and_take(writer, reader, b"after"))
+""", ring, ring + "-child")
+    assert ended(process) == (0, "0\n", "")
 
 
 # ---- threads
@@ -1031,6 +1585,79 @@ def test_row_17_readers_of_several_threads_take_turns(writer, ring):
     for thread in threads:
         thread.join(DEADLINE_S)
     assert sorted(sum(found, [])) == list(range(1000)) and all(mine == sorted(mine) for mine in found)
+
+
+@pytest.mark.parametrize("batches", [False, True])
+def test_row_17_threads_share_a_lossless_reader(writer, ring, batches):
+    """Each record is one thread's, whole, whatever the others read meanwhile."""
+    reader, found = mavloom.RingReader(ring, lossless=True), [[] for _ in range(4)]
+
+    def take(mine):
+        for batch in reader.batches() if batches else ([record] for record in reader):
+            for record in batch:
+                seen = numpy.frombuffer(record, "u1")
+                number = int(bytes(record.data))
+                assert bytes(seen) == b"%d" % number
+                mine.append(number)
+                del seen
+    threads = [threading.Thread(target=take, args=[mine], daemon=True) for mine in found]
+    for thread in threads:
+        thread.start()
+    for first in range(0, 4000, 10):
+        fill(writer, 10, first)
+    until(lambda: sum(map(len, found)) == 4000)
+    writer.close()
+    for thread in threads:
+        thread.join(DEADLINE_S)
+    assert sorted(sum(found, [])) == list(range(4000)) and reader.missed == 0 and all(mine == sorted(mine) for mine in found)
+
+
+def in_thread(call):
+    """What a call gives, or raises, in a thread of its own."""
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        return pool.submit(call).result(DEADLINE_S)
+
+
+def test_row_17_a_record_outlives_the_reads_of_other_threads(held):
+    records = [in_thread(held.read) for _ in range(3)]
+    batch = in_thread(lambda: next(held.batches(0)))
+    assert held.read(0) is None
+    assert [bytes(record.data) for record in (*records, *batch)] == [b"abcd"] * 4 and batch.array("S4").tolist() == [b"abcd"]
+    assert [record.position for record in records] == [0, 32, 64] and status_of(held.name)["readers"][0]["behind_records"] == 0
+    views = [memoryview(record) for record in records]
+    held.close()
+    assert views == [b"abcd"] * 3
+
+
+def test_row_17_a_read_waits_for_the_views_of_another_thread(held):
+    looking, done = threading.Event(), threading.Event()
+
+    def look():
+        view = held.read().data
+        looking.set()
+        done.wait(DEADLINE_S)
+        assert view == b"abcd"
+        view.release()
+    thread = threading.Thread(target=look, daemon=True)
+    thread.start()
+    looking.wait(DEADLINE_S)
+    for call in (lambda: held.read(0), lambda: held.read(0.02), lambda: next(held.batches(0)), held.close):
+        with pytest.raises(BufferError, match="still alive"):
+            call()
+    threading.Timer(0.02, done.set).start()
+    assert held.read().position == 32
+    thread.join(DEADLINE_S)
+
+
+def test_row_17_who_looks_too_is_not_waited_for(held):
+    """It would never end."""
+    record = in_thread(held.read)
+    view = in_thread(lambda: record.data)
+    mine = record.data
+    with pytest.raises(BufferError, match="still alive"):
+        held.read()
+    del view, mine
+    assert held.read().position == 32
 
 
 def test_row_26_who_waits_wakes_when_it_is_closed(ring):
@@ -1185,17 +1812,36 @@ def test_pump_keeps_what_a_full_ring_has_no_room_for(writer, ring, frames):
         assert found == frames and link.stats.missed == 0
 
 
+@pytest.mark.parametrize("full", ["wait", "drop_newest"])
+def test_pump_waits_for_the_claim_of_another_thread(ring, frames, full):
+    with mavloom.RingWriter(ring, full=full) as writer, mavloom.connect("udpin://127.0.0.1:0") as link, mavloom.RingReader(ring) as reader:
+        send(link.port, frames[:100])
+        until(lambda: link.stats.frames_in == 100)
+        claim = writer.claim(5)
+        with pytest.raises(BufferError, match="is open"):
+            link.pump(writer, 0)
+        moved = []
+        thread = threading.Thread(target=lambda: moved.append(link.pump(writer, 0.05)), daemon=True)
+        thread.start()
+        claim.data[:] = b"claim"
+        time.sleep(0.01)  # pump has begun by then, or not: both are to work
+        claim.commit()
+        thread.join(DEADLINE_S)
+        until(lambda: moved.append(link.pump(writer, 0)) or sum(moved) == 100)
+        assert [record.data for record in iter(lambda: reader.read(0), None)] == [b"claim", *frames[:100]] and writer.dropped == 0
+
+
 @pytest.fixture
-def hear(child_environment):
-    """hear(words) -> a running `python -m mavloom.hear` that listens, and its port."""
+def hear(child_environment, ring):
+    """hear(words) -> a running `python -m mavloom.hear` that listens, and its port. Ended before the ring is taken away, which it would make anew."""
     processes = []
 
-    def call(*words, url=None):
+    def call(*words, url=None, **options):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         processes.append(subprocess.Popen([sys.executable, "-m", "mavloom.hear", url or f"udpin://127.0.0.1:{port}", *words], env=child_environment,
-                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True))
+                                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options))
         return processes[-1], port
     yield call
     for process in processes:
@@ -1213,6 +1859,24 @@ def test_hear_writes_what_it_hears_and_takes_its_ring_away(hear, ring, frames, n
         process.send_signal(number)
         assert ended(process) == (128 + number, "", f"{ring}: {len(frames)} frames heard, {len(frames)} written\n")
         assert reader.read() is None and reader.removed and ring not in mavloom.rings()
+
+
+def ignoring(*signals):
+    """For preexec_fn: as nohup starts a program, or a shell script its background jobs."""
+    return lambda: [signal.signal(number, signal.SIG_IGN) for number in signals]
+
+
+def test_hear_leaves_alone_what_it_was_started_to_ignore(hear, ring, frames):
+    process, port = hear("--ring", ring, preexec_fn=ignoring(signal.SIGINT, signal.SIGHUP))
+    process.stderr.readline()
+    with mavloom.RingReader(ring, lossless=True) as reader:
+        for number in (signal.SIGINT, signal.SIGHUP):
+            process.send_signal(number)
+            for _ in range(3):  # it looks at signals in between
+                send(port, frames[:1])
+                assert bytes(reader.read(DEADLINE_S).data) == frames[0]
+    process.send_signal(signal.SIGTERM)
+    assert ended(process) == (143, "", f"{ring}: 6 frames heard, 6 written\n") and not path_of(ring).exists()
 
 
 def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):

@@ -60,6 +60,7 @@ public:
         if (forked()) return tl::unexpected(ReadError::forked);
         std::size_t count = 0;
         const Found found = consumer_.lossless() ? consumer_.next_batch(out, count) : Found::empty;
+        if (found == Found::record) consumer_.awake();
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }

@@ -8,7 +8,7 @@
 //     const auto nap = reader.arm();                 // then the reader
 //     sleep_in_epoll(nap);
 //
-// One owner thread; not movable. Linux 5.16 or newer sleeps on all rings at once (futex_waitv); an older one looks at several each millisecond.
+// One owner thread, or one lock; not movable. Linux 5.16 or newer sleeps on all rings at once (futex_waitv); an older one looks at several each millisecond.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ public:
     static constexpr std::size_t most_rings =
         127;  // of more only the first are slept on; the others are seen when they are polled
 
-    // `wake` is called on the waiter's thread, once after each arm(); it must not throw.
+    // `wake` is called on the waiter's thread, once after each arm(); it must not throw, and may call arm().
     explicit RingWaiter(std::function<void()> wake);
     RingWaiter(const RingWaiter&) = delete;
     RingWaiter& operator=(const RingWaiter&) = delete;
@@ -33,8 +33,10 @@ public:
 
     // The rings from now on, in the place of those before. A change between this call and arm() is not overlooked.
     void watch(std::vector<WakeWord> rings);
-    // The next change is told, once. One that came since the last call may be told too.
+    // The next change is told, once. One that came since the last call may be told too. With `longest`, as RingReader::arm() gives it, the end of that
+    // time is told as a change is; of several calls the earliest counts.
     void arm() noexcept;
+    void arm(Nanoseconds longest) noexcept;
     void disarm() noexcept;
 
 private:

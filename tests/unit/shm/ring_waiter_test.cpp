@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -112,6 +113,42 @@ TEST_F(RingWaiting, SaysNothingUnlessArmed) {
     write(writer);
     ASSERT_TRUE(gets_record(sleeper));
     EXPECT_FALSE(loop_.woken_within(0ms));
+}
+
+TEST_F(RingWaiting, TellsWhenTheTimeIsOverThatItIsGiven) {
+    auto writer = writer_of(one_);
+    auto reader = reader_of(one_);
+    waiter_.watch({reader.wake_word()});
+    waiter_.arm(10h);
+    waiter_.arm(1ms);
+    waiter_.arm(10h);  // the earliest counts
+    EXPECT_TRUE(loop_.woken_within(60s));
+    waiter_.arm(1ms);
+    EXPECT_TRUE(loop_.woken_within(60s));
+}
+
+TEST_F(RingWaiting, OneWithoutASlotLooksAgainAtOnceToo) {
+    auto writer = writer_of(one_);
+    auto reader = RingReader::open(one_.text(), {.read_only = true});
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->arm(), 1ms);
+    write(writer);
+    EXPECT_EQ(reader->arm(), Nanoseconds{});
+}
+
+TEST_F(RingWaiting, ABatchEndsTheWishToBeWoken) {
+    auto writer = writer_of(one_);
+    auto reader = RingReader::open(one_.text(), {.lossless = true});
+    ASSERT_TRUE(reader);
+    waiter_.watch({reader->wake_word()});
+    (void)reader->arm();
+    write(writer);
+    std::array<RingRecord, 4> records;
+    ASSERT_TRUE(reader->try_read_batch(records));
+    const auto wakes = reader->wake_word()->load();
+    std::this_thread::sleep_for(2ms);  // the writer wakes nobody twice in a millisecond
+    write(writer);
+    EXPECT_EQ(reader->wake_word()->load(), wakes);
 }
 
 TEST_F(RingWaiting, KeepsARingMappedThatItsReaderHasLeft) {

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// What looks at a claim is counted as what looks at a record is (ring_reader_binding.cpp): by objects whose life is that of all that was made of them.
+#include "ring_claim.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+
+#include "errors.hpp"
+
+namespace mavloom::python {
+namespace {
+
+// Memory that the writer, and so the mapping, lives for.
+class ClaimView {
+public:
+    ClaimView(nb::object holder, PyRingWriter& writer, std::shared_ptr<Claimed> claimed)
+        : holder_(std::move(holder)), writer_(&writer) {
+        if (!claimed->looks.begin()) PyRingWriter::raise_over();
+        claimed_ = std::move(claimed);
+    }
+    ClaimView(ClaimView&& other) noexcept = default;
+    ClaimView& operator=(ClaimView&&) = delete;
+    ~ClaimView() {
+        if (claimed_ && claimed_->looks.end()) writer_->nobody_looks(*claimed_);
+    }
+    [[nodiscard]] ByteSpan bytes() const noexcept { return claimed_->bytes; }
+
+private:
+    nb::object holder_;
+    PyRingWriter* writer_;
+    std::shared_ptr<Claimed> claimed_;
+};
+
+int claim_view_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
+    out->obj = nullptr;
+    if (!nb::inst_ready(self)) {
+        PyErr_SetString(PyExc_TypeError, "views are made by a RingClaim");
+        return -1;
+    }
+    const auto bytes = nb::inst_ptr<ClaimView>(self)->bytes();
+    return PyBuffer_FillInfo(out, self, bytes.data(), static_cast<Py_ssize_t>(bytes.size()), 0, flags);
+}
+
+PyType_Slot claim_view_slots[] = {
+    {Py_bf_getbuffer, reinterpret_cast<void*>(claim_view_buffer)},  // NOLINT
+    {0, nullptr},
+};
+
+class Claim {
+public:
+    Claim(nb::object holder, PyRingWriter& writer, std::shared_ptr<Claimed> claimed, bool has_time,
+          const shm::RecordInfo& info)
+        : holder_(std::move(holder)), writer_(&writer), claimed_(std::move(claimed)), has_time_(has_time), info_(info) {}
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+    ~Claim() {
+        view_.reset();
+        if (!is_over_) writer_->give_up(*claimed_);
+    }
+
+    // One memoryview, which ends with the claim.
+    [[nodiscard]] nb::object data() {
+        fork_.check();
+        if (is_over_) PyRingWriter::raise_over();
+        if (!view_.is_valid())
+            view_ = nb::steal(PyMemoryView_FromObject(nb::cast(ClaimView(holder_, *writer_, claimed_)).ptr()));
+        return view_;
+    }
+
+    bool commit(std::optional<std::int64_t> length, std::optional<std::int64_t> time_ns) {
+        if (is_over_) PyRingWriter::raise_over();
+        const auto most = static_cast<std::int64_t>(claimed_->bytes.size());
+        if (length && (*length < 0 || *length > most))
+            raise_usage(fmt::format("length: {} is out of range, 0 to {}", *length, most));
+        if (time_ns) info_.time = WallTime{Nanoseconds{*time_ns}};
+        else if (!has_time_) info_.time = wall_now();
+        end_view();
+        const bool written = writer_->commit(*claimed_, info_, static_cast<std::size_t>(length.value_or(most)));
+        is_over_ = true;
+        return written;
+    }
+
+    // What still looks keeps the room: it is no error here, where an error may be on its way already.
+    void abandon() {
+        if (is_over_) return;
+        is_over_ = true;
+        if (view_.is_valid() && !nb::steal(PyObject_CallMethod(view_.ptr(), "release", nullptr)).is_valid())
+            PyErr_Clear();
+        view_.reset();
+        writer_->give_up(*claimed_);
+    }
+
+    void exit(bool failed) {
+        if (failed) abandon();
+        if (!is_over_) commit({}, {});
+    }
+
+private:
+    // Also where the user has it in a name: what remains are slices, and arrays.
+    void end_view() {
+        if (!view_.is_valid()) return;
+        try {
+            view_.attr("release")();
+        } catch (const nb::python_error& error) {
+            if (!error.matches(PyExc_BufferError)) throw;
+            PyRingWriter::raise_looked_at();
+        }
+        view_.reset();
+    }
+
+    const BeforeFork fork_;
+    nb::object holder_;  // of writer_
+    PyRingWriter* writer_;
+    std::shared_ptr<Claimed> claimed_;
+    nb::object view_;
+    bool is_over_ = false;
+    const bool has_time_;
+    shm::RecordInfo info_;
+};
+
+}  // namespace
+
+nb::object claim_room(const nb::object& writer, std::int64_t length, std::optional<std::int64_t> time_ns,
+                      std::int64_t link, std::int64_t kind, std::int64_t verdict) {
+    auto& of = nb::cast<PyRingWriter&>(writer);
+    const auto info = record_info(time_ns, link, kind, verdict);
+    if (length < 0) raise_usage(fmt::format("length: {} is out of range, 0 to {}", length, of.longest()));
+    auto claimed = of.claim(static_cast<std::size_t>(length));
+    return nb::cast(new Claim(writer, of, std::move(claimed), time_ns.has_value(), info), nb::rv_policy::take_ownership);
+}
+
+void bind_ring_claim(nb::module_& module) {
+    using namespace nb::literals;
+    nb::class_<ClaimView>(module, "RingClaimView", nb::type_slots(claim_view_slots), nb::is_final(),
+                          "A claim's bytes, as a buffer.");
+    nb::class_<Claim>(
+        module, "RingClaim", nb::is_final(),
+        "Room for one record in a ring, to be filled without a copy: `with writer.claim(n) as view: view[:] = "
+        "...` commits it at the end of the block, and gives it\n"
+        "up where the block raises. What was made of the view (a slice, an array) must be gone by then: "
+        "BufferError else, and the record is not written. A claim that is\n"
+        "dropped is given up.")
+        .def_prop_ro("data", &Claim::data, nb::sig("def data(self) -> memoryview"),
+                     "The room: one writable memoryview, which ends with the claim. What it holds before is anything.")
+        .def("commit", &Claim::commit, "length"_a = nb::none(), nb::kw_only(), "time_ns"_a = nb::none(),
+             nb::sig("def commit(self, length: int | None = None, *, time_ns: int | None = None) -> bool"),
+             "Publishes the first `length` bytes, all unless given, with the time of now unless one is given here or "
+             "was. False: the ring was full, and the record is dropped and\n"
+             "counted (only with full=\"drop_newest\"; what was filled was memory of no ring). BufferError while a "
+             "slice "
+             "or an array is alive: delete it, and commit again. ClosedError\n"
+             "for a claim that is over.")
+        .def("abandon", &Claim::abandon,
+             "Nothing is written; may be called again. While a slice or an array is alive the room stays taken.")
+        .def(
+            "__enter__", [](Claim& claim) { return claim.data(); }, nb::sig("def __enter__(self) -> memoryview"))
+        .def(
+            "__exit__",
+            [](Claim& claim, const nb::args& raised) { claim.exit(raised.size() != 0 && !raised[0].is_none()); },
+            nb::sig("def __exit__(self, *args: object) -> None"))
+        .def("__repr__", [](const Claim&) { return "<RingClaim>"; });
+}
+
+}  // namespace mavloom::python
