@@ -28,6 +28,20 @@ void LinkCounters::add(const LinkCounters& other) noexcept {
         (this->*counter).add((other.*counter).value());
 }
 
+void LinkCounters::add(wire::SequenceTracker::Update update) noexcept {
+    using Verdict = wire::SequenceTracker::Verdict;
+    switch (update.verdict) {
+        case Verdict::gap: lost.add(update.lost); break;
+        case Verdict::duplicate: duplicate.add(); break;
+        case Verdict::resync: resync.add(); break;
+        case Verdict::late:
+            late.add();
+            lost.set(lost.value() + update.lost);
+            break;
+        default: break;
+    }
+}
+
 class Links::Impl {
 public:
     Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
@@ -127,6 +141,11 @@ SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::fil
     if (!opened) return tl::unexpected(std::move(opened).error());
     impl_->endpoints.push_back(std::move(*opened));
     return id;
+}
+
+const SetupError* Links::failure(EndpointId endpoint) const noexcept {
+    const OpenEndpoint* const found = impl_->find(endpoint);
+    return found == nullptr || !found->failure ? nullptr : &*found->failure;
 }
 
 void Links::remove(EndpointId endpoint) {

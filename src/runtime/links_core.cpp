@@ -208,31 +208,19 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
         counters.unknown_ids.add();
     const auto update = link.tracker.update(event.frame);
     if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
-        count_sequence(link, update);
+        counters.add(update);
     ++frames_this_turn_;
     handler_->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
 }
 
-void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) noexcept {
+void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {
     using Kind = wire::ParseEvent::Kind;
-    if (event.kind == Kind::bad_checksum) link.counters.crc_error.add();
+    if (event.kind == Kind::bad_checksum) {
+        link.counters.crc_error.add();
+        if (handler_ != nullptr) handler_->on_bad_checksum(link.id, link.endpoint, event.frame.id());
+    }
     if (event.kind == Kind::junk) link.counters.junk_bytes.add(event.bytes);
     if (event.kind == Kind::unknown_flags) link.counters.unknown_flags.add();
-}
-
-void Core::count_sequence(Link& link, wire::SequenceTracker::Update update) noexcept {
-    using Verdict = wire::SequenceTracker::Verdict;
-    LinkCounters& counters = link.counters;
-    switch (update.verdict) {
-        case Verdict::gap: counters.lost.add(update.lost); break;
-        case Verdict::duplicate: counters.duplicate.add(); break;
-        case Verdict::resync: counters.resync.add(); break;
-        case Verdict::late:
-            counters.late.add();
-            counters.lost.set(counters.lost.value() + update.lost);
-            break;
-        default: break;
-    }
 }
 
 bool Core::queue(Link& link, const wire::FrameView& frame) {

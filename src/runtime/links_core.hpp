@@ -167,6 +167,7 @@ public:
     EndpointInfo info;
     EndpointCounters counters;
     std::unique_ptr<Signature> signature;
+    std::optional<SetupError> failure;  // Links::failure
 };
 
 [[nodiscard]] net::BlockQueue::Limits queue_limits(const EndpointOptions& options);
@@ -249,8 +250,7 @@ public:
 
 private:
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
-    void on_bad_bytes(Link& link, const wire::ParseEvent& event) noexcept;
-    static void count_sequence(Link& link, wire::SequenceTracker::Update update) noexcept;
+    void on_bad_bytes(Link& link, const wire::ParseEvent& event);
     void tell_backlog();
     void flush();
     void expire_blocked();

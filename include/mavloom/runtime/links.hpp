@@ -42,6 +42,8 @@ struct LinkCounters {
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
     Counter frames_not_sent;                // in datagrams that the kernel refused
     void add(const LinkCounters& other) noexcept;
+    // What a frame's number says of the loss.
+    void add(wire::SequenceTracker::Update update) noexcept;
 };
 
 // What belongs to a socket rather than to one of its peers.
@@ -66,6 +68,7 @@ struct RxFrame {
     EndpointId endpoint;
     WallTime time{};                           // the kernel's receive time; a recording's own time for tlog sources
     wire::SequenceTracker::Update sequence{};  // what it says of the link's loss
+    std::uint8_t ring_verdict = 0;             // of a ring: what its writer says of the frame (ring_frames.hpp)
 };
 
 class LinkHandler {
@@ -76,6 +79,8 @@ public:
     // A peer was seen for the first time, connected, went, or was expired.
     virtual void on_link_up(LinkId, EndpointId, std::string_view /*name*/) {}
     virtual void on_link_down(LinkId, EndpointId, std::string_view /*why*/) {}
+    // Something that began and was as long as a frame of this id, damaged or made with another definition. It is counted already.
+    virtual void on_bad_checksum(LinkId, EndpointId, MessageId) {}
     // Something a person should know once (not per packet): "udpin://…: listening (receive buffer 425984 bytes)".
     virtual void on_notice(EndpointId, std::string_view /*text*/) {}
 };
@@ -127,6 +132,9 @@ public:
     // A socket that nobody serves any more is replaced; `in_use` where somebody does.
     [[nodiscard]] SetupResult<EndpointId> add_inlet(const std::string& ring, const std::filesystem::path& socket,
                                                     unsigned mode);
+    // Why an endpoint that is tried again and again could not be opened the last time; null while that goes on for the first time, and of one
+    // that never failed.
+    [[nodiscard]] const SetupError* failure(EndpointId endpoint) const noexcept;
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
     // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.
