@@ -46,10 +46,15 @@ public:
         bool always = false;  // no good one was ever heard
     };
 
-    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, bool verifies)
-        : origin_(std::move(origin)), verifies_(verifies), ring_(buffer_bytes) {}
+    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, const runtime::Endpoint& endpoint)
+        : origin_(std::move(origin)),
+          verifies_(!endpoint.options.verify_key_file.empty()),
+          ring_name_(endpoint.scheme == runtime::Scheme::shm ? endpoint.path : std::string()),
+          ring_(buffer_bytes) {}
 
     [[nodiscard]] const std::shared_ptr<Origin>& origin() const noexcept { return origin_; }
+    // The ring in shared memory that is read; empty for other links.
+    [[nodiscard]] const std::string& ring_name() const noexcept { return ring_name_; }
     [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
 
     // The newest message that the filter and `instance` take and that is not older than `not_before`.
@@ -97,6 +102,7 @@ private:
 
     const std::shared_ptr<Origin> origin_;
     const bool verifies_;
+    const std::string ring_name_;
     std::atomic<std::size_t> peers_{0};
     std::atomic<bool> closed_{false};  // set with mutex_ held
 

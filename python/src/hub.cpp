@@ -220,14 +220,14 @@ bool Hub::is_up(runtime::EndpointId endpoint) {
     return std::ranges::any_of(links, [&](const auto& link) { return link.endpoint == endpoint && link.up; });
 }
 
-// Those that listen are open already, and so is a ring.
+// A ring that is required was there when it was added.
 std::optional<SetupError> Hub::wait_for_far_side(const Opened& opened) {
     std::optional<SetupError> failure;
     bool is_there = opened.is_ring;
     wait_on_loop(
         [&] {
             for (const auto& info : links().endpoints())
-                if (info.id == opened.endpoint) is_there = is_there || listens(info.endpoint.scheme);
+                if (info.id == opened.endpoint && listens(info.endpoint.scheme)) is_there = info.local_port != 0;
             is_there = is_there || is_up(opened.endpoint);
             if (const auto* error = links().failure(opened.endpoint); error != nullptr && !is_there) failure = *error;
             return is_there || failure;

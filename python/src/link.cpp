@@ -80,6 +80,8 @@ public:
     // Into a ring, without an object for each message; how many. Also after the time what was there when it began, as far as the ring has room.
     std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout) {
         fork_.check();
+        if (writer.name() == channel().ring_name())
+            raise_usage(fmt::format("ring {} is what is read here: it would be filled with itself", writer.name()));
         const auto deadline = deadline_after(timeout);
         const auto end = consumer_->newest();
         for (Pumped pumped;;) {
@@ -220,7 +222,7 @@ public:
           source_{SystemId{system}, ComponentId{component}},
           version_(frame_version(version)) {
         const auto endpoint = endpoint_of(url);
-        channel_ = std::make_shared<Channel>(origin_, buffer_bytes, !endpoint.options.verify_key_file.empty());
+        channel_ = std::make_shared<Channel>(origin_, buffer_bytes, endpoint);
         // Before anything can arrive.
         reader_ = nb::cast(new Subscription(channel_, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<Hub::Opened> {

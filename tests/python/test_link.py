@@ -74,6 +74,14 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
         link.wait_vehicle(timeout=0.01)
 
 
+@pytest.mark.parametrize("spelling, name", [
+    ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"), ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"),
+    ("/dev/absent,57600", "serial:///dev/absent")])
+def test_pymavlinks_other_spellings(spelling, name):
+    with mavloom.connect(spelling) as link:
+        assert link.name == name.format(port=link.port)
+
+
 def test_pymavlinks_spelling_of_an_address():
     with mavloom.connect("udpin:127.0.0.1:0") as link:
         assert link.port > 0 and str(link.port) in link.name and str(link.port) in repr(link)

@@ -109,6 +109,17 @@ def test_row_5_a_lossless_link_holds_the_writer(ring, writer):
         assert (link.stats.lapped, link.stats.missed, link.stats.lost) == (0, 0, 0)
 
 
+def test_row_22_the_next_writer_begins_anew_and_the_sums_stay(ring):
+    with mavloom.connect(f"shm://{ring}?from=oldest") as link:
+        for numbers_written in ((0, 3), (77, 80)):
+            with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
+                for number in numbers_written:
+                    writer.write(beat(number), link=1, kind=1)
+                assert numbers(link, 2) == list(numbers_written)
+        source, = link.stats.sources
+        assert (source.received, source.lost, source.resync, link.stats.lost, link.stats.resync) == (4, 4, 0, 4, 0)
+
+
 def test_row_26_a_link_that_is_closed_lets_go(ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, full="drop_newest") as writer:
         link = mavloom.connect(f"shm://{ring}?lossless=true", buffer=64 * KIB)
@@ -151,6 +162,13 @@ def test_what_goes_on_into_another_ring_keeps_its_verdict(ring, writer):
             record = reader.read(timeout=0)
             assert (bytes(record.data), record.time_ns, record.verdict) == (beat(1), 77_000, DUPLICATE)
         copy.close(remove=True)
+
+
+def test_a_ring_is_not_filled_with_itself(ring, writer):
+    writer.write(beat(1), kind=1)
+    with mavloom.connect(f"shm://{ring}?from=oldest") as link:
+        with pytest.raises(ValueError, match="filled with itself"):
+            link.pump(writer, timeout=0)
 
 
 @pytest.fixture
