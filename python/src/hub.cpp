@@ -53,14 +53,14 @@ void Hub::watch_forks() {
 
 std::uint64_t Hub::forks() noexcept { return fork_count.load(std::memory_order_relaxed); }
 
-SetupResult<std::shared_ptr<Hub>> Hub::get(const std::shared_ptr<const Definitions>& definitions) {
+SetupResult<std::shared_ptr<Hub>> Hub::get() {
     const std::lock_guard lock(registry_mutex);
     std::erase_if(registry(), [](const auto& hub) { return hub.expired(); });
     for (const auto& known : registry())
-        if (auto hub = known.lock(); hub && hub->definitions_ == definitions && !hub->stopping_) return hub;
-    auto sources = runtime::Sources::create(definitions->dialect());
+        if (auto hub = known.lock(); hub && !hub->stopping_) return hub;
+    auto sources = runtime::Sources::create(dialect::default_dialect());
     if (!sources) return tl::unexpected(std::move(sources.error()));
-    const std::shared_ptr<Hub> hub(new Hub(std::move(*sources), definitions));
+    const std::shared_ptr<Hub> hub(new Hub(std::move(*sources)));
     registry().push_back(hub);
     return hub;
 }
@@ -75,8 +75,7 @@ void Hub::stop_all() {
     for (const auto& hub : hubs) hub->stop();
 }
 
-Hub::Hub(runtime::Sources sources, std::shared_ptr<const Definitions> definitions)
-    : definitions_(std::move(definitions)), sources_(std::move(sources)) {
+Hub::Hub(runtime::Sources sources) : sources_(std::move(sources)) {
     thread_ = start_without_signals([this] { run(); });
 }
 
@@ -200,7 +199,8 @@ SetupResult<Hub::Opened> Hub::open(const runtime::Endpoint& endpoint, const std:
 SetupResult<Hub::Opened> Hub::open_now(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                        const Consumer& reader) {
     const bool is_ring = endpoint.scheme == runtime::Scheme::shm;
-    const auto added = is_ring ? sources_.add_ring(endpoint) : links().add(endpoint);
+    const auto* own = &channel->origin()->dialect();
+    const auto added = is_ring ? sources_.add_ring(endpoint, own) : links().add(endpoint, own);
     if (!added) return tl::unexpected(added.error());
     const bool is_lossless = is_ring && endpoint.options.lossless.value_or(false);
     if (is_lossless) channel->hold_for(&reader, [this] { sources_.wake(); });

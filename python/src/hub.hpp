@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loop thread behind all links of one dialect: it receives, sends and reconnects without ever touching Python. It runs while a link is open.
+// The loop thread behind all links of the process, whatever their dialects: it receives, sends and reconnects without ever touching Python. It runs while a link is open.
 #pragma once
 
 #include <atomic>
@@ -31,8 +31,8 @@ struct LinkStats {
 
 class Hub : private runtime::LinkHandler {
 public:
-    // The one that is running for these definitions, or a new one.
-    [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get(const std::shared_ptr<const Definitions>& definitions);
+    // The one that is running, or a new one.
+    [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
     // Ends every loop thread and closes their channels: at the interpreter's exit.
     static void stop_all();
     // Once, before anything else: a forked child begins with nothing open.
@@ -68,7 +68,7 @@ private:
     };
     static constexpr std::size_t most_outgoing = 4096;
 
-    explicit Hub(runtime::Sources sources, std::shared_ptr<const Definitions> definitions);
+    explicit Hub(runtime::Sources sources);
 
     void on_frame(const runtime::RxFrame& rx) override;
     void on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) override;
@@ -107,10 +107,9 @@ private:
     // Waits until the loop thread finds it over, which it asks after each turn, or the limit.
     void wait_on_loop(std::function<bool()> over, Nanoseconds limit);
 
-    const std::shared_ptr<const Definitions> definitions_;
-    // The loop thread's.
-    runtime::Sources sources_;
+    // The loop thread's. Channels have the dialects that the sources read by, and go after them.
     std::unordered_map<runtime::EndpointId, Served> served_;
+    runtime::Sources sources_;
     std::vector<Wait> waits_;
 
     std::mutex mutex_;

@@ -227,7 +227,7 @@ public:
         reader_ = nb::cast(new Subscription(channel_, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<Hub::Opened> {
             const WithoutGil outside;
-            auto hub = Hub::get(origin_->definitions());
+            auto hub = Hub::get();
             if (!hub) return tl::unexpected(std::move(hub.error()));
             hub_ = std::move(*hub);
             return hub_->open(endpoint, channel_, nb::inst_ptr<Subscription>(reader_)->consumer());

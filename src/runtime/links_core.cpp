@@ -44,10 +44,8 @@ void OpenEndpoint::count_gone(const Link& link) noexcept {
     counters.gone_queued.add(link.queue.blocks());
 }
 
-Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
-           net::ReceiveBatch batch)
-    : table_(table),
-      classes_(std::move(classes)),
+Core::Core(Language language, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+    : language_(std::move(language)),
       loop_(std::move(loop)),
       resolver_([wake = loop_->wake_handle()] { net::EventLoop::wake(*wake); }),
       receive_(std::move(batch)),
@@ -153,7 +151,12 @@ bool Core::name_taken(const std::string& name) const {
 void Core::add_link(Link& link) {
     const std::string wanted = link.name;
     for (int n = 2; name_taken(link.name); ++n) link.name = fmt::format("{} ({})", wanted, n);
+    link.language = &language(link.endpoint);
     links_.add(link);
+}
+
+void Core::speaks(EndpointId endpoint, const dialect::Dialect& dialect) {
+    languages_.emplace(endpoint, Language{dialect.wire_table(), MessageClasses(dialect)});
 }
 
 void Core::set_up(Link& link) {
@@ -229,7 +232,7 @@ bool Core::queue(Link& link, const wire::FrameView& frame) {
         link.counters.bytes_out.add(frame.size());
         return true;
     }
-    const MessageClasses::Rule rule = classes_.of(frame.id());
+    const MessageClasses::Rule rule = link.language->classes.of(frame.id());
     const auto pushed = link.queue.push(frame.bytes(), rule.block_class, MessageClasses::key(frame, rule), now_);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);

@@ -33,13 +33,14 @@ bool is_copy(const shm::RecordInfo& info) noexcept {
 }  // namespace
 
 RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links,
-                       Copies copies)
+                       Copies copies, const dialect::Dialect* dialect)
     : endpoint_(endpoint),
       id_{ids.next()},
       table_(table),
       ids_(ids),
       links_(links),
       wanted_copies_(copies),
+      dialect_(dialect),
       follower_(endpoint.path, reader_options(endpoint.options)) {
     copy_.reserve(shm::max_record_bytes);
     found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
@@ -228,7 +229,7 @@ SetupResult<EndpointId> RingSource::inlet() {
         inlet.options.from_oldest = false;
         inlet.options.lossless.reset();
         inlet.options.required = false;
-        auto added = links_.add(inlet);
+        auto added = links_.add(inlet, dialect_);
         if (added) inlet_ = *added;
         else no_inlet_ = std::move(added.error());
     }

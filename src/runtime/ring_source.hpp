@@ -31,8 +31,9 @@ private:
 
 class RingSource {
 public:
-    // Answers go out by `links`. It and the others must outlive the object.
-    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies);
+    // Answers go out by `links`, by the rules of `dialect` where there is one. It and the others must outlive the object.
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies,
+               const dialect::Dialect* dialect = nullptr);
     RingSource(const RingSource&) = delete;
     RingSource& operator=(const RingSource&) = delete;
     ~RingSource();
@@ -103,6 +104,7 @@ private:
     RingLinkIds& ids_;
     Links& links_;
     Copies wanted_copies_;
+    const dialect::Dialect* dialect_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
     MonoTime next_look_{};                    // at a ring that is not open, or that is damaged

@@ -96,10 +96,10 @@ SetupResult<EndpointId> Sources::add(const Endpoint& endpoint, MonoTime now, dou
     return EndpointId{id};
 }
 
-SetupResult<EndpointId> Sources::add_ring(const Endpoint& endpoint) {
+SetupResult<EndpointId> Sources::add_ring(const Endpoint& endpoint, const dialect::Dialect* dialect) {
     if (auto checked = detail::RingSources::check(endpoint); !checked)
         return tl::unexpected(std::move(checked.error()));
-    return rings_->add(endpoint);
+    return rings_->add(endpoint, dialect);
 }
 void Sources::remove_ring(EndpointId ring) { rings_->remove(ring); }
 void Sources::hold_ring(EndpointId ring, bool held) noexcept { rings_->find(ring)->hold(held); }

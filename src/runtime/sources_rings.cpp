@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "mavloom/dialect/dialect.hpp"
 #include "runtime/links_options.hpp"
 
 namespace mavloom::runtime::detail {
@@ -17,12 +18,13 @@ SetupResult<void> RingSources::check(const Endpoint& endpoint) {
     return check_supported(endpoint, RoutingOptions::refused);
 }
 
-SetupResult<EndpointId> RingSources::add(const Endpoint& endpoint) {
+SetupResult<EndpointId> RingSources::add(const Endpoint& endpoint, const dialect::Dialect* dialect) {
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
     if (std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_, copies_);
+    auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
+                                             links_, copies_, dialect);
     if (auto opened = ring->open(); !opened) return tl::unexpected(std::move(opened.error()));
     rings_.push_back(std::move(ring));
     return rings_.back()->id();

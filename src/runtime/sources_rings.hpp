@@ -17,7 +17,7 @@ public:
     RingSources(Links& links, const wire::MessageTable& table, Copies copies);
 
     [[nodiscard]] static SetupResult<void> check(const Endpoint& endpoint);
-    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
     void remove(EndpointId ring);
     // Null where there is none.
     [[nodiscard]] RingSource* find(EndpointId ring) const noexcept;

@@ -437,6 +437,24 @@ def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
         assert second.recv(timeout=DEADLINE_S).level == 0.5
 
 
+def test_row_11_one_loop_thread_serves_links_of_all_dialects(tmp_path, child_environment):
+    code = f"""
+def threads():
+    return len(os.listdir("/proc/self/task"))
+link.close()
+before, dialect = threads(), mavloom.Dialect({str(tmp_path / 'other.xml')!r})
+own, = [mavloom.connect("udpin://127.0.0.1:0", dialect=dialect)]
+usual = mavloom.connect("udpin://127.0.0.1:0")
+for to, name, fields in ((own, "SECURE_PAYLOAD", {{"level": 0.5}}), (usual, "HEARTBEAT", {{}})):
+    with mavloom.connect(f"udpout://127.0.0.1:{{to.port}}", dialect=dialect) as sender:
+        assert sender.send(name, **fields) == 1 and to.recv(timeout=60).name == name
+print(threads() - before)
+"""
+    another_definition(tmp_path)
+    out, talk = child(code, child_environment).communicate(timeout=DEADLINE_S)
+    assert (out, talk) == ("1\n", "")
+
+
 def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
     for name, byte in (("ours", "07"), ("other", "08")):
         (tmp_path / name).write_text(byte * 32)

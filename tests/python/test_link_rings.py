@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """mavloom.connect("shm://NAME"): a ring as a link, and its router's inlet. "Row N": the wishes listed in docs/guide/python.md."""
+import contextlib
 import os
 import pathlib
 import socket
@@ -94,7 +95,7 @@ def test_row_5_a_lossy_link_is_told_what_it_missed(ring, writer):
         while (message := link.recv(timeout=0)) is not None:
             found.append(message.custom_mode)
         assert len(found) + link.stats.missed + link.stats.lapped == written
-        assert found == list(range(written - len(found), written)) and found
+        assert found == sorted(set(found)) and found[-1] == written - 1  # what the writer overtook lies in between
 
 
 def test_row_5_a_lossless_link_holds_the_writer(ring, writer):
@@ -185,7 +186,8 @@ def test_a_router_is_heard_and_sent_to(ring, router, peer):
     vehicle = Vehicle(peer, router)
     with mavloom.connect(f"shm://{ring}?from=oldest", source_system=200, source_component=1) as link:
         def heard():
-            vehicle.send(vehicle.heartbeat())
+            with contextlib.suppress(ConnectionRefusedError):  # the ring is there before the port
+                vehicle.send(vehicle.heartbeat())
             return link.recv(timeout=0.05)
         until(heard)
         message = link.latest("HEARTBEAT")

@@ -126,7 +126,8 @@ public:
     // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
     // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
     // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
-    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
+    // With a dialect, which must outlive the endpoint, its links find and queue frames by that.
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
     // The inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` that may be sent to as `mode` says. Each sender of a
     // valid frame is a link, all that are not bound are one; what is sent to these links is counted and goes nowhere, for they find it in the ring.
     // A socket that nobody serves any more is replaced; `in_use` where somebody does.

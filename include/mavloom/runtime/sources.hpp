@@ -51,7 +51,7 @@ public:
 
     // A ring alone, which these calls are about: `remove` closes it and its inlet (not inside a callback); a ring that is held is not read until it is let
     // go, for want of room at whoever takes its frames; `inlet` is the endpoint of its inlet, opened at the first call.
-    [[nodiscard]] SetupResult<EndpointId> add_ring(const Endpoint& endpoint);
+    [[nodiscard]] SetupResult<EndpointId> add_ring(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
     void remove_ring(EndpointId ring);
     void hold_ring(EndpointId ring, bool held) noexcept;
     [[nodiscard]] SetupResult<EndpointId> inlet(EndpointId ring);
