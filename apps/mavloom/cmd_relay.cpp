@@ -177,7 +177,7 @@ SetupResult<void> open_sources(const Options& options, runtime::Sources& sources
                                                              endpoint->label()));
         const bool is_ring = endpoint->scheme == runtime::Scheme::shm;
         if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
-        if (auto added = sources.add(*endpoint, mono_now()); !added) return added;
+        if (auto added = sources.add(*endpoint, mono_now()); !added) return tl::unexpected(std::move(added.error()));
     }
     return {};
 }

@@ -11,7 +11,7 @@ import atexit as _atexit
 from . import _errors, enums, messages
 from ._columns import Columns, columns, tables
 from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Record, RecordBatch, Recording, RecordingStats, RingClaim, RingReader,
-                    RingWriter, Subscription, remove_ring, rings, stop_all, version)
+                    RingWriter, SourceStats, Subscription, remove_ring, rings, stop_all, version)
 from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
 from ._link import Link, connect
 
@@ -25,6 +25,7 @@ _atexit.register(stop_all)
 
 __all__ = [
     "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
-    "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats", "RingClaim", "RingReader", "RingWriter", "Subscription", "SystemFailure",
+    "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription",
+    "SystemFailure",
     "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings", "tables",
 ]

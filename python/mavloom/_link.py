@@ -5,11 +5,14 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._core import Dialect, LinkStats, Message, Port, RingWriter, Subscription
 from ._errors import UsageError
 from ._types import MessageTypes
+
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
 
 DEFAULT_BUFFER_BYTES = 16 << 20  # about 250,000 messages
 NO_VEHICLES = frozenset({6, 18, 26, 27, 30})  # MAV_TYPE: GCS, onboard controller, gimbal, ADS-B, camera
@@ -22,7 +25,8 @@ def is_vehicle(heartbeat: Message) -> bool:
 
 
 class Link:
-    """One endpoint (docs/guide/endpoints.md) and all its peers: a port that listens, a connection that is made again whenever it breaks, a serial device.
+    """One endpoint (docs/guide/endpoints.md) and all its peers: a port that listens, a connection that is made again whenever it breaks, a serial device,
+    a ring in shared memory.
 
     Receiving goes on in a thread of C++, whatever Python does. What was not read yet waits in a buffer of `buffer` bytes; then the oldest is overwritten, and
     `stats.missed` tells how much. Every method may be called from any thread. Closing (`close()`, `with`, or when the object and all that was made of it, as
@@ -31,12 +35,13 @@ class Link:
     """
 
     def __init__(self, url: str, *, source_system: int = 255, source_component: int = 190, dialect: Dialect | None = None,
-                 buffer: int = DEFAULT_BUFFER_BYTES) -> None:
-        """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background."""
+                 buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
+        """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background, or with
+        `required=true` in the address for up to 5 s, and is then a SystemFailure too."""
         for what, number in (("source_system", source_system), ("source_component", source_component)):
             if not 0 <= number <= 255:
                 raise UsageError(f"{what}: {number} is out of range, 0 to 255")
-        self._port = Port(url, source_system, source_component, dialect, buffer)
+        self._port = Port(url, source_system, source_component, dialect, buffer, version)
         self._reader: Subscription = self._port.reader
         self.mav = Sender(self._port)
 
@@ -83,6 +88,11 @@ class Link:
         many peers it goes to; with 0 nothing is sent, and counted as `no_peer`. Waits for nobody but a loop that is behind."""
         return self._port.send(message, **fields)
 
+    def forward(self, message: Message | Buffer, /) -> int:
+        """Sends a Message, or the bytes of one whole frame, as it is: its own source, sequence number, version and signature (`sign=` puts the link's in its
+        place). Also what has no definition. Returns as `send`. Bytes that are no frame are an InputError."""
+        return self._port.forward(message)
+
     # ---- state
 
     @property
@@ -99,6 +109,11 @@ class Link:
     def port(self) -> int:
         """The bound port; 0 where there is none."""
         return self._port.port
+
+    @property
+    def version(self) -> int:
+        """The MAVLink version that `send` writes, 1 or 2; both are always read."""
+        return self._port.version
 
     @property
     def dialect(self) -> Dialect:
@@ -155,10 +170,11 @@ class Link:
         message = self.messages.get(type)
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
 
-    def packet_loss(self) -> float:
-        """Per cent lost on the way here, over all sources."""
-        stats = self.stats
-        return 100.0 * stats.lost / max(stats.lost + stats.frames_in, 1)
+    def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
+        """Per cent lost on the way here, of all sources or of these; late and doubled frames are no loss. `stats.sources` has each of them."""
+        chosen = [source for source in self.stats.sources if system in (None, source.sys) and component in (None, source.comp)]
+        lost = sum(source.lost for source in chosen)
+        return 100.0 * lost / max(lost + sum(source.received - source.duplicate for source in chosen), 1)
 
 
 class Latest(Mapping[str, Message]):
@@ -211,6 +227,6 @@ class Sender:
 
 
 def connect(url: str, *, source_system: int = 255, source_component: int = 190, dialect: Dialect | None = None,
-            buffer: int = DEFAULT_BUFFER_BYTES) -> Link:
-    """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`. pymavlink's spellings (`udpin:HOST:PORT`) are taken too."""
-    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer)
+            buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
+    """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`. pymavlink's spellings (`udpin:HOST:PORT`) are taken too. `version=1` sends MAVLink 1."""
+    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer, version=version)

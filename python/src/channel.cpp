@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "mavloom/runtime/ring_frames.hpp"
+
 namespace mavloom::python {
 namespace {
 
@@ -19,14 +21,29 @@ constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard con
 constexpr std::uint8_t autopilot_invalid = 8;
 constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // offsets
 
+std::uint8_t verdict_of(const runtime::RxFrame& rx, bool verifies) noexcept {
+    using runtime::FrameSignature;
+    if (rx.ring_verdict != 0) return rx.ring_verdict;
+    if (!rx.frame.is_signed()) return runtime::ring_verdict(FrameSignature::none);
+    return runtime::ring_verdict(verifies ? FrameSignature::good : FrameSignature::unchecked);
+}
+
 }  // namespace
+
+void add_to(Losses& losses, std::string link, const wire::SequenceStats& stats) {
+    auto& sum = losses[{std::move(link), stats.source}];
+    sum.received += stats.received;
+    sum.lost += stats.lost;
+    sum.late += stats.late;
+    sum.duplicate += stats.duplicate;
+    sum.resync += stats.resync;
+}
 
 // ---- loop thread
 
 void Channel::on_frame(const runtime::RxFrame& rx, MonoTime now) {
-    const FrameRing::Head head{.time_ns = rx.time.time_since_epoch().count(),
-                               .link = rx.link.value,
-                               .verified = verifies_ && rx.frame.is_signed()};
+    const FrameRing::Head head{
+        .time_ns = rx.time.time_since_epoch().count(), .link = rx.link.value, .verdict = verdict_of(rx, verifies_)};
     const auto* definition = rx.info == nullptr ? nullptr : origin_->dialect().find(rx.frame.id());
     const auto* field = definition == nullptr ? nullptr : instance_field(*definition);
     const Key key{rx.frame.id().value, rx.frame.source(),
@@ -69,11 +86,33 @@ void Channel::look_for_vehicle(const wire::FrameView& frame) {
 }
 
 void Channel::on_link_up(LinkId link, std::string_view name) {
-    origin_->name_link(link.value, std::string(name));
+    name_link(link, name);
     peers_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void Channel::on_link_down() { peers_.fetch_sub(1, std::memory_order_relaxed); }
+void Channel::on_link_down(std::string_view name, std::span<const wire::SequenceStats> losses) {
+    peers_.fetch_sub(1, std::memory_order_relaxed);
+    const std::lock_guard lock(mutex_);
+    for (const auto& stats : losses)
+        add_to(losses_, losses_.size() < most_losses ? std::string(name) : std::string(), stats);
+}
+
+void Channel::on_bad_checksum(MessageId id) {
+    const std::lock_guard lock(mutex_);
+    if (bad_ids_.size() < most_bad_ids || bad_ids_.contains(id)) ++bad_ids_[id];
+}
+
+bool Channel::has_room() {
+    const std::lock_guard lock(mutex_);
+    full_ = holder_ != nullptr && !ring_.has_room(holder_->at_, frames_a_turn);
+    return !full_;
+}
+
+void Channel::hold_for(const Consumer* reader, std::function<void()> room_made) {
+    const std::lock_guard lock(mutex_);
+    holder_ = reader;
+    room_made_ = std::move(room_made);
+}
 
 void Channel::publish() {
     const std::lock_guard lock(mutex_);
@@ -86,6 +125,8 @@ void Channel::publish() {
 void Channel::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
+    holder_ = nullptr;
+    room_made_ = {};
     peers_.store(0, std::memory_order_relaxed);
     for (auto* consumer : consumers_) consumer->tell();
     changed_.notify_all();
@@ -110,6 +151,22 @@ std::uint64_t Channel::not_kept() const {
     return not_kept_;
 }
 
+std::map<MessageId, Channel::CrcErrors> Channel::crc_errors() const {
+    const std::lock_guard lock(mutex_);
+    std::map<MessageId, CrcErrors> errors;
+    for (const auto& [id, count] : bad_ids_) {
+        const auto heard = latest_.lower_bound(Key{id.value, {}, {}});
+        const bool is_heard = heard != latest_.end() && heard->first.id == id.value;
+        errors[id] = {count, !is_heard && not_kept_ == 0};
+    }
+    return errors;
+}
+
+Losses Channel::losses() const {
+    const std::lock_guard lock(mutex_);
+    return losses_;
+}
+
 Source Channel::target() const {
     const std::lock_guard lock(mutex_);
     return target_;
@@ -126,6 +183,7 @@ Consumer::~Consumer() {
     {
         const std::lock_guard lock(channel_->mutex_);
         std::erase(channel_->consumers_, this);
+        if (channel_->holder_ == this) channel_->holder_ = nullptr;
     }
     if (event_fd_ >= 0) ::close(event_fd_);
 }
@@ -142,10 +200,14 @@ bool Consumer::take(FrameBatch& batch, std::size_t most) {
             batch.add({.time_ns = head.time_ns,
                        .definition = channel_->origin_->dialect().find(frame.id()),
                        .link = head.link,
-                       .verified = head.verified},
+                       .verdict = head.verdict},
                       frame);
     }
     seen_ = at_.frame;
+    if (channel_->holder_ == this && channel_->full_ && channel_->ring_.has_room(at_, Channel::frames_a_turn)) {
+        channel_->full_ = false;
+        channel_->room_made_();
+    }
     if (batch.size() != 0) return true;
     armed_ = true;
     if (seen_ != channel_->ring_.newest().frame) tell();

@@ -6,21 +6,29 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "filter.hpp"
 #include "frame_batch.hpp"
 #include "frame_ring.hpp"
 #include "mavloom/runtime/links.hpp"
+#include "mavloom/wire/sequence.hpp"
 #include "message.hpp"
 
 namespace mavloom::python {
 
 class Consumer;
+
+// What each source lost on each link, by the link's name.
+using Losses = std::map<std::tuple<std::string, Source>, wire::SequenceStats>;
+void add_to(Losses& losses, std::string link, const wire::SequenceStats& stats);
 
 class Channel {
 public:
@@ -32,10 +40,21 @@ public:
         std::vector<std::uint8_t> bytes;
     };
 
-    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, bool verifies)
-        : origin_(std::move(origin)), verifies_(verifies), ring_(buffer_bytes) {}
+    // Frames of one message that were damaged, or made with another definition.
+    struct CrcErrors {
+        std::uint64_t count = 0;
+        bool always = false;  // no good one was ever heard
+    };
+
+    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, const runtime::Endpoint& endpoint)
+        : origin_(std::move(origin)),
+          verifies_(!endpoint.options.verify_key_file.empty()),
+          ring_name_(endpoint.scheme == runtime::Scheme::shm ? endpoint.path : std::string()),
+          ring_(buffer_bytes) {}
 
     [[nodiscard]] const std::shared_ptr<Origin>& origin() const noexcept { return origin_; }
+    // The ring in shared memory that is read; empty for other links.
+    [[nodiscard]] const std::string& ring_name() const noexcept { return ring_name_; }
     [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
 
     // The newest message that the filter and `instance` take and that is not older than `not_before`.
@@ -45,11 +64,21 @@ public:
     [[nodiscard]] Source target() const;
     // Frames that `latest` does not know: its table was full.
     [[nodiscard]] std::uint64_t not_kept() const;
+    [[nodiscard]] std::map<MessageId, CrcErrors> crc_errors() const;
+    // Of links that are gone.
+    [[nodiscard]] Losses losses() const;
 
     // ---- loop thread
     void on_frame(const runtime::RxFrame& rx, MonoTime now);
     void on_link_up(LinkId link, std::string_view name);
-    void on_link_down();
+    void on_link_down(std::string_view name, std::span<const wire::SequenceStats> losses);
+    void on_bad_checksum(MessageId id);
+    // A link of a ring: it has a name, but nobody to send to.
+    void name_link(LinkId link, std::string_view name) { origin_->name_link(link.value, std::string(name)); }
+    // Whether the frames of a turn fit behind what `reader` has not read; where not, `room_made` is called when they do.
+    [[nodiscard]] bool has_room();
+    static constexpr std::size_t frames_a_turn = 128;  // of a ring that is held for a reader
+    void hold_for(const Consumer* reader, std::function<void()> room_made);
     // Wakes who waits for what came since.
     void publish();
     // Nothing follows, and nothing more is read.
@@ -64,13 +93,16 @@ private:
         Instance instance;
         friend auto operator<=>(const Key&, const Key&) = default;
     };
-    static constexpr std::size_t most_latest = 16'384;  // bounds what forged sources and instances can make us remember
+    // These bound what forged sources, instances and ids can make us remember.
+    static constexpr std::size_t most_latest = 16'384;
+    static constexpr std::size_t most_losses = 4096, most_bad_ids = 1024;
 
     void remember(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now);
     void look_for_vehicle(const wire::FrameView& frame);
 
     const std::shared_ptr<Origin> origin_;
     const bool verifies_;
+    const std::string ring_name_;
     std::atomic<std::size_t> peers_{0};
     std::atomic<bool> closed_{false};  // set with mutex_ held
 
@@ -81,7 +113,12 @@ private:
     std::map<Key, Latest> latest_;
     std::uint64_t frames_ = 0, not_kept_ = 0;
     Source target_;
+    std::map<MessageId, std::uint64_t> bad_ids_;
+    Losses losses_;
     std::vector<Consumer*> consumers_;
+    const Consumer* holder_ = nullptr;
+    std::function<void()> room_made_;
+    bool full_ = false;
     bool news_ = false;
 };
 

@@ -9,8 +9,6 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::uint64_t most_damage = 1 << 20;
-
 bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) {
     if (query.system && frame.system().value != *query.system) return false;
     if (query.component && frame.component().value != *query.component) return false;
@@ -57,12 +55,13 @@ void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
 
 namespace {
 
-// Calls take(record) for what next() gives.
+// Calls take(record) for what next(bytes) gives.
 template <class Next, class Take>
-SetupResult<bool> read_records(record::TlogReader& reader, std::size_t most_records, Next next, Take take) {
+SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_bytes, Next next, Take take) {
     using Stop = record::TlogReader::Stop;
-    for (std::size_t i = 0; i < most_records; ++i) {
-        const auto record = next();
+    const auto end = reader.position() + most_bytes;
+    while (reader.position() < end) {
+        const auto record = next(end - reader.position());
         if (record) {
             take(*record);
             continue;
@@ -75,10 +74,10 @@ SetupResult<bool> read_records(record::TlogReader& reader, std::size_t most_reco
 
 }  // namespace
 
-SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::size_t most_records) {
+SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::uint64_t most_bytes) {
     const auto* instance = instance_field(*query.message);
     return read_records(
-        reader, most_records, [&] { return reader.next_of(query.message->id(), most_damage); },
+        reader, most_bytes, [&](std::uint64_t most) { return reader.next_of(query.message->id(), most); },
         [&](const record::Record& record) {
             if (is_wanted(record.frame, query, instance))
                 rows.add(record.time.time_since_epoch().count(), record.frame);
@@ -86,9 +85,9 @@ SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& quer
 }
 
 SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const ColumnsQuery& query,
-                              Tables& tables, std::size_t most_records) {
+                              Tables& tables, std::uint64_t most_bytes) {
     return read_records(
-        reader, most_records, [&] { return reader.next(most_damage); },
+        reader, most_bytes, [&](std::uint64_t most) { return reader.next(most); },
         [&](const record::Record& record) {
             if (record.info == nullptr || !is_wanted(record.frame, query, nullptr)) return;
             const auto place = static_cast<std::size_t>(record.info - dialect.wire_table().messages().data());

@@ -54,9 +54,9 @@ struct Columns {
     std::vector<Values> fields;         // in the order of the definition
 };
 
-// Reads on until `most_records` records or a MiB of damage went by, or the file's end; true where there is more. Errors as TlogReader has them.
+// Reads on until `most_bytes` went by, whatever they hold, or the file's end; true where there may be more. Errors as TlogReader has them.
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
-                                          std::size_t most_records);
+                                          std::uint64_t most_bytes);
 
 // The rows of many messages at once, by the message's place in the dialect's wire table; null for those that are not wanted or did not occur.
 struct Tables {
@@ -65,7 +65,7 @@ struct Tables {
 };
 // As read_rows, with `query` giving system and component; checks every checksum.
 [[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
-                                            const ColumnsQuery& query, Tables& tables, std::size_t most_records);
+                                            const ColumnsQuery& query, Tables& tables, std::uint64_t most_bytes);
 
 [[nodiscard]] Columns columns_of(const dialect::Message& message, const Rows& rows);
 

@@ -21,7 +21,7 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::size_t records_between_signals = 1 << 16;
+constexpr std::uint64_t bytes_between_signals = 4 << 20;  // some tens of milliseconds, of nothing but damage too
 
 // `count` 0: one dimension, else two.
 template <class T>
@@ -88,7 +88,7 @@ nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::
     auto reader = open(path, definitions->dialect());
     const ColumnsQuery query{&message, system, component, std::move(instance)};
     Rows rows(message);
-    read_all([&] { return read_rows(reader, query, rows, records_between_signals); });
+    read_all([&] { return read_rows(reader, query, rows, bytes_between_signals); });
     return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
 }
 
@@ -106,7 +106,7 @@ nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::op
     }
     auto reader = open(path, known);
     read_all([&] {
-        return read_tables(reader, known, {nullptr, system, component, {}}, tables, records_between_signals);
+        return read_tables(reader, known, {nullptr, system, component, {}}, tables, bytes_between_signals);
     });
     nb::dict made;
     for (std::size_t i = 0; i < infos.size(); ++i) {

@@ -303,7 +303,7 @@ void bind_dialect(nb::module_& module) {
         .def(
             "__reduce__",
             [](nb::handle self) {
-                return nb::make_tuple(nb::type<PyDialect>(),
+                return nb::make_tuple(nb::module_::import_("mavloom._pickle").attr("restore_dialect"),
                                       nb::make_tuple(path_or_none(*nb::inst_ptr<PyDialect>(self))));
             },
             nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"))

@@ -133,20 +133,23 @@ MessageBuilder build(const Definitions& definitions, const nb::object& message, 
     return builder;
 }
 
-wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header, const MessageBuilder& builder) {
-    const auto& info = builder.definition().wire;
-    if (header.version == wire::Version::v1 && !wire::fits_v1(info))
-        raise_usage(fmt::format("{} has id {}: MAVLink 1 ends at 255", builder.definition().name, info.id.value));
-    return wire::write_frame(out, header, info, builder.payload());
+void check_version(wire::Version version, const dialect::Message& message) {
+    if (version == wire::Version::v1 && !wire::fits_v1(message.wire))
+        raise_usage(fmt::format("{} has id {}: MAVLink 1 ends at 255", message.name, message.id().value));
 }
 
-nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns) {
+wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header, const MessageBuilder& builder) {
+    check_version(header.version, builder.definition());
+    return wire::write_frame(out, header, builder.definition().wire, builder.payload());
+}
+
+wire::FrameView whole_frame(const dialect::Dialect& dialect, ByteView bytes) {
     const auto length = wire::frame_length(bytes);
     if (length == 0) raise_input("no MAVLink frame: it begins with 0xfd or 0xfe and has at least 8 bytes");
     if (length != bytes.size())
         raise_input(fmt::format("{} bytes given, the frame's header says {}", bytes.size(), length));
     const auto frame = wire::FrameView::unchecked(bytes);
-    const auto* definition = origin->dialect().find(frame.id());
+    const auto* definition = dialect.find(frame.id());
     const auto before = wire::checksum_before_extra(frame);
     const bool good = definition == nullptr ? wire::crc_extra_between(before, frame.checksum()) >= 0
                                             : wire::crc_update(before, definition->wire.crc_extra) == frame.checksum();
@@ -155,7 +158,12 @@ nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, s
                                 definition == nullptr ? "an id without definition" : definition->name));
     if ((frame.incompat_flags() & ~wire::incompat_signed) != 0)
         raise_input(fmt::format("incompatibility flags {:#x}, which are not defined", frame.incompat_flags()));
-    return make_message(origin, definition, time_ns, 0, frame);
+    return frame;
+}
+
+nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns) {
+    const auto frame = whole_frame(origin->dialect(), bytes);
+    return make_message(origin, origin->dialect().find(frame.id()), time_ns, 0, frame);
 }
 
 }  // namespace mavloom::python

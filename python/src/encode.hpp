@@ -18,11 +18,16 @@ void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builde
 [[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
                                             const nb::kwargs& fields);
 
+// Raises UsageError where MAVLink 1 has no room for a message.
+void check_version(wire::Version version, const dialect::Message& message);
+
 // The frame of what was built; MAVLink 1 where the message fits there, else UsageError.
 [[nodiscard]] wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header,
                                     const message::MessageBuilder& builder);
 
-// Makes a Message of one whole frame; raises InputError where the bytes are none.
+// The one whole frame that these bytes are; raises InputError where they are none.
+[[nodiscard]] wire::FrameView whole_frame(const dialect::Dialect& dialect, ByteView bytes);
+// Makes a Message of it.
 [[nodiscard]] nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns);
 
 // A view of any bytes-like object, held as long as this lives.

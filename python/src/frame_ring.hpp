@@ -17,8 +17,8 @@ public:
     struct Head {
         std::int64_t time_ns = 0;
         std::uint32_t link = 0;
-        std::uint16_t size = 0;  // of the frame; `padding`: nothing follows before the ring's start
-        bool verified = false;
+        std::uint16_t size = 0;    // of the frame; `padding`: nothing follows before the ring's start
+        std::uint8_t verdict = 0;  // runtime/ring_frames.hpp
     };
     // A reader: the next byte and the number of the next frame. Never wraps.
     struct Position {
@@ -62,6 +62,11 @@ public:
         return at.frame < tail_.frame ? tail_.frame - at.frame : 0;
     }
     [[nodiscard]] Position newest() const noexcept { return head_; }
+    // Whether so many more frames of any length leave what this reader has not read.
+    [[nodiscard]] bool has_room(const Position& reader, std::size_t frames) const noexcept {
+        const std::size_t needed = (frames + 1) * length_of(wire::max_frame_length);  // one for what the wrap wastes
+        return head_.byte - reader.byte + needed <= capacity_;
+    }
 
 private:
     static constexpr std::uint16_t padding = 0xffff;

@@ -12,7 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_flush = 1s;
+constexpr auto longest_flush = 1s, required_limit = 5s;
+constexpr std::size_t ring_frames_a_turn = 4096;  // of all that are lossy
 
 std::mutex registry_mutex;
 std::vector<std::weak_ptr<Hub>>& registry() {
@@ -33,6 +34,10 @@ std::thread start_without_signals(Run run) {
     return thread;
 }
 
+bool listens(runtime::Scheme scheme) noexcept {
+    return scheme == runtime::Scheme::udpin || scheme == runtime::Scheme::tcpin;
+}
+
 }  // namespace
 
 void Hub::watch_forks() {
@@ -48,14 +53,14 @@ void Hub::watch_forks() {
 
 std::uint64_t Hub::forks() noexcept { return fork_count.load(std::memory_order_relaxed); }
 
-SetupResult<std::shared_ptr<Hub>> Hub::get(const std::shared_ptr<const Definitions>& definitions) {
+SetupResult<std::shared_ptr<Hub>> Hub::get() {
     const std::lock_guard lock(registry_mutex);
     std::erase_if(registry(), [](const auto& hub) { return hub.expired(); });
     for (const auto& known : registry())
-        if (auto hub = known.lock(); hub && hub->definitions_ == definitions && !hub->stopping_) return hub;
-    auto links = runtime::Links::create(definitions->dialect());
-    if (!links) return tl::unexpected(std::move(links.error()));
-    const std::shared_ptr<Hub> hub(new Hub(std::move(*links), definitions));
+        if (auto hub = known.lock(); hub && !hub->stopping_) return hub;
+    auto sources = runtime::Sources::create(dialect::default_dialect());
+    if (!sources) return tl::unexpected(std::move(sources.error()));
+    const std::shared_ptr<Hub> hub(new Hub(std::move(*sources)));
     registry().push_back(hub);
     return hub;
 }
@@ -70,8 +75,7 @@ void Hub::stop_all() {
     for (const auto& hub : hubs) hub->stop();
 }
 
-Hub::Hub(std::unique_ptr<runtime::Links> links, std::shared_ptr<const Definitions> definitions)
-    : definitions_(std::move(definitions)), links_(std::move(links)) {
+Hub::Hub(runtime::Sources sources) : sources_(std::move(sources)) {
     thread_ = start_without_signals([this] { run(); });
 }
 
@@ -79,7 +83,7 @@ Hub::~Hub() { stop(); }
 
 void Hub::stop() {
     stopping_.store(true, std::memory_order_relaxed);
-    links_->wake();
+    sources_.wake();
     const std::lock_guard lock(joining_);
     if (thread_.joinable()) thread_.join();
 }
@@ -95,19 +99,31 @@ void Hub::run() {
         }
         for (const auto& task : work) task();
         send_outgoing();
-        turn(MonoTime::max());
+        end_waits();
+        const auto first = std::ranges::min_element(waits_, {}, &Wait::limit);
+        turn(first == waits_.end() ? MonoTime::max() : first->limit);
     }
     send_outgoing();
     turn(MonoTime{});
-    for (const auto& [endpoint, channel] : channels_) channel->close();
+    for (const auto& [endpoint, served] : served_) served.channel->close();
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_all();
 }
 
 void Hub::turn(MonoTime deadline) {
-    links_->turn(*this, deadline);
-    for (const auto& [endpoint, channel] : channels_) channel->publish();
+    for (const auto& [endpoint, served] : served_)
+        if (served.is_lossless) sources_.hold_ring(endpoint, !served.channel->has_room());
+    sources_.turn(*this, deadline, {0, Channel::frames_a_turn, ring_frames_a_turn});
+    for (const auto& [endpoint, served] : served_) served.channel->publish();
+}
+
+void Hub::end_waits() {
+    if (waits_.empty()) return;
+    const MonoTime now = mono_now();
+    const std::lock_guard lock(mutex_);
+    std::erase_if(waits_, [&](const Wait& wait) { return *wait.ended = now >= wait.limit || wait.over(); });
+    changed_.notify_all();
 }
 
 void Hub::send_outgoing() {
@@ -119,22 +135,29 @@ void Hub::send_outgoing() {
     if (frames.empty()) return;
     changed_.notify_all();
     for (const auto& frame : frames)
-        links_->send(frame.endpoint, wire::FrameView::unchecked({frame.bytes.data(), frame.size}));
+        links().send(frame.endpoint, wire::FrameView::unchecked({frame.bytes.data(), frame.size}));
 }
 
-Channel* Hub::channel_of(runtime::EndpointId endpoint) noexcept {
-    const auto found = channels_.find(endpoint);
-    return found == channels_.end() ? nullptr : found->second.get();
+Hub::Served* Hub::served_by(runtime::EndpointId endpoint) noexcept {
+    const auto found = served_.find(endpoint);
+    return found == served_.end() ? nullptr : &found->second;
 }
 
 void Hub::on_frame(const runtime::RxFrame& rx) {
-    if (auto* channel = channel_of(rx.endpoint)) channel->on_frame(rx, links_->now());
+    if (auto* served = served_by(rx.endpoint)) served->channel->on_frame(rx, links().now());
 }
 void Hub::on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) {
-    if (auto* channel = channel_of(endpoint)) channel->on_link_up(link, name);
+    auto* served = served_by(endpoint);
+    if (served == nullptr) return;
+    if (served->is_ring) served->channel->name_link(link, name);
+    else served->channel->on_link_up(link, name);
 }
-void Hub::on_link_down(LinkId, runtime::EndpointId endpoint, std::string_view) {
-    if (auto* channel = channel_of(endpoint)) channel->on_link_down();
+void Hub::on_link_down(LinkId link, runtime::EndpointId endpoint, std::string_view) {
+    if (auto* served = served_by(endpoint))
+        served->channel->on_link_down(links().link_name(link), links().sources(link));
+}
+void Hub::on_bad_checksum(LinkId, runtime::EndpointId endpoint, MessageId id) {
+    if (auto* served = served_by(endpoint)) served->channel->on_bad_checksum(id);
 }
 
 // ---- from other threads
@@ -149,40 +172,110 @@ bool Hub::on_loop(std::function<void()> work) {
         done = true;
         changed_.notify_all();
     });
-    links_->wake();
+    sources_.wake();
     changed_.wait(lock, [&] { return done || ended_; });
     return done;
 }
 
-SetupResult<Hub::Opened> Hub::open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel) {
+void Hub::wait_on_loop(std::function<bool()> over, Nanoseconds limit) {
+    bool ended = false;
+    on_loop([&] { waits_.push_back({std::move(over), mono_now() + limit, &ended}); });
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ended || ended_; });
+}
+
+SetupResult<Hub::Opened> Hub::open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+                                   const Consumer& reader) {
     SetupResult<Opened> opened = setup_error(SetupCode::system, "the loop thread has ended");
+    on_loop([&] { opened = open_now(endpoint, channel, reader); });
+    if (!opened || !endpoint.options.required) return opened;
+    if (auto failure = wait_for_far_side(*opened)) {
+        on_loop([&] { remove(opened->endpoint); });
+        return tl::unexpected(std::move(*failure).within(opened->name));
+    }
+    return opened;
+}
+
+SetupResult<Hub::Opened> Hub::open_now(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+                                       const Consumer& reader) {
+    const bool is_ring = endpoint.scheme == runtime::Scheme::shm;
+    const auto* own = &channel->origin()->dialect();
+    const auto added = is_ring ? sources_.add_ring(endpoint, own) : links().add(endpoint, own);
+    if (!added) return tl::unexpected(added.error());
+    const bool is_lossless = is_ring && endpoint.options.lossless.value_or(false);
+    if (is_lossless) channel->hold_for(&reader, [this] { sources_.wake(); });
+    served_.emplace(*added, Served{channel, is_ring, is_lossless, {}});
+    turn(MonoTime{});
+    Opened opened{*added, 0, endpoint.label(), is_ring};
+    for (const auto& info : links().endpoints()) {
+        if (info.id != *added) continue;
+        opened.port = info.local_port;
+        opened.name = info.label();
+    }
+    return opened;
+}
+
+bool Hub::is_up(runtime::EndpointId endpoint) {
+    const auto links = sources_.links().links();
+    return std::ranges::any_of(links, [&](const auto& link) { return link.endpoint == endpoint && link.up; });
+}
+
+// A ring that is required was there when it was added.
+std::optional<SetupError> Hub::wait_for_far_side(const Opened& opened) {
+    std::optional<SetupError> failure;
+    bool is_there = opened.is_ring;
+    wait_on_loop(
+        [&] {
+            for (const auto& info : links().endpoints())
+                if (info.id == opened.endpoint && listens(info.endpoint.scheme)) is_there = info.local_port != 0;
+            is_there = is_there || is_up(opened.endpoint);
+            if (const auto* error = links().failure(opened.endpoint); error != nullptr && !is_there) failure = *error;
+            return is_there || failure;
+        },
+        required_limit);
+    if (!is_there && !failure) failure = SetupError{SetupCode::unreachable, 0, "no answer within 5 s"};
+    return failure;
+}
+
+SetupResult<runtime::EndpointId> Hub::inlet(runtime::EndpointId ring) {
+    SetupResult<runtime::EndpointId> opened = setup_error(SetupCode::system, "the loop thread has ended");
     on_loop([&] {
-        const auto added = links_->add(endpoint);
-        if (!added) {
-            opened = tl::unexpected(added.error());
-            return;
-        }
-        channels_.emplace(*added, channel);
+        opened = sources_.inlet(ring);
+        if (!opened || served_.contains(*opened)) return;
+        auto& served = served_.at(ring);
+        served.inlet = *opened;
+        served_.emplace(*opened, Served{served.channel, false, false, {}});
         turn(MonoTime{});
-        for (const auto& info : links_->endpoints())
-            if (info.id == *added) opened = Opened{*added, info.local_port, info.label()};
     });
     return opened;
 }
 
+// What is sent goes there.
+runtime::EndpointId Hub::way_out(runtime::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
+
 LinkStats Hub::stats_now(runtime::EndpointId endpoint) {
-    links_->refresh_kernel_drops();
+    links().refresh_kernel_drops();
+    const auto& served = served_.at(endpoint);
+    const auto out = way_out(endpoint);
     LinkStats stats;
-    for (const auto& link : links_->links()) {
-        if (link.endpoint != endpoint) continue;
+    for (const auto& link : links().links()) {
+        if (link.endpoint != out) continue;
         stats.links.add(*link.counters);
         stats.peers += link.up;
     }
-    for (const auto& info : links_->endpoints()) {
-        if (info.id != endpoint) continue;
+    for (const auto& info : links().endpoints()) {
+        if (info.id != out) continue;
         stats.endpoint = *info.counters;
         stats.links.add(info.counters->gone);
     }
+    if (served.is_ring) {
+        stats.links.add(sources_.ring_counters(endpoint));
+        sources_.add_ring_to(endpoint, stats.ring);
+    }
+    stats.losses = served.channel->losses();
+    for (const auto& loss : sources_.losses(endpoint))
+        add_to(stats.losses, served.channel->origin()->link_name(loss.link.value), loss.stats);
+    stats.crc_errors = served.channel->crc_errors();
     return stats;
 }
 
@@ -192,17 +285,29 @@ LinkStats Hub::stats(runtime::EndpointId endpoint) {
     return stats;
 }
 
+bool Hub::is_flushed(runtime::EndpointId endpoint) {
+    return links().queued_bytes(way_out(endpoint)) == 0 || served_.at(endpoint).channel->peers() == 0;
+}
+
+void Hub::remove(runtime::EndpointId endpoint) {
+    auto served = std::move(served_.at(endpoint));
+    served_.erase(endpoint);
+    if (served.inlet) served_.erase(*served.inlet);
+    if (served.is_ring) sources_.remove_ring(endpoint);
+    else links().remove(endpoint);
+    served.channel->close();
+}
+
 LinkStats Hub::close(runtime::EndpointId endpoint) {
     LinkStats stats;
     on_loop([&] {
         send_outgoing();
-        const auto limit = mono_now() + longest_flush;
-        do turn(MonoTime{});
-        while (links_->queued_bytes(endpoint) != 0 && channel_of(endpoint)->peers() != 0 && mono_now() < limit);
+        turn(MonoTime{});
+    });
+    wait_on_loop([&] { return is_flushed(endpoint); }, longest_flush);
+    on_loop([&] {
         stats = stats_now(endpoint);
-        links_->remove(endpoint);
-        channels_.at(endpoint)->close();
-        channels_.erase(endpoint);
+        remove(endpoint);
     });
     return stats;
 }
@@ -217,7 +322,7 @@ void Hub::send(runtime::EndpointId endpoint, const wire::FrameView& frame) {
     outgoing.size = static_cast<std::uint16_t>(frame.size());
     std::ranges::copy(frame.bytes(), outgoing.bytes.begin());
     lock.unlock();
-    if (first) links_->wake();
+    if (first) sources_.wake();
 }
 
 }  // namespace mavloom::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loop thread behind all links of one dialect: it receives, sends and reconnects without ever touching Python. It runs while a link is open.
+// The loop thread behind all links of the process, whatever their dialects: it receives, sends and reconnects without ever touching Python. It runs while a link is open.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "channel.hpp"
-#include "mavloom/runtime/links.hpp"
+#include "mavloom/runtime/sources.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 
 namespace mavloom::python {
@@ -22,13 +22,17 @@ namespace mavloom::python {
 struct LinkStats {
     runtime::LinkCounters links;
     runtime::EndpointCounters endpoint;
+    runtime::Totals ring;
     std::uint64_t missed = 0, not_kept = 0, no_peer = 0, peers = 0;
+    Losses losses;
+    std::map<MessageId, Channel::CrcErrors> crc_errors;
+    std::vector<std::string> hints;
 };
 
 class Hub : private runtime::LinkHandler {
 public:
-    // The one that is running for these definitions, or a new one.
-    [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get(const std::shared_ptr<const Definitions>& definitions);
+    // The one that is running, or a new one.
+    [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
     // Ends every loop thread and closes their channels: at the interpreter's exit.
     static void stop_all();
     // Once, before anything else: a forked child begins with nothing open.
@@ -42,10 +46,15 @@ public:
         runtime::EndpointId endpoint;
         std::uint16_t port = 0;
         std::string name;
+        bool is_ring = false;
     };
-    // `channel` gets what arrives from the first frame on. What can be opened at once is open when this returns.
-    [[nodiscard]] SetupResult<Opened> open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel);
-    // What was sent goes out first, for at most a second. Returns the last counters.
+    // `channel` gets what arrives from the first frame on. What can be opened at once is open when this returns; with `required=true` it waits up to 5 s for
+    // the far side and fails without it. A ring that is lossless is held for `reader`.
+    [[nodiscard]] SetupResult<Opened> open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+                                           const Consumer& reader);
+    // Where what is sent to a ring's router goes, opened at the first call.
+    [[nodiscard]] SetupResult<runtime::EndpointId> inlet(runtime::EndpointId ring);
+    // What was sent goes out first, for at most a second, in which others are served as ever. Returns the last counters.
     LinkStats close(runtime::EndpointId endpoint);
     [[nodiscard]] LinkStats stats(runtime::EndpointId endpoint);
     // Queues a frame for every peer of the endpoint. Waits while too much is queued already.
@@ -59,24 +68,49 @@ private:
     };
     static constexpr std::size_t most_outgoing = 4096;
 
-    explicit Hub(std::unique_ptr<runtime::Links> links, std::shared_ptr<const Definitions> definitions);
+    explicit Hub(runtime::Sources sources);
 
     void on_frame(const runtime::RxFrame& rx) override;
     void on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) override;
     void on_link_down(LinkId link, runtime::EndpointId endpoint, std::string_view why) override;
+    void on_bad_checksum(LinkId link, runtime::EndpointId endpoint, MessageId id) override;
+
+    struct Served {
+        std::shared_ptr<Channel> channel;
+        bool is_ring = false, is_lossless = false;
+        std::optional<runtime::EndpointId> inlet;  // of a ring
+    };
+    struct Wait {
+        std::function<bool()> over;
+        MonoTime limit;
+        bool* ended;
+    };
 
     void run();
     void turn(MonoTime deadline);
+    void end_waits();
+    [[nodiscard]] runtime::Links& links() noexcept { return sources_.links(); }
+    [[nodiscard]] SetupResult<Opened> open_now(const runtime::Endpoint& endpoint,
+                                               const std::shared_ptr<Channel>& channel, const Consumer& reader);
+    [[nodiscard]] bool is_up(runtime::EndpointId endpoint);
+    // Null where what is required is there.
+    [[nodiscard]] std::optional<SetupError> wait_for_far_side(const Opened& opened);
+    void remove(runtime::EndpointId endpoint);
+    [[nodiscard]] bool is_flushed(runtime::EndpointId endpoint);
+    [[nodiscard]] runtime::EndpointId way_out(runtime::EndpointId endpoint);
     void send_outgoing();
     void stop();
-    [[nodiscard]] Channel* channel_of(runtime::EndpointId endpoint) noexcept;
+    [[nodiscard]] Served* served_by(runtime::EndpointId endpoint) noexcept;
     [[nodiscard]] LinkStats stats_now(runtime::EndpointId endpoint);
     // Runs `work` on the loop thread and waits for it; false when that has ended.
     bool on_loop(std::function<void()> work);
+    // Waits until the loop thread finds it over, which it asks after each turn, or the limit.
+    void wait_on_loop(std::function<bool()> over, Nanoseconds limit);
 
-    const std::shared_ptr<const Definitions> definitions_;
-    std::unique_ptr<runtime::Links> links_;                                       // the loop thread's
-    std::unordered_map<runtime::EndpointId, std::shared_ptr<Channel>> channels_;  // the loop thread's
+    // The loop thread's. Channels have the dialects that the sources read by, and go after them.
+    std::unordered_map<runtime::EndpointId, Served> served_;
+    runtime::Sources sources_;
+    std::vector<Wait> waits_;
 
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -15,6 +15,8 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "hub.hpp"
+#include "iteration.hpp"
+#include "link_stats.hpp"
 #include "mavloom/runtime/ring_frames.hpp"
 #include "ring_alarm.hpp"
 #include "ring_writer.hpp"
@@ -79,6 +81,8 @@ public:
     // Into a ring, without an object for each message; how many. Also after the time what was there when it began, as far as the ring has room.
     std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout) {
         fork_.check();
+        if (writer.name() == channel().ring_name())
+            raise_usage(fmt::format("ring {} is what is read here: it would be filled with itself", writer.name()));
         const auto deadline = deadline_after(timeout);
         const auto end = consumer_->newest();
         for (Pumped pumped;;) {
@@ -108,6 +112,7 @@ public:
         if (fork_.is_here()) consumer_->close();
     }
     [[nodiscard]] const Channel& channel() const noexcept { return *consumer_->channel(); }
+    [[nodiscard]] const Consumer& consumer() const noexcept { return *consumer_; }
 
 private:
     static constexpr std::size_t batch_frames = 256;
@@ -123,7 +128,7 @@ private:
     }
     nb::object message_of(const FrameBatch::Item& item) const {
         return make_message(channel().origin(), item.definition, item.time_ns, item.link, batch_.frame(item),
-                            item.verified);
+                            item.verdict);
     }
 
     struct Pumped {
@@ -154,7 +159,7 @@ private:
         const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
                                    .link = LinkId{item.link},
                                    .kind = runtime::ring_kind_frame,
-                                   .verdict = runtime::ring_verdict(signature_of(frame, item.verified))};
+                                   .verdict = item.verdict};
         const auto written = writer.put(frame.bytes(), info, deadline);
         pumped.full = !written && written.error() == shm::WriteError::full;
         if (written) return ++pumped.count, true;
@@ -162,12 +167,6 @@ private:
         if (!pumped.full) pumped.error = written.error();
         batch_.put_back();
         return false;
-    }
-
-    static runtime::FrameSignature signature_of(const wire::FrameView& frame, bool verified) noexcept {
-        using runtime::FrameSignature;
-        if (!frame.is_signed()) return FrameSignature::none;
-        return verified ? FrameSignature::good : FrameSignature::unchecked;
     }
 
     nb::object or_closed(const Filter& filter, const nb::object& condition, MonoTime deadline) {
@@ -202,53 +201,41 @@ private:
     bool ended_ = false;
 };
 
-PyObject* next_message(PyObject* self) noexcept {
-    try {
-        if (nb::inst_ready(self)) return nb::inst_ptr<Subscription>(self)->iterate();
-        PyErr_SetString(PyExc_TypeError, "a Subscription is made by a Link");
-    } catch (nb::python_error& error) {
-        error.restore();
-    } catch (const std::exception& error) {
-        PyErr_SetString(PyExc_RuntimeError, error.what());
-    }
-    return nullptr;
-}
-
-PyType_Slot subscription_slots[] = {
-    {Py_tp_iternext, reinterpret_cast<void*>(next_message)},   // NOLINT
-    {Py_tp_iter, reinterpret_cast<void*>(PyObject_SelfIter)},  // NOLINT
-    {0, nullptr},
-};
-
 // ---- class Port
 
 runtime::Endpoint endpoint_of(const std::string& url) {
     auto endpoint = value_or_raise(runtime::parse_endpoint(url));
     if (endpoint.scheme == runtime::Scheme::tlog)
         raise_usage(fmt::format("'{}' is a recording: mavloom.read() and mavloom.columns() read it", url));
-    if (endpoint.scheme == runtime::Scheme::shm)
-        raise_usage(fmt::format("'{}' is a ring, which connect() does not read", url));
     return endpoint;
+}
+
+wire::Version frame_version(int version) {
+    if (version != 1 && version != 2) raise_usage(fmt::format("version: {} is none, 1 or 2", version));
+    return version == 1 ? wire::Version::v1 : wire::Version::v2;
 }
 
 class Port {
 public:
     Port(const std::string& url, std::uint8_t system, std::uint8_t component, const nb::object& dialect,
-         std::size_t buffer_bytes)
-        : origin_(std::make_shared<Origin>(definitions_of(dialect))), source_{SystemId{system}, ComponentId{component}} {
+         std::size_t buffer_bytes, int version)
+        : origin_(std::make_shared<Origin>(definitions_of(dialect))),
+          source_{SystemId{system}, ComponentId{component}},
+          version_(frame_version(version)) {
         const auto endpoint = endpoint_of(url);
-        channel_ = std::make_shared<Channel>(origin_, buffer_bytes, !endpoint.options.verify_key_file.empty());
+        channel_ = std::make_shared<Channel>(origin_, buffer_bytes, endpoint);
         // Before anything can arrive.
         reader_ = nb::cast(new Subscription(channel_, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<Hub::Opened> {
             const WithoutGil outside;
-            auto hub = Hub::get(origin_->definitions());
+            auto hub = Hub::get();
             if (!hub) return tl::unexpected(std::move(hub.error()));
             hub_ = std::move(*hub);
-            return hub_->open(endpoint, channel_);
+            return hub_->open(endpoint, channel_, nb::inst_ptr<Subscription>(reader_)->consumer());
         }();
         if (!opened) hub_gone();
         opened_ = value_or_raise(std::move(opened));
+        to_ = opened_.endpoint;
     }
     ~Port() {
         if (fork_.is_here() && !WithoutGil::ended()) {
@@ -274,18 +261,24 @@ public:
     std::size_t send(const nb::object& message, const nb::kwargs& fields) {
         fork_.check();
         const auto builder = build(*origin_->definitions(), message, fields);
-        const WithoutGil outside;
-        const std::unique_lock lock(mutex_);
-        if (!hub_) {
-            const nb::gil_scoped_acquire acquire;
-            raise_closed("the link is closed");
-        }
-        const auto peers = channel_->peers();
-        if (peers == 0) return ++no_peer_, 0;
+        const auto& info = builder.definition().wire;
+        check_version(version_, builder.definition());
         wire::FrameBuffer buffer;
-        hub_->send(opened_.endpoint, wire::write_frame(buffer, {.sequence = sequence_++, .source = source_},
-                                                       builder.definition().wire, builder.payload()));
-        return peers;
+        return send_frame([&] {
+            const wire::FrameHeader header{.version = version_, .sequence = sequence_++, .source = source_};
+            return wire::write_frame(buffer, header, info, builder.payload());
+        });
+    }
+
+    std::size_t forward(const nb::object& message) {
+        fork_.check();
+        if (nb::isinstance<Message>(message)) {
+            const auto frame = nb::inst_ptr<Message>(message)->frame();
+            return send_frame([&] { return frame; });
+        }
+        const Buffer buffer(message);
+        const auto frame = whole_frame(origin_->dialect(), buffer.bytes());
+        return send_frame([&] { return frame; });
     }
 
     nb::object latest(const nb::object& type, OptionalByte system, OptionalByte component,
@@ -297,7 +290,7 @@ public:
         if (!found) return nb::none();
         const auto frame = wire::FrameView::unchecked(found->bytes);
         return make_message(origin_, origin_->dialect().find(frame.id()), found->head.time_ns, found->head.link, frame,
-                            found->head.verified);
+                            found->head.verdict);
     }
 
     nb::object subscribe(const nb::object& type, OptionalByte system, OptionalByte component) {
@@ -314,6 +307,7 @@ public:
         stats.no_peer = no_peer_;
         stats.not_kept = channel_->not_kept();
         stats.missed = nb::inst_ptr<Subscription>(reader_)->missed();
+        stats.hints = hints_of(origin_->dialect(), stats);
         return stats;
     }
 
@@ -321,12 +315,28 @@ public:
     [[nodiscard]] PyDialect dialect() const { return {origin_->definitions()}; }
     [[nodiscard]] const std::string& name() const noexcept { return opened_.name; }
     [[nodiscard]] int port() const noexcept { return opened_.port; }
+    [[nodiscard]] int version() const noexcept { return static_cast<int>(version_); }
     [[nodiscard]] Source target() const {
         fork_.check();
         return channel_->target();
     }
 
 private:
+    // `make` gives the frame, once it is known that it goes to somebody.
+    template <class Make>
+    std::size_t send_frame(Make make) {
+        const WithoutGil outside;
+        const std::unique_lock lock(mutex_);
+        if (!hub_) {
+            const nb::gil_scoped_acquire acquire;
+            raise_closed("the link is closed");
+        }
+        if (opened_.is_ring && to_ == opened_.endpoint) to_ = hub_->inlet(to_).value_or(to_);
+        const auto peers = channel_->peers();
+        if (peers == 0) return ++no_peer_, 0;
+        hub_->send(to_, make());
+        return peers;
+    }
     void check() {
         fork_.check();
         const auto lock = lock_without_gil(mutex_);
@@ -341,59 +351,18 @@ private:
     const BeforeFork fork_;
     const std::shared_ptr<Origin> origin_;
     const Source source_;
+    const wire::Version version_;
     std::shared_ptr<Channel> channel_;
     nb::object reader_;
     Hub::Opened opened_;
     std::mutex mutex_;
     // Guarded by mutex_.
     std::shared_ptr<Hub> hub_;  // null: closed
+    runtime::EndpointId to_;    // where sending goes: of a ring another, from the first time on
     LinkStats last_;
     std::uint64_t no_peer_ = 0;
     std::uint8_t sequence_ = 0;
 };
-
-template <auto member>
-auto of_links() {
-    return [](const LinkStats& stats) { return (stats.links.*member).value(); };
-}
-template <auto member>
-auto of_endpoint() {
-    return [](const LinkStats& stats) { return (stats.endpoint.*member).value(); };
-}
-
-void bind_stats(nb::module_& module) {
-    using L = runtime::LinkCounters;
-    using E = runtime::EndpointCounters;
-    nb::class_<LinkStats>(module, "LinkStats", nb::is_final(),
-                          "A link's counters, over all its peers, those that went included. Every loss has a name.")
-        .def_ro("peers", &LinkStats::peers, "Peers or clients that are there now.")
-        .def_prop_ro("frames_in", of_links<&L::frames_in>())
-        .def_prop_ro("bytes_in", of_links<&L::bytes_in>())
-        .def_prop_ro("frames_out", of_links<&L::frames_out>())
-        .def_prop_ro("bytes_out", of_links<&L::bytes_out>())
-        .def_ro("missed", &LinkStats::missed,
-                "Frames that the link's own reader was too slow for: overwritten in the buffer.")
-        .def_ro("not_kept", &LinkStats::not_kept,
-                "Messages that `latest` does not know: it keeps 16,384 of different source, id and instance.")
-        .def_ro("no_peer", &LinkStats::no_peer, "Messages that `send` had nobody for.")
-        .def_prop_ro("lost", of_links<&L::lost>(),
-                     "Lost on the way here, by sequence numbers; late and doubled frames are no loss.")
-        .def_prop_ro("late", of_links<&L::late>())
-        .def_prop_ro("duplicate", of_links<&L::duplicate>())
-        .def_prop_ro("resync", of_links<&L::resync>(), "Jumps too long to be loss: a reboot.")
-        .def_prop_ro("kernel_drop", of_endpoint<&E::kernel_drop>(), "Datagrams that the kernel had no room for.")
-        .def_prop_ro("crc_error", of_links<&L::crc_error>())
-        .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>())
-        .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>())
-        .def_prop_ro("unknown_flags", of_links<&L::unknown_flags>())
-        .def_prop_ro("bad_signature", of_links<&L::bad_signature>())
-        .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>())
-        .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>())
-        .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(), "Frames dropped on the way out: the queue was full.")
-        .def_prop_ro("queue_age", of_links<&L::queue_age>(), "Frames dropped on the way out: too old.")
-        .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Frames that the kernel refused.")
-        .def_prop_ro("reconnects", of_endpoint<&E::reconnects>());
-}
 
 constexpr const char* match_signature =
     "def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: MessageTypes | "
@@ -405,8 +374,8 @@ constexpr const char* match_signature =
 
 void bind_link(nb::module_& module) {
     Hub::watch_forks();
-    bind_stats(module);
-    nb::class_<Subscription>(module, "Subscription", nb::type_slots(subscription_slots), nb::is_final(),
+    bind_link_stats(module);
+    nb::class_<Subscription>(module, "Subscription", nb::type_slots(iterator_slots<Subscription>), nb::is_final(),
                              "Messages of a link from the moment it was made, for one reader: iterate, `async for` "
                              "(one at a time), or `recv`. A reader that is slower than the\n"
                              "link's buffer allows misses the oldest ones and is told how many. Any thread. Iteration "
@@ -439,13 +408,15 @@ void bind_link(nb::module_& module) {
             nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Message, None]"));
 
     nb::class_<Port>(module, "Port", nb::is_final())
-        .def(nb::init<const std::string&, std::uint8_t, std::uint8_t, const nb::object&, std::size_t>(), nb::arg("url"),
-             nb::arg("source_system"), nb::arg("source_component"), nb::arg("dialect").none(), nb::arg("buffer"),
+        .def(nb::init<const std::string&, std::uint8_t, std::uint8_t, const nb::object&, std::size_t, int>(),
+             nb::arg("url"), nb::arg("source_system"), nb::arg("source_component"), nb::arg("dialect").none(),
+             nb::arg("buffer"), nb::arg("version"),
              nb::sig("def __init__(self, url: str, source_system: int, source_component: int, dialect: Dialect | None, "
-                     "buffer: int) -> None"))
+                     "buffer: int, version: int) -> None"))
         .def("close", &Port::close)
         .def("send", &Port::send, nb::arg(), nb::arg("fields"),
              nb::sig("def send(self, message: str | Message, /, **fields: typing.Any) -> int"))
+        .def("forward", &Port::forward, nb::arg(), nb::sig("def forward(self, message: Message | Buffer, /) -> int"))
         .def("latest", &Port::latest, nb::arg("type").none(), nb::arg("system").none(), nb::arg("component").none(),
              nb::arg("instance").none(), nb::arg("max_age").none(),
              nb::sig("def latest(self, type: MessageTypes | None, system: int | None, component: int | None, instance: "
@@ -460,6 +431,7 @@ void bind_link(nb::module_& module) {
         .def_prop_ro("dialect", &Port::dialect)
         .def_prop_ro("name", &Port::name)
         .def_prop_ro("port", &Port::port)
+        .def_prop_ro("version", &Port::version)
         .def_prop_ro("target_system", [](const Port& link) { return link.target().system.value; })
         .def_prop_ro("target_component", [](const Port& link) { return link.target().component.value; });
 

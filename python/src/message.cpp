@@ -16,6 +16,7 @@
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
+#include "mavloom/runtime/ring_frames.hpp"
 
 namespace mavloom::python {
 
@@ -31,12 +32,12 @@ std::string Origin::link_name(std::uint32_t link) const {
 }
 
 nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
-                        std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame, bool verified) {
+                        std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame, std::uint8_t verdict) {
     const auto bytes = frame.bytes();
     auto copy = std::make_unique_for_overwrite<std::uint8_t[]>(bytes.size());
     std::copy(bytes.begin(), bytes.end(), copy.get());
     return nb::cast(
-        Message{origin, definition, time_ns, link, static_cast<std::uint16_t>(bytes.size()), verified, std::move(copy)},
+        Message{origin, definition, time_ns, link, static_cast<std::uint16_t>(bytes.size()), verdict, std::move(copy)},
         nb::rv_policy::move);
 }
 
@@ -189,9 +190,21 @@ bool same_frame(const Message& a, const Message& b) noexcept {
     return std::ranges::equal(a.frame().bytes(), b.frame().bytes());
 }
 
+bool is_verified(const Message& message) noexcept {
+    return runtime::signature_of(message.verdict) == runtime::FrameSignature::good;
+}
+
 const char* signature_verdict(const Message& message) noexcept {
     if (!message.frame().is_signed()) return "none";
-    return message.verified ? "good" : "unchecked";
+    if (is_verified(message)) return "good";
+    return runtime::signature_of(message.verdict) == runtime::FrameSignature::bad ? "bad" : "unchecked";
+}
+
+nb::object route_verdict(const Message& message) {
+    const auto verdict = runtime::verdict_of(message.verdict);
+    if (!verdict) return nb::none();
+    const auto name = route::verdict_name(*verdict);
+    return nb::str(name.data(), name.size());
 }
 
 // {field: text} of those fields for which `text` gives one, as pymavlink's message classes have them.
@@ -225,17 +238,17 @@ nb::tuple reduce(nb::handle self) {
     return nb::make_tuple(
         nb::module_::import_("mavloom._pickle").attr("restore_message"),
         nb::make_tuple(PyDialect{message.origin->definitions()}, bytes_of(message.frame().bytes()), message.time_ns,
-                       message.link, message.origin->link_name(message.link), message.verified));
+                       message.link, message.origin->link_name(message.link), message.verdict));
 }
 
 nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_t time_ns, std::uint32_t link,
-                   std::string link_name, bool verified) {
+                   std::string link_name, std::uint8_t verdict) {
     const ByteView bytes(static_cast<const std::uint8_t*>(frame.data()), frame.size());
     if (wire::frame_length(bytes) != bytes.size()) raise_input("these bytes are no pickled message");
     auto origin = std::make_shared<Origin>(dialect.definitions);
     origin->name_link(link, std::move(link_name));
     const auto view = wire::FrameView::unchecked(bytes);
-    return make_message(origin, origin->dialect().find(view.id()), time_ns, link, view, verified);
+    return make_message(origin, origin->dialect().find(view.id()), time_ns, link, view, verdict);
 }
 
 // What pymavlink's get_header() gives.
@@ -281,7 +294,7 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
         .def("get_msgbuf", from_frame<frame_bytes>(), "As `frame`.")
         .def("get_payload", from_frame<payload_bytes>(), "The payload as it was sent: MAVLink 2 cuts zeros at its end.")
         .def(
-            "get_signed", [](const Message& m) { return m.verified; },
+            "get_signed", [](const Message& m) { return is_verified(m); },
             "Whether the signature was verified; `signed` says whether there is one.")
         .def("get_header", &header_of, "The header's values under pymavlink's names.")
         .def_prop_ro(
@@ -335,9 +348,13 @@ void bind_message(nb::module_& module) {
         .def_prop_ro("version", from_frame<version_of>(), "MAVLink 1 or 2.")
         .def_prop_ro("signed", from_frame<is_signed>(), "Whether the frame carries a signature.")
         .def_prop_ro("signature", &signature_verdict,
-                     nb::sig("def signature(self) -> typing.Literal['none', 'good', 'unchecked']"),
-                     "\"good\" where the link has a key and the signature agrees, \"unchecked\" without key, \"none\" "
+                     nb::sig("def signature(self) -> typing.Literal['none', 'good', 'bad', 'unchecked']"),
+                     "\"good\" where the link, or the router whose ring it comes from, has a key and the signature "
+                     "agrees, \"unchecked\" without key, \"none\" "
                      "without signature.")
+        .def_prop_ro("verdict", &route_verdict, nb::sig("def verdict(self) -> str | None"),
+                     "What the router whose ring it comes from did with it: \"forwarded\", \"duplicate\", \"echo\", "
+                     "\"filtered\", ...; None of other links, and where nobody said.")
         .def_prop_ro("frame", from_frame<frame_bytes>(), "The whole frame as it arrived.")
         .def_prop_ro(
             "dialect", [](const Message& m) { return PyDialect{m.origin->definitions()}; },
@@ -364,7 +381,7 @@ void bind_message(nb::module_& module) {
     bind_pymavlink_names(type);
     module.def("restore_message", &restore,
                nb::sig("def restore_message(dialect: Dialect, frame: bytes, time_ns: int, link: int, link_name: str, "
-                       "verified: bool, /) -> Message"));
+                       "verdict: int, /) -> Message"));
 }
 
 }  // namespace mavloom::python

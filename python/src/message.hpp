@@ -41,7 +41,7 @@ struct Message {
     std::int64_t time_ns = 0;                      // Unix time
     std::uint32_t link = 0;
     std::uint16_t size = 0;
-    bool verified = false;  // its signature was checked and is good
+    std::uint8_t verdict = 0;  // of its signature, and of the router whose ring it comes from: runtime/ring_frames.hpp
     std::unique_ptr<const std::uint8_t[]> bytes;
 
     [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }
@@ -50,7 +50,7 @@ struct Message {
 // A new Python object with a copy of the frame.
 [[nodiscard]] nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
                                       std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame,
-                                      bool verified = false);
+                                      std::uint8_t verdict = 0);
 
 void bind_message(nb::module_& module);
 

@@ -13,8 +13,10 @@
 #include "filter.hpp"
 #include "frame_batch.hpp"
 #include "gil.hpp"
+#include "iteration.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 #include "message.hpp"
+#include "waiting.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -35,17 +37,19 @@ public:
     }
 
     // A new reference, or null at the end.
-    PyObject* next() { return next_of({}).release().ptr(); }
+    PyObject* iterate() { return next_match({}, {}).release().ptr(); }
 
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
-                          const nb::object& /*timeout*/, std::optional<std::uint8_t> system,
+                          const nb::object& timeout, std::optional<std::uint8_t> system,
                           std::optional<std::uint8_t> component) {
         check_condition(condition);
         const auto filter = make_filter(origin_->dialect(), type, system, component);
+        const Limit limit(timeout);
         for (;;) {
-            nb::object message = next_of(filter);
+            nb::object message = next_match(filter, limit);
             if (!message.is_valid()) return nb::none();
             if (condition.is_none() || nb::cast<bool>(nb::bool_(condition(message)))) return message;
+            if (limit.is_over()) return nb::none();
         }
     }
 
@@ -84,9 +88,23 @@ private:
     static constexpr std::size_t batch_frames = 512;
     static constexpr std::uint64_t most_damage = 1 << 20;  // bytes, then signals get their turn
 
+    // When a call gives up. A poll looks at all that is there, and all of a file is.
+    struct Limit {
+        Limit() = default;
+        explicit Limit(const nb::object& timeout) {
+            const auto given = timeout_of(timeout);
+            deadline = deadline_after(given);
+            polls = given == Nanoseconds{};
+        }
+        [[nodiscard]] bool is_over() const { return !polls && mono_now() >= deadline; }
+
+        MonoTime deadline = MonoTime::max();
+        bool polls = false;
+    };
+
     [[nodiscard]] SetupResult<record::TlogReader> open() const {
         const WithoutGil outside;
-        return record::TlogReader::open(path_, origin_->dialect().wire_table());
+        return record::TlogReader::open(path_, origin_->dialect().wire_table(), record::File::Empty::tell);
     }
 
     record::TlogReader& reader() {
@@ -100,8 +118,8 @@ private:
                   c.unknown_flags.value(), c.lost_bytes.value(),   c.damaged_places.value()};
     }
 
-    // Invalid at the end. Signal handlers, which may use the recording, run without the lock.
-    nb::object next_of(const Filter& filter) {
+    // Invalid at the end, or when it gives up. Signal handlers, which may use the recording, run without the lock.
+    nb::object next_match(const Filter& filter, const Limit& limit) {
         for (;; check_signals()) {
             const auto lock = lock_without_gil(mutex_);
             reader();
@@ -110,13 +128,17 @@ private:
                 const auto frame = batch_.frame(*item);
                 if (filter.takes(frame)) return make_message(origin_, item->definition, item->time_ns, 0, frame);
             }
-            if (ended_) return {};
-            fill();
+            if (ended_ || limit.is_over()) return {};
+            if (fill()) continue;
+            if (mono_now() >= limit.deadline) return {};
+            const WithoutGil outside;
+            const auto left = end_of_slice(limit.deadline) - mono_now();
+            static_cast<void>(reader_->wait(std::chrono::ceil<std::chrono::milliseconds>(left)));
         }
     }
 
-    // A pipe gives one frame at a time, so that none is held back.
-    void fill() {
+    // False where a pipe is empty. A pipe gives one frame at a time, so that none is held back.
+    bool fill() {
         batch_.clear();
         delivered_ = 0;
         auto& file = reader();
@@ -133,6 +155,7 @@ private:
         using Stop = record::TlogReader::Stop;
         ended_ = stop == Stop::end;
         if (stop == Stop::failed && batch_.size() == 0) raise(file.error());
+        return stop != Stop::nothing_yet || batch_.size() != 0;
     }
 
     void add(const record::Record& record) {
@@ -152,24 +175,6 @@ private:
     RecordingStats stats_{};
 };
 
-PyObject* next_message(PyObject* self) noexcept {
-    try {
-        if (nb::inst_ready(self)) return nb::inst_ptr<Recording>(self)->next();
-        PyErr_SetString(PyExc_TypeError, "not initialised");
-    } catch (nb::python_error& error) {
-        error.restore();
-    } catch (const std::exception& error) {
-        PyErr_SetString(PyExc_RuntimeError, error.what());
-    }
-    return nullptr;
-}
-
-PyType_Slot slots[] = {
-    {Py_tp_iternext, reinterpret_cast<void*>(next_message)},   // NOLINT
-    {Py_tp_iter, reinterpret_cast<void*>(PyObject_SelfIter)},  // NOLINT
-    {0, nullptr},
-};
-
 }  // namespace
 
 void bind_recording(nb::module_& module) {
@@ -183,7 +188,7 @@ void bind_recording(nb::module_& module) {
         .def_ro("damaged_places", &RecordingStats::damaged_places, "Runs of such bytes.");
 
     nb::class_<Recording>(
-        module, "Recording", nb::type_slots(slots), nb::is_final(),
+        module, "Recording", nb::type_slots(iterator_slots<Recording>), nb::is_final(),
         "The messages of a tlog, in the order of the file: an iterator, once through (`rewind()` starts again). Damage "
         "is skipped and counted in\n"
         "`stats`; an error of the system in the middle of the file is raised when all before it was handed out. Any "
@@ -209,16 +214,16 @@ void bind_recording(nb::module_& module) {
                      "MessageTypes | None = None, "
                      "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int "
                      "| None = None) -> Message | None"),
-             "The next message of these types for which `condition(message)` is true; None at the end. A file never "
-             "makes one wait: `blocking` and\n"
-             "`timeout` are taken and change nothing.")
+             "The next message of these types for which `condition(message)` is true; None at the end, and after "
+             "`timeout` seconds of looking for one\n"
+             "(0: all of a file, or what a pipe has). A file never makes one wait, a pipe with or without `blocking`.")
         .def(
             "recv",
             [](Recording& r, const nb::object& timeout) {
                 return r.recv_match(nb::none(), nb::none(), false, timeout, {}, {});
             },
             nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
-            "The next message; None at the end.")
+            "The next message; None at the end, and after `timeout` seconds in which a pipe gave none.")
         .def("rewind", &Recording::rewind, "Starts again at the beginning. Bytes read again are counted again.")
         .def_prop_ro("percent", &Recording::percent, "How much of the file was read, 0 to 100.")
         .def_prop_ro("stats", &Recording::stats, "A snapshot: a RecordingStats.")

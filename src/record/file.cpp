@@ -46,6 +46,7 @@ File& File::operator=(File&& other) noexcept {
     std::swap(fd_, other.fd_);
     std::swap(regular_, other.regular_);
     std::swap(empty_, other.empty_);
+    std::swap(offset_, other.offset_);
     return *this;
 }
 
@@ -54,38 +55,50 @@ File::~File() {
 }
 
 // 0 or errno. A FIFO that no writer has opened yet reads as ended, but polls as empty.
-int File::wait_for_input() const noexcept {
+int File::wait_for_input(int limit_ms) const noexcept {
     pollfd input{fd_, POLLIN, 0};
-    const int ready = ::poll(&input, 1, empty_ == Empty::wait ? -1 : 0);
+    const int ready = ::poll(&input, 1, limit_ms);
     return ready > 0 ? 0 : ready == 0 ? EAGAIN : errno;
+}
+
+bool File::wait(std::chrono::milliseconds limit) const noexcept {
+    return regular_ || wait_for_input(static_cast<int>(limit.count())) == 0;
 }
 
 SetupResult<std::size_t> File::read(ByteSpan out) {
     std::size_t done = 0;
     while (done < out.size()) {
         if (!regular_)
-            if (const int error = wait_for_input(); error != 0) return failed("read", error);
-        const auto got = ::read(fd_, out.data() + done, out.size() - done);
+            if (const int error = wait_for_input(empty_ == Empty::wait ? -1 : 0); error != 0)
+                return failed("read", error);
+        const auto got = regular_
+                             ? ::pread(fd_, out.data() + done, out.size() - done, static_cast<off_t>(offset_ + done))
+                             : ::read(fd_, out.data() + done, out.size() - done);
         if (got == 0) break;
         if (got > 0) done += static_cast<std::size_t>(got);
         else if (errno != EINTR || !regular_) return failed("read", errno);
         if (!regular_) break;
     }
+    offset_ += done;
     return done;
 }
 
 File::Written File::write(ByteView bytes) noexcept {
     std::size_t done = 0;
     while (done < bytes.size()) {
-        const auto took = ::write(fd_, bytes.data() + done, bytes.size() - done);
-        if (took >= 0) done += static_cast<std::size_t>(took);
-        else if (errno != EINTR) return {done, errno};
+        const auto took = regular_ ? ::pwrite(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset_))
+                                   : ::write(fd_, bytes.data() + done, bytes.size() - done);
+        if (took < 0 && errno != EINTR) return {done, errno};
+        if (took < 0) continue;
+        done += static_cast<std::size_t>(took);
+        offset_ += static_cast<std::size_t>(took);
     }
     return {done, 0};
 }
 
 SetupResult<void> File::seek(std::uint64_t offset) {
-    if (::lseek(fd_, static_cast<off_t>(offset), SEEK_SET) < 0) return failed("seek in", errno);
+    if (!regular_) return failed("seek in", ESPIPE);
+    offset_ = offset;
     return {};
 }
 

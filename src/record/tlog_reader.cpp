@@ -139,13 +139,14 @@ std::size_t TlogReader::pass_over_to(MessageId id) noexcept {
     return found;
 }
 
-Result<Record, TlogReader::Stop> TlogReader::next_of(MessageId id, std::uint64_t most_damage) {
-    for (;;) {
+Result<Record, TlogReader::Stop> TlogReader::next_of(MessageId id, std::uint64_t most_bytes) {
+    for (const std::uint64_t begin = position(); position() - begin < most_bytes;) {
         if (lost_run_ == 0 && position() >= examine_until_)
             if (const auto size = pass_over_to(id)) return take(size, table_->find(id));
-        auto record = next(most_damage);
+        auto record = next(most_bytes);
         if (!record || record->frame.id() == id) return record;
     }
+    return tl::unexpected(Stop::damage);
 }
 
 SetupResult<void> TlogReader::seek(std::uint64_t offset) {

@@ -28,11 +28,24 @@ void LinkCounters::add(const LinkCounters& other) noexcept {
         (this->*counter).add((other.*counter).value());
 }
 
+void LinkCounters::add(wire::SequenceTracker::Update update) noexcept {
+    using Verdict = wire::SequenceTracker::Verdict;
+    switch (update.verdict) {
+        case Verdict::gap: lost.add(update.lost); break;
+        case Verdict::duplicate: duplicate.add(); break;
+        case Verdict::resync: resync.add(); break;
+        case Verdict::late:
+            late.add();
+            lost.set(lost.value() + update.lost);
+            break;
+        default: break;
+    }
+}
+
 class Links::Impl {
 public:
-    Impl(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
-         net::ReceiveBatch batch)
-        : core(table, std::move(classes), std::move(loop), std::move(batch)) {}
+    Impl(Language language, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+        : core(std::move(language), std::move(loop), std::move(batch)) {}
 
     [[nodiscard]] OpenEndpoint* find(EndpointId id) const noexcept {
         return id.value < endpoints.size() ? endpoints[id.value].get() : nullptr;
@@ -62,14 +75,14 @@ static auto with_system_parts(Make&& make) -> SetupResult<std::unique_ptr<Links>
 
 SetupResult<std::unique_ptr<Links>> Links::create(const wire::MessageTable& table) {
     return with_system_parts([&](auto loop, auto batch) {
-        return std::unique_ptr<Links>(
-            new Links(std::make_unique<Impl>(table, MessageClasses(table), std::move(loop), std::move(batch))));
+        return std::unique_ptr<Links>(new Links(
+            std::make_unique<Impl>(Language{table, MessageClasses(table)}, std::move(loop), std::move(batch))));
     });
 }
 
 SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialect, RoutingOptions routing) {
     return with_system_parts([&](auto loop, auto batch) {
-        auto impl = std::make_unique<Impl>(dialect.wire_table(), MessageClasses(dialect), std::move(loop),
+        auto impl = std::make_unique<Impl>(Language{dialect.wire_table(), MessageClasses(dialect)}, std::move(loop),
                                            std::move(batch));
         impl->routing = routing;
         return std::unique_ptr<Links>(new Links(std::move(impl)));
@@ -89,7 +102,7 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
     }
 }
 
-SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
+SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dialect* dialect) {
     impl_->core.refresh_now();
     if (auto checked = check_supported(endpoint, impl_->routing); !checked)
         return tl::unexpected(std::move(checked).error());
@@ -109,8 +122,12 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint) {
     auto signature = Signature::load(endpoint.options, signs_as, impl_->core.key_states(), notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
     for (auto& text : notices) impl_->core.notice(id, std::move(text));
+    if (dialect != nullptr) impl_->core.speaks(id, *dialect);
     auto opened = open({impl_->core, endpoint, id, std::move(*signature)});
-    if (!opened) return tl::unexpected(std::move(opened).error());
+    if (!opened) {
+        impl_->core.forget_language(id);
+        return tl::unexpected(std::move(opened).error());
+    }
     impl_->endpoints.push_back(std::move(*opened));
     impl_->signs_as.try_emplace(endpoint.label(), id);
     impl_->choose_coalescing();
@@ -129,8 +146,14 @@ SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::fil
     return id;
 }
 
+const SetupError* Links::failure(EndpointId endpoint) const noexcept {
+    const OpenEndpoint* const found = impl_->find(endpoint);
+    return found == nullptr || !found->failure ? nullptr : &*found->failure;
+}
+
 void Links::remove(EndpointId endpoint) {
     if (impl_->find(endpoint) != nullptr) impl_->endpoints[endpoint.value].reset();
+    impl_->core.forget_language(endpoint);
     impl_->choose_coalescing();
 }
 

@@ -44,10 +44,8 @@ void OpenEndpoint::count_gone(const Link& link) noexcept {
     counters.gone_queued.add(link.queue.blocks());
 }
 
-Core::Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
-           net::ReceiveBatch batch)
-    : table_(table),
-      classes_(std::move(classes)),
+Core::Core(Language language, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
+    : language_(std::move(language)),
       loop_(std::move(loop)),
       resolver_([wake = loop_->wake_handle()] { net::EventLoop::wake(*wake); }),
       receive_(std::move(batch)),
@@ -153,7 +151,12 @@ bool Core::name_taken(const std::string& name) const {
 void Core::add_link(Link& link) {
     const std::string wanted = link.name;
     for (int n = 2; name_taken(link.name); ++n) link.name = fmt::format("{} ({})", wanted, n);
+    link.language = &language(link.endpoint);
     links_.add(link);
+}
+
+void Core::speaks(EndpointId endpoint, const dialect::Dialect& dialect) {
+    languages_.emplace(endpoint, Language{dialect.wire_table(), MessageClasses(dialect)});
 }
 
 void Core::set_up(Link& link) {
@@ -208,31 +211,19 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
         counters.unknown_ids.add();
     const auto update = link.tracker.update(event.frame);
     if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
-        count_sequence(link, update);
+        counters.add(update);
     ++frames_this_turn_;
     handler_->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
 }
 
-void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) noexcept {
+void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {
     using Kind = wire::ParseEvent::Kind;
-    if (event.kind == Kind::bad_checksum) link.counters.crc_error.add();
+    if (event.kind == Kind::bad_checksum) {
+        link.counters.crc_error.add();
+        if (handler_ != nullptr) handler_->on_bad_checksum(link.id, link.endpoint, event.frame.id());
+    }
     if (event.kind == Kind::junk) link.counters.junk_bytes.add(event.bytes);
     if (event.kind == Kind::unknown_flags) link.counters.unknown_flags.add();
-}
-
-void Core::count_sequence(Link& link, wire::SequenceTracker::Update update) noexcept {
-    using Verdict = wire::SequenceTracker::Verdict;
-    LinkCounters& counters = link.counters;
-    switch (update.verdict) {
-        case Verdict::gap: counters.lost.add(update.lost); break;
-        case Verdict::duplicate: counters.duplicate.add(); break;
-        case Verdict::resync: counters.resync.add(); break;
-        case Verdict::late:
-            counters.late.add();
-            counters.lost.set(counters.lost.value() + update.lost);
-            break;
-        default: break;
-    }
 }
 
 bool Core::queue(Link& link, const wire::FrameView& frame) {
@@ -241,7 +232,7 @@ bool Core::queue(Link& link, const wire::FrameView& frame) {
         link.counters.bytes_out.add(frame.size());
         return true;
     }
-    const MessageClasses::Rule rule = classes_.of(frame.id());
+    const MessageClasses::Rule rule = link.language->classes.of(frame.id());
     const auto pushed = link.queue.push(frame.bytes(), rule.block_class, MessageClasses::key(frame, rule), now_);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,12 @@ public:
 
 class Signature;
 
+// What the links of an endpoint speak: which frames they find, and how these queue.
+struct Language {
+    const wire::MessageTable& table;
+    MessageClasses classes;
+};
+
 struct Link {
     Link(EndpointId owner, const net::BlockQueue::Limits& limits) : endpoint(owner), queue(limits) {}
     Link(const Link&) = delete;
@@ -50,7 +57,8 @@ struct Link {
     // Tells the outlet that `queue` has something new.
     virtual void schedule() = 0;
 
-    LinkId id;  // given by Core::add_link
+    LinkId id;  // this and the next: given by Core::add_link
+    const Language* language = nullptr;
     EndpointId endpoint;
     std::string name;
     bool up = false;
@@ -169,19 +177,24 @@ public:
     EndpointInfo info;
     EndpointCounters counters;
     std::unique_ptr<Signature> signature;
+    std::optional<SetupError> failure;  // Links::failure
 };
 
 [[nodiscard]] net::BlockQueue::Limits queue_limits(const EndpointOptions& options);
 
 class Core {
 public:
-    Core(const wire::MessageTable& table, MessageClasses classes, std::unique_ptr<net::EventLoop> loop,
-         net::ReceiveBatch batch);
+    Core(Language language, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch);
 
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
     [[nodiscard]] net::EventLoop& loop() noexcept { return *loop_; }
-    [[nodiscard]] const wire::MessageTable& table() const noexcept { return table_; }
+    // An endpoint whose links speak another language than the rest; to be said before it is opened, until it is forgotten.
+    void speaks(EndpointId endpoint, const dialect::Dialect& dialect);
+    void forget_language(EndpointId endpoint) noexcept { languages_.erase(endpoint); }
+    [[nodiscard]] const wire::MessageTable& table(EndpointId endpoint) const noexcept {
+        return language(endpoint).table;
+    }
     [[nodiscard]] net::ReceiveBatch& receive_batch() noexcept { return receive_; }
     [[nodiscard]] net::SendBatch& send_batch() noexcept { return send_; }
     [[nodiscard]] ByteSpan stream_buffer() noexcept { return stream_; }
@@ -211,7 +224,8 @@ public:
     }
     // True when the frame was queued.
     bool send(Link& link, const wire::FrameView& frame) {
-        return queue(link, link.signature == nullptr ? frame : link.signature->sign(frame, table_, wall_now()));
+        return queue(link,
+                     link.signature == nullptr ? frame : link.signature->sign(frame, link.language->table, wall_now()));
     }
     // As it is.
     bool queue(Link& link, const wire::FrameView& frame);
@@ -252,8 +266,7 @@ public:
 
 private:
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
-    void on_bad_bytes(Link& link, const wire::ParseEvent& event) noexcept;
-    static void count_sequence(Link& link, wire::SequenceTracker::Update update) noexcept;
+    void on_bad_bytes(Link& link, const wire::ParseEvent& event);
     void tell_backlog();
     void flush();
     void expire_blocked();
@@ -261,10 +274,14 @@ private:
     void run_tickers();
     void collect_answers();
     void save_signing_times();
+    [[nodiscard]] const Language& language(EndpointId endpoint) const noexcept {
+        const auto own = languages_.find(endpoint);
+        return own == languages_.end() ? language_ : own->second;
+    }
     [[nodiscard]] bool name_taken(const std::string& name) const;
 
-    const wire::MessageTable& table_;
-    MessageClasses classes_;
+    const Language language_;
+    std::map<EndpointId, Language> languages_;  // where it is another
     std::unique_ptr<net::EventLoop> loop_;
     net::Resolver resolver_;
     net::ReceiveBatch receive_;

@@ -52,7 +52,8 @@ struct Place {
 
 class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
 public:
-    explicit Inlet(Opening& opening) : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table()) {}
+    explicit Inlet(Opening& opening)
+        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table(opening.id)) {}
     ~Inlet() override;
 
     SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
@@ -181,7 +182,7 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
         counters.peers_refused.add();
         return nullptr;
     }
-    auto sender = std::make_unique<Sender>(info.id, core_.table(), datagram.from);
+    auto sender = std::make_unique<Sender>(info.id, core_.table(info.id), datagram.from);
     sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
     sender->last_heard = core_.now();
     core_.add_link(*sender);

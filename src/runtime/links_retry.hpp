@@ -19,7 +19,7 @@ public:
     static constexpr Nanoseconds first = std::chrono::milliseconds(100);
     static constexpr Nanoseconds longest = std::chrono::seconds(5);
 
-    Retry(Core& core, const OpenEndpoint& endpoint, net::TimerHandler& handler)
+    Retry(Core& core, OpenEndpoint& endpoint, net::TimerHandler& handler)
         : core_(core), endpoint_(endpoint), handler_(handler) {}
     Retry(const Retry&) = delete;
     Retry& operator=(const Retry&) = delete;
@@ -27,6 +27,11 @@ public:
 
     void fail(const SetupError& error) {
         tell(error.text, "trying again");
+        fail_silently(error);
+    }
+    // Of one that was told of already.
+    void fail_silently(const SetupError& error) {
+        endpoint_.failure = error;
         later();
     }
     void tell(std::string_view what, std::string_view then) {
@@ -57,7 +62,7 @@ public:
 
 private:
     Core& core_;
-    const OpenEndpoint& endpoint_;
+    OpenEndpoint& endpoint_;
     net::TimerHandler& handler_;
     net::TimerId timer_;
     Nanoseconds delay_ = first;

@@ -26,7 +26,7 @@ public:
 class SerialPeer final : public Link, public Outlet, public net::IoHandler, public net::TimerHandler, public Core::Ticker {
 public:
     SerialPeer(Core& core, SerialOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : Link(endpoint_id, limits), core_(core), owner_(owner), parser_(core.table()) {}
+        : Link(endpoint_id, limits), core_(core), owner_(owner), parser_(core.table(endpoint_id)) {}
     ~SerialPeer() override { detach(); }
 
     [[nodiscard]] SetupResult<void> attach(net::SerialPort port);

@@ -25,7 +25,7 @@ public:
 class TcpPeer final : public Link, public Outlet, public net::IoHandler, public Core::Ticker {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : Link(endpoint_id, limits), core_(core), owner_(owner), parser_(core.table()) {}
+        : Link(endpoint_id, limits), core_(core), owner_(owner), parser_(core.table(endpoint_id)) {}
     ~TcpPeer() override { detach(); }
 
     [[nodiscard]] SetupResult<void> attach(net::TcpStream stream);

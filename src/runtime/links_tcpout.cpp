@@ -114,7 +114,7 @@ void TcpOut::fail(const SetupError& error) {
         addresses_.pop_back();
         if (connect_to(next)) return;
     }
-    retry_.later();
+    retry_.fail_silently(error);
 }
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {

@@ -53,7 +53,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     }
     if (peers_.empty()) owner_.on_first_peer(*datagram.from);
     const EndpointInfo& info = endpoint_.info;
-    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(), port,
+    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(info.id), port,
                                           *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->signature = endpoint_.signature.get();

@@ -27,7 +27,7 @@ public:
           endpoint_(endpoint),
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
-          stranger_(core.table()) {}
+          stranger_(core.table(endpoint.info.id)) {}
     ~UdpPeers() override;
 
     // Whose datagram this is, a newcomer's also; null: a stranger's without a valid frame, or there is no room.

@@ -40,7 +40,8 @@ SetupResult<void> Receiver::add(const Endpoint& endpoint) {
         const auto& recording = *sources_.recordings().back();
         names_.emplace(recording.link, recording.name);
     }
-    return added;
+    if (!added) return tl::unexpected(std::move(added.error()));
+    return {};
 }
 
 void Receiver::start(MonoTime end) {

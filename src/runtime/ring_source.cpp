@@ -35,16 +35,21 @@ bool is_copy(const shm::RecordInfo& info) noexcept {
 }  // namespace
 
 RingSource::RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links,
-                       Copies copies)
+                       Copies copies, const dialect::Dialect* dialect)
     : endpoint_(endpoint),
       id_{ids.next()},
       table_(table),
       ids_(ids),
       links_(links),
       wanted_copies_(copies),
+      dialect_(dialect),
       follower_(endpoint.path, reader_options(endpoint.options)) {
     copy_.reserve(shm::max_record_bytes);
     found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
+}
+
+RingSource::~RingSource() {
+    if (inlet_) links_.remove(*inlet_);
 }
 
 SetupResult<void> RingSource::open() {
@@ -54,6 +59,7 @@ SetupResult<void> RingSource::open() {
 
 std::size_t RingSource::play(LinkHandler& handler, std::size_t most) {
     if (no_inlet_ && !std::exchange(told_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
+    if (held_) return 0;
     look_for_names();
     std::size_t played = 0, empty_records = 0;
     for (more_ = true; played < most && empty_records < most_empty_records;) {
@@ -111,18 +117,22 @@ void RingSource::take(const shm::RingRecord& record, LinkHandler& handler) {
         return;
     }
     time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
-    if (!lossless()) return parse(record.data);
+    verdict_ = record.info.verdict;
+    if (!lossless()) return parse(record.data, handler);
     copy_.assign(record.data.begin(), record.data.end());
-    if (follower_.reader()->holds()) return parse(copy_);
+    if (follower_.reader()->holds()) return parse(copy_, handler);
     ++overwritten_;  // by a writer that evicts, while it was copied
     forget_sequences();
 }
 
-void RingSource::parse(ByteView bytes) {
+void RingSource::parse(ByteView bytes, LinkHandler& handler) {
     using Kind = wire::ParseEvent::Kind;
-    last_->parser.parse(bytes, [this](const wire::ParseEvent& event) {
+    last_->parser.parse(bytes, [&](const wire::ParseEvent& event) {
         if (event.kind == Kind::frame) found_.push_back({event.frame, event.info});
-        if (event.kind == Kind::bad_checksum) counters_.crc_error.add();
+        if (event.kind == Kind::bad_checksum) {
+            counters_.crc_error.add();
+            handler.on_bad_checksum(last_->id, id_, event.frame.id());
+        }
         if (event.kind == Kind::junk) counters_.junk_bytes.add(event.bytes);
         if (event.kind == Kind::unknown_flags) counters_.unknown_flags.add();
     });
@@ -131,8 +141,11 @@ void RingSource::parse(ByteView bytes) {
 
 void RingSource::hand_over(LinkHandler& handler, const Found& found) {
     const auto update = last_->tracker.update(found.frame);
-    counters_.lost.set(counters_.lost.value() + static_cast<std::uint64_t>(update.lost));
-    handler.on_frame({found.frame, found.info, last_->id, id_, time_, update});
+    counters_.add(update);
+    counters_.frames_in.add();
+    counters_.bytes_in.add(found.frame.size());
+    if (found.info == nullptr) counters_.unknown_ids.add();
+    handler.on_frame({found.frame, found.info, last_->id, id_, time_, update, verdict_});
 }
 
 void RingSource::nothing_comes(shm::ReadError why, LinkHandler& handler) {
@@ -161,6 +174,7 @@ void RingSource::tell(LinkHandler& handler, Told what, std::string_view text) {
 }
 
 MonoTime RingSource::due(bool has_room, MonoTime now) {
+    if (held_) return MonoTime::max();
     if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
     if (at_end_) return MonoTime::max();
     auto* const reader = follower_.reader();
@@ -178,7 +192,7 @@ void RingSource::end_here() noexcept {
 }
 
 void RingSource::forget_sequences() {
-    for (auto& [name, link] : by_name_) link->tracker = {};
+    for (auto& [name, link] : by_name_) link->tracker.restart();
 }
 
 RingSource::RingLink& RingSource::link_of(LinkId in_ring, LinkHandler& handler) {
@@ -248,17 +262,23 @@ bool RingSource::is_own(const std::string& name) const {
     return std::ranges::any_of(links, [&](const auto& l) { return l.endpoint == *inlet_ && l.name == name; });
 }
 
-bool RingSource::send(const wire::FrameView& frame) {
+SetupResult<EndpointId> RingSource::inlet() {
     if (!inlet_ && !no_inlet_) {
         Endpoint inlet = endpoint_;
         inlet.options.from_oldest = false;
         inlet.options.lossless.reset();
         inlet.options.required = false;
-        auto added = links_.add(inlet);
+        auto added = links_.add(inlet, dialect_);
         if (added) inlet_ = *added;
         else no_inlet_ = std::move(added.error());
     }
-    return inlet_ && links_.send(*inlet_, frame) != 0;
+    if (!inlet_) return tl::unexpected(*no_inlet_);
+    return *inlet_;
+}
+
+bool RingSource::send(const wire::FrameView& frame) {
+    const auto to = inlet();
+    return to && links_.send(*to, frame) != 0;
 }
 
 void RingSource::add_to(Totals& totals) const noexcept {

@@ -31,8 +31,12 @@ private:
 
 class RingSource {
 public:
-    // Answers go out by `links`. It and the others must outlive the object.
-    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies);
+    // Answers go out by `links`, by the rules of `dialect` where there is one. It and the others must outlive the object.
+    RingSource(const Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids, Links& links, Copies copies,
+               const dialect::Dialect* dialect = nullptr);
+    RingSource(const RingSource&) = delete;
+    RingSource& operator=(const RingSource&) = delete;
+    ~RingSource();
 
     // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
     [[nodiscard]] SetupResult<void> open();
@@ -45,10 +49,23 @@ public:
     // Whether all before that was handed over.
     [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
+    // Held: not read, for want of room at who takes the frames.
+    void hold(bool held) noexcept { held_ = held; }
+
     // To the inlet; true when it was taken.
     bool send(const wire::FrameView& frame);
+    // Its endpoint, opened at the first call; the first error stands.
+    [[nodiscard]] SetupResult<EndpointId> inlet();
     void add_to(Totals& totals) const noexcept;
 
+    // Calls take(link, sources) for each link that was heard in the ring.
+    template <class Take>
+    void each_link(Take take) const {
+        for (const auto& [name, link] : by_name_) take(link->id, link->tracker.sources());
+    }
+    [[nodiscard]] const LinkCounters& counters() const noexcept { return counters_; }
+
+    [[nodiscard]] EndpointId id() const noexcept { return id_; }
     [[nodiscard]] const Endpoint& endpoint() const noexcept { return endpoint_; }
     [[nodiscard]] bool lossless() const noexcept { return endpoint_.options.lossless.value_or(false); }
     [[nodiscard]] shm::RingFollower& follower() noexcept { return follower_; }
@@ -71,7 +88,7 @@ private:
 
     [[nodiscard]] bool read(LinkHandler& handler);
     void take(const shm::RingRecord& record, LinkHandler& handler);
-    void parse(ByteView bytes);
+    void parse(ByteView bytes, LinkHandler& handler);
     void hand_over(LinkHandler& handler, const Found& found);
     void nothing_comes(shm::ReadError why, LinkHandler& handler);
     void tell(LinkHandler& handler, Told what, std::string_view text);
@@ -91,6 +108,7 @@ private:
     RingLinkIds& ids_;
     Links& links_;
     Copies wanted_copies_;
+    const dialect::Dialect* dialect_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
     MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
@@ -98,7 +116,7 @@ private:
     bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
     std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
     std::optional<std::uint64_t> end_;        // where reading stops
-    bool at_end_ = false;
+    bool at_end_ = false, held_ = false;
 
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
     std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring
@@ -113,6 +131,7 @@ private:
     std::vector<Found> found_;        // in the record that was read last
     std::size_t next_found_ = 0;
     WallTime time_{};
+    std::uint8_t verdict_ = 0;
 
     std::optional<EndpointId> inlet_;
     std::optional<SetupError> no_inlet_;

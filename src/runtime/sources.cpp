@@ -71,11 +71,13 @@ SetupResult<void> Sources::check(const Endpoint& endpoint) const {
     return {};
 }
 
-SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
-    if (auto checked = check(endpoint); !checked) return checked;
+SetupResult<EndpointId> Sources::add(const Endpoint& endpoint, MonoTime now, double default_speed, Nanoseconds skip) {
+    if (auto checked = check(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
     if (endpoint.scheme == Scheme::shm) return rings_->add(endpoint);
     if (endpoint.scheme != Scheme::tlog) {
-        return links_->add(endpoint).map([this](EndpointId id) { live_.push_back(id); });
+        auto added = links_->add(endpoint);
+        if (added) live_.push_back(*added);
+        return added;
     }
     auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::tell);
     if (!reader) {
@@ -85,12 +87,35 @@ SetupResult<void> Sources::add(const Endpoint& endpoint, MonoTime now, double de
     if (skip != Nanoseconds{} && !reader->is_file())
         return setup_error(SetupCode::usage, endpoint.label() + " is a pipe: it can only be read from its start");
     if (skip != Nanoseconds{})
-        if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped) return skipped;
+        if (auto skipped = skip_ahead(*reader, endpoint.path, *table_, skip); !skipped)
+            return tl::unexpected(std::move(skipped.error()));
     const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
     const double speed = endpoint.options.speed.value_or(default_speed);
     recordings_.push_back(std::make_unique<Recording>(Recording{
         LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
-    return {};
+    return EndpointId{id};
+}
+
+SetupResult<EndpointId> Sources::add_ring(const Endpoint& endpoint, const dialect::Dialect* dialect) {
+    if (auto checked = detail::RingSources::check(endpoint); !checked)
+        return tl::unexpected(std::move(checked.error()));
+    return rings_->add(endpoint, dialect);
+}
+void Sources::remove_ring(EndpointId ring) { rings_->remove(ring); }
+void Sources::hold_ring(EndpointId ring, bool held) noexcept { rings_->find(ring)->hold(held); }
+SetupResult<EndpointId> Sources::inlet(EndpointId ring) { return rings_->find(ring)->inlet(); }
+const LinkCounters& Sources::ring_counters(EndpointId ring) const noexcept { return rings_->find(ring)->counters(); }
+void Sources::add_ring_to(EndpointId ring, Totals& totals) const noexcept { rings_->find(ring)->add_to(totals); }
+
+std::vector<Sources::SourceLoss> Sources::losses(EndpointId endpoint) const {
+    std::vector<SourceLoss> losses;
+    const auto take = [&](LinkId link, std::span<const wire::SequenceStats> sources) {
+        for (const auto& source : sources) losses.push_back({link, source});
+    };
+    for (const auto& link : links_->links())
+        if (link.endpoint == endpoint) take(link.id, links_->sources(link.id));
+    if (const auto* ring = rings_->find(endpoint)) ring->each_link(take);
+    return losses;
 }
 
 bool Sources::advance(Recording& recording, LinkHandler& handler) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "mavloom/dialect/dialect.hpp"
 #include "runtime/links_options.hpp"
 
 namespace mavloom::runtime::detail {
@@ -17,15 +18,27 @@ SetupResult<void> RingSources::check(const Endpoint& endpoint) {
     return check_supported(endpoint, RoutingOptions::refused);
 }
 
-SetupResult<void> RingSources::add(const Endpoint& endpoint) {
+SetupResult<EndpointId> RingSources::add(const Endpoint& endpoint, const dialect::Dialect* dialect) {
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
     if (std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
-    auto ring = std::make_unique<RingSource>(endpoint, table_, link_ids_, links_, copies_);
-    if (auto opened = ring->open(); !opened) return opened;
+    auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
+                                             links_, copies_, dialect);
+    if (auto opened = ring->open(); !opened) return tl::unexpected(std::move(opened.error()));
     rings_.push_back(std::move(ring));
-    return {};
+    return rings_.back()->id();
+}
+
+// The waiter no longer sleeps on a ring that is about to go.
+void RingSources::remove(EndpointId ring) {
+    std::erase_if(rings_, [&](const auto& known) { return known->id() == ring; });
+    watch_changed();
+}
+
+RingSource* RingSources::find(EndpointId ring) const noexcept {
+    const auto found = std::ranges::find(rings_, ring, [](const auto& known) { return known->id(); });
+    return found == rings_.end() ? nullptr : found->get();
 }
 
 // Rings that came or went since the last turn.

@@ -17,7 +17,10 @@ public:
     RingSources(Links& links, const wire::MessageTable& table, Copies copies);
 
     [[nodiscard]] static SetupResult<void> check(const Endpoint& endpoint);
-    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
+    void remove(EndpointId ring);
+    // Null where there is none.
+    [[nodiscard]] RingSource* find(EndpointId ring) const noexcept;
     [[nodiscard]] bool empty() const noexcept { return rings_.empty(); }
 
     // When to play next, and asks to be woken before when something is written.

@@ -49,7 +49,8 @@ std::size_t SequenceTracker::find_or_add(Source source) {
 SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept {
     const std::uint8_t sequence = frame.sequence();
     const auto advance = [&] { state.expected = static_cast<std::uint8_t>(sequence + 1); };
-    if (stats.received == 0) {
+    if (state.fresh) {
+        state.fresh = false;
         advance();
         return {Verdict::first, 0};
     }
@@ -89,6 +90,10 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
     ++stats.resync;
     advance();
     return {Verdict::resync, 0};
+}
+
+void SequenceTracker::restart() noexcept {
+    for (auto& state : states_) state = {};
 }
 
 SequenceStats SequenceTracker::total() const noexcept {

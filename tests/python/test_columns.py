@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
 """mavloom.columns() against pymavlink on the recorded flight. "Row N": the wishes listed in docs/guide/python.md."""
+import contextlib
+import os
+import signal
 import subprocess
 import sys
 
@@ -8,7 +11,7 @@ import pytest
 
 import mavloom
 import pymavlink_vectors as vectors
-from tlogs import frames_of, packer, write
+from tlogs import frames_of, packer, record, write
 
 NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4", "uint64_t": "u8", "int64_t": "i8",
          "float": "f4", "double": "f8", "uint8_t_mavlink_version": "u1"}
@@ -149,6 +152,28 @@ def test_row_8_no_object_for_each_row(flight):
     columns = mavloom.columns(flight, "ATTITUDE")
     assert len(columns) > 4000
     assert sys.getallocatedblocks() - before < 500
+
+
+@pytest.mark.parametrize("read", ["mavloom.columns(path, 'ATTITUDE')", "mavloom.tables(path)"])
+def test_example_11_ctrl_c_ends_the_reading_of_a_file_without_end(read, tmp_path, child_environment):
+    """In which the message does not occur."""
+    os.mkfifo(tmp_path / "pipe")
+    child = subprocess.Popen([sys.executable, "-c", f"import mavloom, sys\npath = sys.argv[1]\nprint('ready', flush=True)\n{read}", tmp_path / "pipe"],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=child_environment)
+    try:
+        assert child.stdout.readline() == "ready\n"
+        data = b"".join(record(mavloom.Dialect().encode("HEARTBEAT"), number) for number in range(1000))
+        written = 0
+        with contextlib.suppress(BrokenPipeError), open(tmp_path / "pipe", "wb", buffering=0) as pipe:
+            while True:
+                pipe.write(data)
+                written += len(data)
+                if written > 1 << 20:
+                    child.send_signal(signal.SIGINT)
+        assert "KeyboardInterrupt" in child.communicate(timeout=60)[1]
+    finally:
+        child.kill()
+        child.communicate()
 
 
 def test_arrays_outlive_everything(flight):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """mavloom.connect() with pymavlink's frames at the far side. "Row N": the wishes listed in docs/guide/python.md."""
 import asyncio
-import contextlib
 import gc
 import os
 import signal
@@ -15,64 +14,7 @@ import pytest
 
 import mavloom
 from tlogs import packer
-
-DEADLINE_S = 60
-
-
-def until(condition):
-    """Waits for a condition; the test fails where it never comes true."""
-    end = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.005)
-
-
-class Vehicle:
-    """A UDP socket that speaks with pymavlink's frames."""
-
-    def __init__(self, peer, port=None, system=1, component=1):
-        self.peer, self.sender = peer, packer(peer, system, component)
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.settimeout(DEADLINE_S)
-        self.socket.bind(("127.0.0.1", 0))
-        if port is not None:
-            self.socket.connect(("127.0.0.1", port))
-
-    @property
-    def port(self):
-        return self.socket.getsockname()[1]
-
-    def send(self, *messages):
-        self.socket.send(b"".join(self.sender.pack(message) for message in messages))
-
-    def heartbeat(self, kind=2, autopilot=12, number=0):
-        return self.peer.MAVLink_heartbeat_message(kind, autopilot, 0, number, 4, 3)
-
-    def attitude(self, number, roll=0.0):
-        return self.peer.MAVLink_attitude_message(number, roll, 0, 0, 0, 0, 0)
-
-    def receive(self):
-        """All messages of the next datagram, decoded by pymavlink."""
-        return self.peer.MAVLink(None).parse_buffer(self.socket.recv(65536))
-
-
-@contextlib.contextmanager
-def flood(vehicle):
-    """Heartbeats without end."""
-    stop = threading.Event()
-
-    def send():
-        while not stop.is_set():
-            with contextlib.suppress(ConnectionRefusedError):
-                vehicle.send(vehicle.heartbeat())
-    thread = threading.Thread(target=send, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        stop.set()
-        thread.join()
-
+from vehicles import DEADLINE_S, Vehicle, flood, until
 
 @pytest.fixture
 def link():
@@ -130,6 +72,14 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
         link.messages["VFR_HUD"]
     with pytest.raises(TimeoutError):
         link.wait_vehicle(timeout=0.01)
+
+
+@pytest.mark.parametrize("spelling, name", [
+    ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"), ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"),
+    ("/dev/absent,57600", "serial:///dev/absent")])
+def test_pymavlinks_other_spellings(spelling, name):
+    with mavloom.connect(spelling) as link:
+        assert link.name == name.format(port=link.port)
 
 
 def test_pymavlinks_spelling_of_an_address():
@@ -220,6 +170,56 @@ def test_example_4_send(peer):
     vehicle.socket.close()
 
 
+def test_row_10_the_version_is_a_property_of_the_link(peer):
+    vehicle = Vehicle(peer)
+    url = f"udpout://127.0.0.1:{vehicle.port}"
+    with mavloom.connect(url, version=1) as old, mavloom.connect(f"{url}?name=new") as new:
+        assert (old.version, new.version) == (1, 2)
+        for link, start in ((old, 0xfe), (new, 0xfd)):
+            assert link.send("HEARTBEAT", type=6) == 1
+            frame = vehicle.socket.recv(65536)
+            assert frame[0] == start and mavloom.Dialect().decode(frame).type == 6
+        with pytest.raises(ValueError, match="MAVLink 1 ends at 255"):
+            old.send("ODOMETRY")
+        assert old.send("STATUSTEXT", text="next", severity=6) == 1
+        assert mavloom.Dialect().decode(vehicle.socket.recv(65536)).seq == 1
+    with pytest.raises(ValueError, match="1 or 2"):
+        mavloom.connect(url, version=3)
+    vehicle.socket.close()
+
+
+def without_definition(folder):
+    return another_definition(folder).encode("SECURE_PAYLOAD", level=0.5, source_system=42, source_component=17, frame_seq=101)
+
+
+def test_row_16_what_is_forwarded_stays_as_it_is(link, vehicle, peer, tmp_path):
+    """Also what has no definition here."""
+    far = Vehicle(peer)
+    foreign = Vehicle(peer, link.port, 42, 17)
+    foreign.sender.mav.seq = 99
+    with mavloom.connect(f"udpout://127.0.0.1:{far.port}") as onward:
+        frames = [foreign.sender.pack(foreign.heartbeat(number=5)),
+                  bytes(foreign.heartbeat(number=9).pack(foreign.sender.mav, force_mavlink1=True)), without_definition(tmp_path)]
+        for frame in frames:
+            foreign.socket.send(frame)
+            assert onward.forward(link.recv(timeout=DEADLINE_S)) == 1
+            assert far.socket.recv(65536) == frame
+        assert onward.forward(memoryview(frames[0])) == 1
+        assert far.socket.recv(65536) == frames[0]
+        for wrong, why in ((frames[0][:-1], "header says"), (frames[0] * 2, "header says"), (b"\x55" * 20, "no MAVLink frame"),
+                           (frames[0][:-1] + bytes([frames[0][-1] ^ 1]), "checksum")):
+            with pytest.raises(mavloom.InputError, match=why):
+                onward.forward(wrong)
+        with pytest.raises(TypeError):
+            onward.forward("HEARTBEAT")
+        assert onward.send("HEARTBEAT") == 1 and far.receive()[0].get_seq() == 0
+    with pytest.raises(mavloom.ClosedError):
+        onward.forward(frames[0])
+    with mavloom.connect("udpin://127.0.0.1:0") as nobody:
+        assert nobody.forward(frames[0]) == 0 and nobody.stats.no_peer == 1
+    far.socket.close()
+
+
 def test_row_21_nobody_to_send_to_is_told(link, vehicle):
     assert link.send("HEARTBEAT") == 0
     assert (link.stats.no_peer, link.stats.frames_out) == (1, 0)
@@ -267,6 +267,49 @@ def test_rows_4_and_5_example_6_a_slow_consumer(peer):
             found.append(m.time_boot_ms)
         assert len(found) + link.stats.missed + link.stats.kernel_drop == sent
         assert found == list(range(sent - len(found) + 1, sent + 1))
+
+
+def test_row_5_the_bound_is_in_bytes(peer):
+    """What is kept fits into `buffer`: 20 bytes of frame and 16 beside it, rounded up to 48."""
+    with mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 17) as link:
+        vehicle = Vehicle(peer, link.port)
+        mine = link.subscribe()
+        for number in range(0, 5000, 50):
+            vehicle.send(*(vehicle.attitude(i + 1, 0.5) for i in range(number, number + 50)))
+            until(lambda: link.stats.frames_in == number + 50)
+        vehicle.socket.close()
+        assert link.stats.missed == mine.missed == 5000 - (1 << 17) // 48
+        assert sum(1 for _ in iter(lambda: mine.recv(timeout=0), None)) == (1 << 17) // 48
+
+
+def test_row_7_memory_is_flat(child_environment):
+    """Over more names of instances than are kept: the second half of them takes no more."""
+    code = """
+import socket, time
+dialect = mavloom.Dialect()
+sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+sock.connect(("127.0.0.1", link.port))
+def pages():
+    return int(open("/proc/self/statm").read().split()[1])
+def send(first, count):
+    for number in range(first, first + count):
+        sock.send(dialect.encode("NAMED_VALUE_FLOAT", name=f"n{number}", value=number))
+        if number % 100 == 99:
+            while link.stats.frames_in + link.stats.kernel_drop < number + 1:
+                time.sleep(0.0005)
+link.close()
+link = mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 20)
+sock.connect(("127.0.0.1", link.port))
+send(0, 20_000)
+before = pages()
+send(20_000, 20_000)
+print((pages() - before) * 4, link.stats.not_kept + link.stats.kernel_drop)
+"""
+    process = child(code, child_environment)
+    out, talk = process.communicate(timeout=DEADLINE_S)
+    assert talk == ""
+    grown_kib, not_kept = map(int, out.split())
+    assert not_kept == 40_000 - 16_384 and grown_kib < 512
 
 
 def test_row_4_latest_by_source_instance_and_age(link, vehicle, peer):
@@ -323,6 +366,63 @@ def test_row_22_duplicates_and_late_frames_are_no_loss(link, vehicle, peer):
     assert (link.stats.lost, link.stats.duplicate, link.stats.late) == (1, 1, 1)
 
 
+def losses(link):
+    return {(s.sys, s.comp): (s.received, s.lost, s.late, s.duplicate) for s in link.stats.sources}
+
+
+def test_row_22_loss_is_told_of_each_source(link, vehicle, peer):
+    other = Vehicle(peer, link.port, 2, 5)
+    for each, numbers in ((vehicle, (0, 1, 1, 3, 2, 4, 6, 7, 8, 9)), (other, (0, 5, 6, 7))):
+        frames = [each.sender.pack(each.attitude(i)) for i in range(10)]
+        for number in numbers:
+            each.socket.send(frames[number])
+    until(lambda: link.stats.frames_in == 14)
+    assert losses(link) == {(1, 1): (10, 1, 1, 1), (2, 5): (4, 4, 0, 0)}
+    assert {s.link_name.split("#")[0] for s in link.stats.sources} == {link.name} and len({s.link_name for s in link.stats.sources}) == 2
+    assert link.packet_loss(system=1) == pytest.approx(10) and link.packet_loss(component=5) == pytest.approx(50)
+    assert link.packet_loss() == pytest.approx(100 * 5 / 18) and link.packet_loss(system=3) == 0
+    other.socket.close()
+
+
+def test_row_22_the_loss_of_those_who_went_stays(peer):
+    sender = packer(peer)
+    with mavloom.connect("tcpin://127.0.0.1:0") as link:
+        for session in range(3):
+            frames = [sender.pack(peer.MAVLink_heartbeat_message(2, 12, 0, i, 4, 3)) for i in range(4)]
+            with socket.create_connection(("127.0.0.1", link.port)) as client:
+                client.sendall(frames[0] + frames[3])
+                until(lambda: link.stats.frames_in == 2 * (session + 1))
+            until(lambda: link.stats.peers == 0)
+        assert sum(s.lost for s in link.stats.sources) == 6
+        link.close()
+        assert sum(s.lost for s in link.stats.sources) == 6
+
+
+def another_definition(folder, field='type="float" name="level"'):
+    (folder / "other.xml").write_text(
+        f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+    return mavloom.Dialect(folder / "other.xml")
+
+
+def test_row_11_a_message_that_fails_every_time_is_named(tmp_path, peer):
+    theirs, ours = (another_definition(tmp_path, field) for field in ('type="uint16_t" name="key_id"', 'type="float" name="level"'))
+    with mavloom.connect("udpin://127.0.0.1:0", dialect=ours) as link:
+        vehicle = Vehicle(peer, link.port)
+        for number in range(6):
+            damaged = bytearray(vehicle.sender.pack(vehicle.attitude(number)))
+            damaged[12] ^= 1
+            vehicle.socket.send(vehicle.sender.pack(vehicle.heartbeat()) + bytes(damaged) + theirs.encode("SECURE_PAYLOAD", key_id=700 + number))
+        vehicle.send(vehicle.attitude(7))
+        until(lambda: link.latest("ATTITUDE"))
+        stats = link.stats
+        assert (stats.crc_error_ids[30], stats.crc_error_ids[61000]) == (6, 6) and stats.crc_error >= 12
+        assert len(stats.hints) == 1 and "SECURE_PAYLOAD (61000)" in stats.hints[0] and "all 6 frames" in stats.hints[0]
+        vehicle.socket.send(ours.encode("SECURE_PAYLOAD", level=1))
+        until(lambda: link.latest("SECURE_PAYLOAD"))
+        assert link.stats.hints == []
+        vehicle.socket.close()
+
+
 def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
     dialects = []
     for number, field in enumerate(('type="uint16_t" name="key_id"', 'type="float" name="level"')):
@@ -335,6 +435,24 @@ def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
         sock.sendto(dialects[1].encode("SECURE_PAYLOAD", level=0.5), ("127.0.0.1", second.port))
         assert first.recv(timeout=DEADLINE_S).key_id == 7
         assert second.recv(timeout=DEADLINE_S).level == 0.5
+
+
+def test_row_11_one_loop_thread_serves_links_of_all_dialects(tmp_path, child_environment):
+    code = f"""
+def threads():
+    return len(os.listdir("/proc/self/task"))
+link.close()
+before, dialect = threads(), mavloom.Dialect({str(tmp_path / 'other.xml')!r})
+own, = [mavloom.connect("udpin://127.0.0.1:0", dialect=dialect)]
+usual = mavloom.connect("udpin://127.0.0.1:0")
+for to, name, fields in ((own, "SECURE_PAYLOAD", {{"level": 0.5}}), (usual, "HEARTBEAT", {{}})):
+    with mavloom.connect(f"udpout://127.0.0.1:{{to.port}}", dialect=dialect) as sender:
+        assert sender.send(name, **fields) == 1 and to.recv(timeout=60).name == name
+print(threads() - before)
+"""
+    another_definition(tmp_path)
+    out, talk = child(code, child_environment).communicate(timeout=DEADLINE_S)
+    assert (out, talk) == ("1\n", "")
 
 
 def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
@@ -471,6 +589,42 @@ def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
     assert link.stats.frames_in == 0
 
 
+def fill(link):
+    """More than the system takes for a peer that reads nothing."""
+    for number in range(30_000):
+        link.send("ENCAPSULATED_DATA", seqnr=number, data=bytes(range(1, 254)))
+
+
+def test_row_26_a_peer_that_does_not_read_holds_no_other_link_up(link, vehicle):
+    """While one link waits for its last frames to go out, frames of another come and go."""
+    vehicle.send(vehicle.heartbeat())
+    assert link.recv(timeout=DEADLINE_S)
+
+    def served_while(closing):
+        """How many frames went out and how many came until it was over."""
+        number = 0
+        while closing.is_alive():
+            assert link.send("HEARTBEAT", custom_mode=number) == 1
+            assert vehicle.receive()[0].custom_mode == number
+            vehicle.send(vehicle.attitude(number))
+            assert link.recv(timeout=DEADLINE_S).time_boot_ms == number
+            number += 1
+        return number
+
+    served = 0
+    for _ in range(20):  # on a busy machine the second in which it waits may be over soon
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            deaf = mavloom.connect(f"tcpout://127.0.0.1:{server.getsockname()[1]}?queue_bytes=64M&required=true")
+            fill(deaf)
+            closing = threading.Thread(target=deaf.close)
+            closing.start()
+            served = max(served, served_while(closing))
+            closing.join(DEADLINE_S)
+        if served > 1000:
+            break
+    assert served > 1000  # and not what goes through before closing has begun
+
+
 def is_free(port):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         try:
@@ -523,6 +677,26 @@ def test_a_source_is_a_byte():
     for options in ({"source_system": 300}, {"source_component": -1}):
         with pytest.raises(mavloom.UsageError, match="out of range, 0 to 255"):
             mavloom.connect("udpin://127.0.0.1:0", **options)
+
+
+def test_what_is_required_and_absent_raises(link, tmp_path):
+    """With another link open, whose loop nobody holds up."""
+    with socket.socket() as closed:
+        closed.bind(("127.0.0.1", 0))
+        port = closed.getsockname()[1]
+        with pytest.raises(OSError, match=str(port)) as raised:
+            mavloom.connect(f"tcpout://127.0.0.1:{port}?required=true")
+        assert isinstance(raised.value, mavloom.SystemFailure)
+        with mavloom.connect(f"tcpout://127.0.0.1:{port}") as patient:
+            assert patient.stats.peers == 0
+        closed.listen()
+        with mavloom.connect(f"tcpout://127.0.0.1:{port}?required=true") as there:
+            assert there.stats.peers == 1
+    with pytest.raises(mavloom.NotFoundError, match="absent"):
+        mavloom.connect(f"serial://{tmp_path}/absent?required=true")
+    for url in ("udpin://127.0.0.1:0", "tcpin://127.0.0.1:0", f"udpout://127.0.0.1:{port}"):
+        mavloom.connect(f"{url}?required=true").close()
+    assert link.recv(timeout=0) is None
 
 
 def test_a_port_in_use_is_an_os_error(link):
@@ -641,6 +815,26 @@ def test_row_20_a_connection_that_breaks_is_made_again(peer):
             connection.close()
         server.close()
         assert link.recv(timeout=0.05) is None
+
+
+def test_row_18_the_user_pulls(link):
+    """No call takes a function that somebody else's thread would run."""
+    for name in ("message_hooks", "idle_hooks", "set_callback", "add_message_listener"):
+        assert not hasattr(link, name) and not hasattr(link.mav, name)
+
+
+def test_row_18_what_a_condition_does_holds_no_reception_up(link, vehicle):
+    """It runs in the thread that asks, and may use the link itself."""
+    threads = []
+
+    def condition(message):
+        threads.append(threading.current_thread())
+        vehicle.send(vehicle.attitude(message.custom_mode))
+        until(lambda: link.latest("ATTITUDE") is not None and link.latest("ATTITUDE").time_boot_ms == message.custom_mode)
+        return message.custom_mode == 2
+    vehicle.send(*(vehicle.heartbeat(number=number) for number in (1, 2)))
+    assert link.recv_match(condition, "HEARTBEAT", blocking=True, timeout=DEADLINE_S).custom_mode == 2
+    assert set(threads) == {threading.current_thread()}
 
 
 def test_row_6_other_threads_run_while_one_waits(link, vehicle):

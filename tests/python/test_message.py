@@ -308,6 +308,27 @@ def strict(line):
     return json.loads(line, parse_constant=refuse)
 
 
+def test_an_own_dialect_is_read_once_for_all_messages_of_pickles(tmp_path):
+    def write_definition(field):
+        (tmp_path / "mine.xml").write_text(
+            f'<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="{field}">a</field></message></messages></mavlink>')
+        return mavloom.Dialect(tmp_path / "mine.xml")
+
+    dialect = write_definition("first")
+    pickles = [pickle.dumps(dialect.message("MINE", first=number)) for number in range(100)]
+    before = mavloom._pickle.load.cache_info().misses
+    assert [pickle.loads(one).first for one in pickles] == list(range(100))
+    assert mavloom._pickle.load.cache_info().misses == before + 1
+
+    changed = write_definition("another_name")
+    assert pickle.loads(pickle.dumps(changed.message("MINE", another_name=5))).another_name == 5
+    assert pickle.loads(pickle.dumps(mavloom.Dialect())).path is None
+    gone = pickle.dumps(changed)
+    (tmp_path / "mine.xml").unlink()
+    with pytest.raises(mavloom.NotFoundError, match="mine.xml"):
+        pickle.loads(gone)
+
+
 def test_row_13_a_strict_parser_reads_every_message(dialect, peer):
     for message_class in peer.mavlink_map.values():
         for case in ("nan", "infinite", "tiny", "maximum"):

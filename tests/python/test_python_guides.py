@@ -50,7 +50,7 @@ def test_examples_run(page, flight, tmp_path, child_environment):
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     ring, inlet = f"guides-{port}", str(tmp_path / "px4.in")
-    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"').replace("/run/mavloom/px4.in", inlet)
+    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"').replace("shm://px4", f"shm://{ring}").replace("/run/mavloom/px4.in", inlet)
     with vehicle_at(port, flight), contextlib.ExitStack() as at_the_end, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as router:
         router.bind(inlet)
         router.setblocking(False)
@@ -59,6 +59,26 @@ def test_examples_run(page, flight, tmp_path, child_environment):
         assert (done.returncode, done.stderr) == (0, ""), done.stderr
         if inlet in script:
             assert [(frame[0], frame[5:10]) for frame in [router.recv(65536)]] == [(0xfd, bytes((255, 190, 0, 0, 0)))]
+
+
+def numbers_in_names(word):
+    """What the names of this package's tests say they are about: {"17", "3.16", ...} of test_row_17_..., test_rows_3_4_and_3_6_..."""
+    found = set()
+    for path in (ROOT / "tests" / "python").glob("test_*.py"):
+        for name in re.findall(r"def (test_\w+)", path.read_text()):
+            for first, more in re.findall(rf"_{word}s?_(\d+(?:_\d+)*)((?:_and_\d+(?:_\d+)*)*)(?=_|$)", name):
+                for number in [first, *re.findall(r"\d[\d_]*", more)]:
+                    parts = number.strip("_").split("_")
+                    found |= {parts[0], ".".join(parts[:2])} | {".".join(pair) for pair in zip(parts[::2], parts[1::2])}
+    return found
+
+
+def test_every_row_of_the_guide_has_a_test_that_names_it():
+    rows = re.findall(r"^\| (\d[\d., ]*) \|", PAGES[1].read_text(), re.MULTILINE)
+    wanted = {number for row in rows for number in row.split(", ")}
+    assert {"1", "18", "29", "3.1", "3.23"} <= wanted
+    assert wanted - numbers_in_names("row") == set()
+    assert {str(number) for number in range(1, 13)} - numbers_in_names("example") == set()
 
 
 @pytest.mark.timeout(300)

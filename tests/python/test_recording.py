@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
@@ -75,6 +76,50 @@ def test_row_1_a_file_never_makes_one_wait(flight, tmp_path):
     assert log.recv_match(blocking=True, timeout=None) is None
     assert log.recv_match(type="ATTITUDE", blocking=True, timeout=1000) is None
     assert (log.recv(), log.percent) == (None, 100.0)
+
+
+def test_row_1_the_deadline_holds_for_a_pipe(tmp_path):
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    beat = mavloom.Dialect().encode("HEARTBEAT", custom_mode=7)
+    log = mavloom.read(path)
+    assert log.recv(timeout=0.05) is None  # nobody has it open to write
+    with open(os.open(path, os.O_RDWR), "wb", buffering=0) as pipe:
+        for ask in (lambda: log.recv(timeout=0.05), lambda: log.recv(timeout=0), lambda: log.recv_match(type="HEARTBEAT", blocking=True, timeout=0.05)):
+            assert ask() is None
+        for number in range(3):
+            pipe.write(record(beat, number))
+        assert log.recv_match(type="ATTITUDE", timeout=0) is None
+        pipe.write(record(beat, 3)[:12])
+        assert log.recv(timeout=0.05) is None
+        pipe.write(record(beat, 3)[12:])
+        assert log.recv(timeout=60).custom_mode == 7
+    assert log.recv(timeout=60) is None and log.stats.records == 4
+
+
+def test_row_1_the_deadline_holds_for_a_condition_that_is_slow(flight):
+    assert mavloom.read(flight).recv_match(condition=lambda _: time.sleep(0.005), blocking=True, timeout=0.3) is None
+
+
+def test_row_1_a_poll_looks_at_all_of_a_file(flight):
+    log = mavloom.read(flight)
+    assert log.recv_match(condition=lambda m: m.seq == -1, timeout=0) is None
+    assert log.percent == 100
+
+
+def test_example_11_a_forked_child_moves_nothing_in_its_parent(flight, child_environment):
+    code = f"""
+import mavloom, os, sys
+log = mavloom.read({str(flight)!r})
+next(log)
+pid = os.fork()
+left = sum(1 for _ in log)
+if pid == 0:
+    os._exit(left != {FRAMES - 1})
+print(left, os.waitpid(pid, 0)[1])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment, timeout=60)
+    assert (done.stdout, done.stderr) == (f"{FRAMES - 1} 0\n", "")
 
 
 def test_row_29_types_each_call_with_its_own(flight, peer):

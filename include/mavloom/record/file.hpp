@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // An open file as the recorder and the reader need it: reads and writes that are completed or reported, never interrupted half-way by a signal
-// (only waiting for a pipe or device can be).
+// (only waiting for a pipe or device can be). The position in a regular file is the object's own, not the descriptor's: a forked child that reads on
+// moves nothing in its parent.
 // Move-only; one owner thread; allocates only for error texts.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
@@ -28,7 +30,8 @@ public:
         : path_(std::move(other.path_)),
           fd_(std::exchange(other.fd_, -1)),
           regular_(other.regular_),
-          empty_(other.empty_) {}
+          empty_(other.empty_),
+          offset_(other.offset_) {}
     File& operator=(File&& other) noexcept;
     ~File();
 
@@ -36,6 +39,8 @@ public:
     // there, once something is, and 0 at its end. Nothing there is an error with sys_errno EAGAIN (`Empty::tell`), a signal while it waits one
     // with EINTR.
     [[nodiscard]] SetupResult<std::size_t> read(ByteSpan out);
+    // Waits until a pipe or device has something to read, or has ended; false when the time has passed or a signal came. Always true of a file.
+    [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
     struct Written {
         std::size_t bytes = 0;  // what the system took: less than all only where `error` is set
         int error = 0;          // errno
@@ -56,13 +61,14 @@ public:
 private:
     File(std::filesystem::path path, int fd, bool regular) noexcept
         : path_(std::move(path)), fd_(fd), regular_(regular) {}
-    [[nodiscard]] int wait_for_input() const noexcept;
+    [[nodiscard]] int wait_for_input(int limit_ms) const noexcept;
     [[nodiscard]] static SetupResult<File> open(const std::filesystem::path& path, int flags, std::string_view doing);
 
     std::filesystem::path path_;
     int fd_ = -1;
     bool regular_ = false;
     Empty empty_ = Empty::wait;
+    std::uint64_t offset_ = 0;  // of the next byte of a regular file
 };
 
 }  // namespace mavloom::record

@@ -36,15 +36,18 @@ public:
         end,          // the file is read to its end
         failed,       // `error` says why; nothing more can be read
         nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; may be called again
-        damage,       // nothing but damage in `most_damage` bytes; may be called again
+        damage,  // nothing but damage in `most_damage` bytes, of `next_of` nothing of that message; may be called again
     };
     // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record. Gives
     // way after `most_damage` bytes without one: who has other work gets to it although a file is nothing but damage.
     [[nodiscard]] Result<Record, Stop> next(std::uint64_t most_damage = ~std::uint64_t{0});
     // The next record of one message. Faster than `next`, for it passes over records of other known ids without looking at their checksums as long
-    // as record joins record; where they do not, it examines what it had passed over. Damage within what is passed over is not counted.
-    [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t most_damage = ~std::uint64_t{0});
+    // as record joins record; where they do not, it examines what it had passed over. Damage within what is passed over is not counted. Gives way
+    // after `most_bytes` without one, whatever they held.
+    [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t most_bytes = ~std::uint64_t{0});
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
+    // For who was told `nothing_yet`: File::wait.
+    [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept { return file_.wait(limit); }
 
     // Goes on at `offset`, which should be that of a record. Not for pipes. Bytes read again are counted again.
     [[nodiscard]] SetupResult<void> seek(std::uint64_t offset);

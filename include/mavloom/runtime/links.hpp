@@ -42,6 +42,8 @@ struct LinkCounters {
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
     Counter frames_not_sent;                // in datagrams that the kernel refused
     void add(const LinkCounters& other) noexcept;
+    // What a frame's number says of the loss.
+    void add(wire::SequenceTracker::Update update) noexcept;
 };
 
 // What belongs to a socket rather than to one of its peers.
@@ -66,6 +68,7 @@ struct RxFrame {
     EndpointId endpoint;
     WallTime time{};                           // the kernel's receive time; a recording's own time for tlog sources
     wire::SequenceTracker::Update sequence{};  // what it says of the link's loss
+    std::uint8_t ring_verdict = 0;             // of a ring: what its writer says of the frame (ring_frames.hpp)
 };
 
 class LinkHandler {
@@ -76,6 +79,8 @@ public:
     // A peer was seen for the first time, connected, went, or was expired.
     virtual void on_link_up(LinkId, EndpointId, std::string_view /*name*/) {}
     virtual void on_link_down(LinkId, EndpointId, std::string_view /*why*/) {}
+    // Something that began and was as long as a frame of this id, damaged or made with another definition. It is counted already.
+    virtual void on_bad_checksum(LinkId, EndpointId, MessageId) {}
     // Something a person should know once (not per packet): "udpin://…: listening (receive buffer 425984 bytes)".
     virtual void on_notice(EndpointId, std::string_view /*text*/) {}
 };
@@ -124,12 +129,16 @@ public:
     // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
     // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
     // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
-    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint);
+    // With a dialect, which must outlive the endpoint, its links find and queue frames by that.
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
     // The inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` that may be sent to as `mode` says. Each sender of a
     // valid frame is a link, all that are not bound are one; what is sent to these links is counted and goes nowhere, for they find it in the ring.
     // A socket that nobody serves any more is replaced; `in_use` where somebody does.
     [[nodiscard]] SetupResult<EndpointId> add_inlet(const std::string& ring, const std::filesystem::path& socket,
                                                     unsigned mode);
+    // Why an endpoint that is tried again and again could not be opened the last time; null while that goes on for the first time, and of one
+    // that never failed.
+    [[nodiscard]] const SetupError* failure(EndpointId endpoint) const noexcept;
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
     // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.

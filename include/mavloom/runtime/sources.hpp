@@ -46,8 +46,25 @@ public:
     [[nodiscard]] SetupResult<void> check(const Endpoint& endpoint) const;
 
     // Opens the endpoint; a ring that is not there is told of by `on_notice` and waited for, without end; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
-    [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint, MonoTime now,
-                                        double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
+    [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, MonoTime now,
+                                              double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
+
+    // A ring alone, which these calls are about: `remove` closes it and its inlet (not inside a callback); a ring that is held is not read until it is let
+    // go, for want of room at whoever takes its frames; `inlet` is the endpoint of its inlet, opened at the first call.
+    [[nodiscard]] SetupResult<EndpointId> add_ring(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
+    void remove_ring(EndpointId ring);
+    void hold_ring(EndpointId ring, bool held) noexcept;
+    [[nodiscard]] SetupResult<EndpointId> inlet(EndpointId ring);
+    // What came out of it, and what was not handed over.
+    [[nodiscard]] const LinkCounters& ring_counters(EndpointId ring) const noexcept;
+    void add_ring_to(EndpointId ring, Totals& totals) const noexcept;
+
+    struct SourceLoss {
+        LinkId link;
+        wire::SequenceStats stats;
+    };
+    // What each source lost on each link of a live endpoint that is there, or of a ring.
+    [[nodiscard]] std::vector<SourceLoss> losses(EndpointId endpoint) const;
 
     // One turn of the links, then what stands in the rings, then the recordings that are due, the earliest first, as far as there is room. Returns the
     // number of frames handed over.

@@ -41,6 +41,8 @@ public:
     SequenceTracker();
 
     Update update(const FrameView& frame);
+    // The next frame of each source is taken for its first: what came before has no bearing on it. The sums stay.
+    void restart() noexcept;
 
     // All sources heard, in the order they were first heard. `lost` of a source never falls below zero.
     [[nodiscard]] std::span<const SequenceStats> sources() const noexcept { return stats_; }
@@ -56,6 +58,7 @@ private:
         std::array<std::uint32_t, window> recent{};  // fingerprint of the frame with sequence number s at [s % window]; 0: none
         std::uint8_t expected = 0;
         std::uint8_t repeats = 0;
+        bool fresh = true;  // nothing is expected yet
     };
 
     [[nodiscard]] std::size_t find_or_add(Source source);

@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -368,6 +369,41 @@ TEST(TlogReader, GivesWayWhereThereIsNothingButDamage) {
         EXPECT_GE(gave_way, 1);
         EXPECT_EQ(reader->counters().damaged_places.value(), 1u);
     }
+}
+
+// Who reads one message of a long recording gets to signals although it does not occur.
+TEST(TlogReader, GivesWayWhereOnlyOtherMessagesAre) {
+    const TempDir dir;
+    Bytes content;
+    for (int i = 0; i < 1000; ++i) content = std::move(content) + record(t0, test::heartbeat_v2);
+    test::write_file(dir / "x.tlog", content + record(t0, test::attitude_v2));
+    auto reader = TlogReader::open(dir / "x.tlog", golden_table());
+
+    int gave_way = 0;
+    auto found = reader->next_of(MessageId{30}, 1000);
+    for (; !found && found.error() == TlogReader::Stop::damage; found = reader->next_of(MessageId{30}, 1000))
+        ++gave_way;
+
+    ASSERT_TRUE(found.has_value());
+    EXPECT_GE(gave_way, 1);
+    EXPECT_EQ(found->offset, content.size());
+}
+
+// The position in a file is the reader's own, which a forked child could not move.
+TEST(TlogReader, TwoThatShareADescriptionReadAllOfIt) {
+    const TempDir dir;
+    test::write_file(dir / "x.tlog", record(t0, test::heartbeat_v2));
+    auto file = File::open_to_read(dir / "x.tlog");
+    ASSERT_TRUE(file.has_value());
+    const pid_t child = ::fork();
+    Bytes bytes(100);
+    const auto got = file->read(bytes);
+    if (child == 0) ::_exit(got && *got == 29 ? 0 : 1);
+    int status = 1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(*got, 29u);
 }
 
 TEST(TlogReader, SeeksToARecord) {

@@ -91,6 +91,18 @@ TEST_F(RingSourceTest, WhatIsReadToItsLastRecordIsAtItsEnd) {
     EXPECT_EQ(sut.due(true, mono_now()), MonoTime::max());
 }
 
+TEST_F(RingSourceTest, WhileItIsHeldItIsNeitherReadNorDue) {
+    ASSERT_TRUE(sut.open());
+    write(3);
+    sut.hold(true);
+    EXPECT_EQ(sut.play(handler, 10), 0u);
+    EXPECT_EQ(sut.due(true, mono_now()), MonoTime::max());
+
+    sut.hold(false);
+    EXPECT_EQ(sut.play(handler, 10), 3u);
+    EXPECT_EQ(sut.counters().frames_in.value(), 3u);
+}
+
 TEST_F(RingSourceTest, ARingThatIsNotThereIsAtItsEnd) {
     sut.end_here();
     EXPECT_TRUE(sut.at_end());

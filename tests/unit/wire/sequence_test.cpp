@@ -45,6 +45,19 @@ TEST(SequenceTracker, CountsAGapAcrossTheWrap) {
     EXPECT_EQ(sut.total().lost, 3u);
 }
 
+TEST(SequenceTracker, BeginsAnewWithTheSumsItHas) {
+    SequenceTracker sut;
+    sut.update(TestFrame(1));
+    sut.update(TestFrame(4));
+    sut.restart();
+
+    EXPECT_EQ(sut.update(TestFrame(77)).verdict, Verdict::first);
+    EXPECT_EQ(sut.update(TestFrame(80)).verdict, Verdict::gap);
+    EXPECT_EQ(sut.total().received, 4u);
+    EXPECT_EQ(sut.total().lost, 4u);
+    EXPECT_EQ(sut.total().resync, 0u);
+}
+
 TEST(SequenceTracker, TellsAGapOf100FromAResyncOf101) {
     SequenceTracker sut;
     sut.update(TestFrame(0));

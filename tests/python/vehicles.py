@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+"""The far side of a link: pymavlink's frames on a socket."""
+import contextlib
+import socket
+import threading
+import time
+
+from tlogs import packer
+
+DEADLINE_S = 60
+
+
+def until(condition):
+    """Waits for a condition; the test fails where it never comes true."""
+    end = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.005)
+
+
+class Vehicle:
+    """A UDP socket that speaks with pymavlink's frames."""
+
+    def __init__(self, peer, port=None, system=1, component=1):
+        self.peer, self.sender = peer, packer(peer, system, component)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.settimeout(DEADLINE_S)
+        self.socket.bind(("127.0.0.1", 0))
+        if port is not None:
+            self.socket.connect(("127.0.0.1", port))
+
+    @property
+    def port(self):
+        return self.socket.getsockname()[1]
+
+    def send(self, *messages):
+        self.socket.send(b"".join(self.sender.pack(message) for message in messages))
+
+    def heartbeat(self, kind=2, autopilot=12, number=0):
+        return self.peer.MAVLink_heartbeat_message(kind, autopilot, 0, number, 4, 3)
+
+    def attitude(self, number, roll=0.0):
+        return self.peer.MAVLink_attitude_message(number, roll, 0, 0, 0, 0, 0)
+
+    def receive(self):
+        """All messages of the next datagram, decoded by pymavlink."""
+        return self.peer.MAVLink(None).parse_buffer(self.socket.recv(65536))
+
+
+@contextlib.contextmanager
+def flood(vehicle):
+    """Heartbeats without end."""
+    stop = threading.Event()
+
+    def send():
+        while not stop.is_set():
+            with contextlib.suppress(ConnectionRefusedError):
+                vehicle.send(vehicle.heartbeat())
+    thread = threading.Thread(target=send, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
