@@ -3,9 +3,8 @@
 
 #include <pthread.h>
 
-#include <csignal>
-
 #include "gil.hpp"
+#include "mavloom/base/thread.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -22,17 +21,6 @@ std::vector<std::weak_ptr<Hub>>& registry() {
 }
 
 std::atomic<std::uint64_t> fork_count{0};
-
-// Signals are for the threads of the interpreter: this one blocks them all.
-template <class Run>
-std::thread start_without_signals(Run run) {
-    sigset_t all, before;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before);
-    std::thread thread(std::move(run));
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    return thread;
-}
 
 bool listens(runtime::Scheme scheme) noexcept {
     return scheme == runtime::Scheme::udpin || scheme == runtime::Scheme::tcpin;
@@ -76,7 +64,7 @@ void Hub::stop_all() {
 }
 
 Hub::Hub(runtime::Sources sources) : sources_(std::move(sources)) {
-    thread_ = start_without_signals([this] { run(); });
+    thread_ = thread_without_signals([this] { run(); });
 }
 
 Hub::~Hub() { stop(); }
