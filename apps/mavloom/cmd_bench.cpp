@@ -141,7 +141,8 @@ Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
 // ---- shm -------------------------------------------------------------------------------------------------------------
 
 struct RingOptions {
-    unsigned readers = 1, bytes = 64;
+    std::uint8_t readers = 1;
+    std::size_t bytes = 64;
     std::uint64_t records = 5'000'000;
     int turns = 5;
     bool json = false;

@@ -26,6 +26,5 @@ _atexit.register(stop_all)
 __all__ = [
     "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
     "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription",
-    "SystemFailure",
-    "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings", "tables",
+    "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings", "tables",
 ]
