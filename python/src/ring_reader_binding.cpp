@@ -233,7 +233,7 @@ public:
 
     // None where there is no record.
     [[nodiscard]] nb::object read(MonoTime deadline) {
-        if (is_pending()) return read_pending();
+        if (auto [lease, index] = take_pending(1); lease) return nb::cast(Record(std::move(lease), index));
         auto lease = take(1, deadline);
         return lease ? nb::cast(Record(std::move(lease), 0)) : nb::none();
     }
@@ -243,8 +243,8 @@ public:
         return record;
     }
     [[nodiscard]] nb::object next_batch(MonoTime deadline) {
-        const std::size_t first = is_pending() ? pending_first_ : 0;
-        auto lease = is_pending() ? std::exchange(pending_, nullptr) : take(most_in_batch, deadline);
+        auto [lease, first] = take_pending(most_in_batch);
+        if (!lease) lease = take(most_in_batch, deadline);
         if (!lease) throw nb::stop_iteration();
         return nb::cast(Batch(std::move(lease), first, source_));
     }
@@ -256,7 +256,7 @@ public:
             return source_->close();
         }();
         if (!closed) check(State::looked_at);
-        pending_ = nullptr;
+        static_cast<void>(take_pending(most_in_batch));
     }
 
     [[nodiscard]] const RingSource& open() const {
@@ -273,20 +273,21 @@ private:
     void check_signals_keeping(std::shared_ptr<Lease>& lease) {
         if (PyErr_CheckSignals() == 0) return;
         if (lease) {
+            const nb::ft_lock_guard lock(pending_mutex_);
             pending_ = std::move(lease);
             pending_first_ = 0;
         }
         throw nb::python_error();
     }
-    [[nodiscard]] bool is_pending() const {
+    // What was read and not given out, with the first record of it that is left: the next `most` of them are given out now.
+    [[nodiscard]] std::pair<std::shared_ptr<Lease>, std::size_t> take_pending(std::size_t most) {
         fork_.check();
-        return pending_ != nullptr;
-    }
-    [[nodiscard]] nb::object read_pending() {
-        const auto lease = pending_;
-        const std::size_t index = pending_first_++;
-        if (pending_first_ == lease->records().size()) pending_ = nullptr;
-        return nb::cast(Record(lease, index));
+        const nb::ft_lock_guard lock(pending_mutex_);
+        if (!pending_) return {};
+        const std::size_t first = pending_first_;
+        pending_first_ += most;
+        if (pending_first_ < pending_->records().size()) return {pending_, first};
+        return {std::exchange(pending_, nullptr), first};
     }
 
     void check(State state) const {
@@ -311,7 +312,9 @@ private:
 
     const BeforeFork fork_;
     std::shared_ptr<RingSource> source_;
-    std::shared_ptr<Lease> pending_;  // was read and not given out, from pending_first_ on; with the GIL
+    nb::ft_mutex pending_mutex_;  // the GIL where there is one
+    // Guarded by it: was read and not given out, from pending_first_ on.
+    std::shared_ptr<Lease> pending_;
     std::size_t pending_first_ = 0;
 };
 
