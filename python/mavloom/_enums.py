@@ -20,7 +20,7 @@ def make(dialect: Dialect, name: str) -> EnumClass:
     if key not in _made:
         bitmask, entries = dialect.enum_entries(name)
         base: Any = enum.IntFlag if bitmask else enum.IntEnum
-        _made[key] = base(name, entries, module="mavloom.enums")
+        return _made.setdefault(key, base(name, entries, module="mavloom.enums"))  # another thread may have been first
     return _made[key]
 
 

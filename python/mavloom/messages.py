@@ -16,8 +16,7 @@ class _Kind(type):
 def __getattr__(name):
     if name.startswith("_") or name not in Dialect():
         raise AttributeError(f"no message {name} in the built-in definitions")
-    globals()[name] = kind = _Kind(name, (), {"__module__": __name__})
-    return kind
+    return globals().setdefault(name, _Kind(name, (), {"__module__": __name__}))
 
 
 def __dir__():

@@ -99,11 +99,11 @@ SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect
 }
 
 Columns columns_of(const dialect::Message& message, const Rows& rows) {
-    Columns columns{rows.count(),
-                    gather<std::int64_t>(rows, Rows::time_offset, 1),
-                    gather<std::uint8_t>(rows, Rows::system_offset, 1),
-                    gather<std::uint8_t>(rows, Rows::component_offset, 1),
-                    {}};
+    Columns columns;
+    columns.rows = rows.count();
+    columns.time_ns = gather<std::int64_t>(rows, Rows::time_offset, 1);
+    columns.system = gather<std::uint8_t>(rows, Rows::system_offset, 1);
+    columns.component = gather<std::uint8_t>(rows, Rows::component_offset, 1);
     for (const auto& field : message.fields) {
         const auto offset = Rows::prefix_bytes + field.offset;
         columns.fields.push_back(message::visit_type(

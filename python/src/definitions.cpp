@@ -210,10 +210,13 @@ Definitions::Definitions(dialect::Dialect dialect, std::string path)
 }
 
 std::shared_ptr<const Definitions> Definitions::builtin() {
-    // Never destroyed: that would need the interpreter.
-    static const auto& made = *new std::shared_ptr<const Definitions>(
-        std::make_shared<Definitions>(dialect::default_dialect(), std::string()));
-    return made;
+    // Not a static object's own lock: without a GIL, who waits for that one holds up the garbage collector, for which the other may have to wait.
+    static nb::ft_mutex making;
+    static const std::shared_ptr<const Definitions>* made = nullptr;  // never destroyed: that would need the interpreter
+    const nb::ft_lock_guard lock(making);
+    if (made == nullptr)
+        made = new auto(std::make_shared<const Definitions>(dialect::default_dialect(), std::string()));
+    return *made;
 }
 
 std::shared_ptr<const Definitions> Definitions::load(const std::string& path) {

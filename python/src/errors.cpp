@@ -48,7 +48,7 @@ void raise(const SetupError& error) {
 
 void raise_usage(std::string text) { raise(SetupError{SetupCode::usage, 0, std::move(text)}); }
 void raise_input(std::string text) { raise(SetupError{SetupCode::bad_input, 0, std::move(text)}); }
-void raise_closed(std::string text) { raise_as("ClosedError", text_of(text)); }
+void raise_closed(const std::string& text) { raise_as("ClosedError", text_of(text)); }
 void raise_error(const std::string& text) { raise_as("Error", text_of(text)); }
 void raise_buffer(const std::string& text) {
     PyErr_SetObject(PyExc_BufferError, text_of(text).ptr());

@@ -17,7 +17,7 @@ namespace nb = nanobind;
 [[noreturn]] void raise(const SetupError& error);
 [[noreturn]] void raise_usage(std::string text);
 [[noreturn]] void raise_input(std::string text);
-[[noreturn]] void raise_closed(std::string text);
+[[noreturn]] void raise_closed(const std::string& text);
 [[noreturn]] void raise_error(const std::string& text);   // mavloom.Error itself
 [[noreturn]] void raise_buffer(const std::string& text);  // Python's BufferError
 

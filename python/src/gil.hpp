@@ -18,36 +18,36 @@ class WithoutGil {
 public:
     // The exiting thread, without the GIL. Who is on the way back gets there first.
     static void end() {
-        exiting_ = std::this_thread::get_id();
-        ended_.store(true);
-        while (returning_.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        exiting = std::this_thread::get_id();
+        over.store(true);
+        while (returning.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    [[nodiscard]] static bool ended() noexcept { return ended_.load(); }
+    [[nodiscard]] static bool ended() noexcept { return over.load(); }
     // In a forked child: the threads that were on the way stayed in the parent.
     static void forked() noexcept {
-        returning_.store(0);
-        ended_.store(false);
+        returning.store(0);
+        over.store(false);
     }
 
 private:
-    inline static std::atomic<bool> ended_{false};
-    inline static std::atomic<int> returning_{0};
-    inline static std::thread::id exiting_;
+    inline static std::atomic<bool> over{false};
+    inline static std::atomic<int> returning{0};
+    inline static std::thread::id exiting;
 
     struct Counted {
         Counted() = default;
         Counted(const Counted&) = delete;
         Counted& operator=(const Counted&) = delete;
-        ~Counted() { returning_.fetch_sub(1); }
+        ~Counted() { returning.fetch_sub(1); }
     };
     struct Turnstile {
         Turnstile() = default;
         Turnstile(const Turnstile&) = delete;
         Turnstile& operator=(const Turnstile&) = delete;
         ~Turnstile() {
-            returning_.fetch_add(1);
-            if (!ended_.load() || std::this_thread::get_id() == exiting_) return;
-            returning_.fetch_sub(1);
+            returning.fetch_add(1);
+            if (!over.load() || std::this_thread::get_id() == exiting) return;
+            returning.fetch_sub(1);
             for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
         }
     };

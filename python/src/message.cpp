@@ -253,8 +253,10 @@ nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_
 
 // What pymavlink's get_header() gives.
 struct Header {
-    std::uint32_t msgId;  // NOLINT(readability-identifier-naming): pymavlink's names
+    // NOLINTBEGIN(readability-identifier-naming): pymavlink's names
+    std::uint32_t msgId;
     std::uint8_t incompat_flags, compat_flags, mlen, seq, srcSystem, srcComponent;
+    // NOLINTEND(readability-identifier-naming)
 };
 
 Header header_of(const Message& message) noexcept {
@@ -298,7 +300,11 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
             "Whether the signature was verified; `signed` says whether there is one.")
         .def("get_header", &header_of, "The header's values under pymavlink's names.")
         .def_prop_ro(
-            "_timestamp", [](const Message& m) { return static_cast<double>(m.time_ns / 1000) * 1e-6; },
+            "_timestamp",
+            [](const Message& m) {
+                const auto microseconds = m.time_ns / 1000;
+                return static_cast<double>(microseconds) * 1e-6;
+            },
             "`time_ns` in seconds, of whole microseconds.")
         .def_prop_ro(
             "_link", [](const Message& m) { return m.link; }, "As `link`.")

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The Python examples of the guides: run as they are written, and taken by mypy --strict (row 25 of docs/guide/python.md)."""
+"""The Python examples of the guides: run as they are written."""
 import contextlib
 import pathlib
-import re
 import shutil
 import socket
 import subprocess
@@ -11,15 +10,8 @@ import threading
 
 import pytest
 
-from places import ROOT
+from guides import PAGES, script_of
 from tlogs import frames_of
-
-PAGES = [ROOT / "README.md", *(ROOT / "docs" / "guide" / name for name in ("python.md", "from-pymavlink.md"))]
-
-
-def script_of(page):
-    """All blocks of a page, one behind the other."""
-    return "\n".join(re.findall(r"```python\n(.*?)```", page.read_text(), re.DOTALL))
 
 
 @contextlib.contextmanager
@@ -79,22 +71,3 @@ def test_every_row_of_the_guide_has_a_test_that_names_it():
     assert {"1", "18", "29", "3.1", "3.23"} <= wanted
     assert wanted - numbers_in_names("row") == set()
     assert {str(number) for number in range(1, 13)} - numbers_in_names("example") == set()
-
-
-@pytest.mark.timeout(300)
-def test_row_25_mypy_strict_takes_every_example(tmp_path, child_environment):
-    files = []
-    for page in PAGES:
-        files.append(tmp_path / f"{page.stem.replace('-', '_')}.py")
-        files[-1].write_text(script_of(page))
-    (tmp_path / "wrong.py").write_text("from mavloom import messages\ndef f(m: messages.ATTITUDE) -> int:\n    return m.roll\n")
-    (tmp_path / "mypy.ini").write_text("[mypy]\nstrict = True\n[mypy-pandas.*,pyarrow.*]\nignore_missing_imports = True\n")
-    command = [sys.executable, "-m", "mypy", "--config-file", tmp_path / "mypy.ini", "--cache-dir", tmp_path / "cache"]
-    environment = {**child_environment, "MYPYPATH": child_environment["PYTHONPATH"]}
-
-    done = subprocess.run([*command, *files], env=environment, capture_output=True, text=True, cwd=tmp_path)
-    assert done.returncode == 0, done.stdout + done.stderr
-    package = subprocess.run([*command, "-p", "mavloom"], env=environment, capture_output=True, text=True, cwd=tmp_path)
-    assert package.returncode == 0, package.stdout + package.stderr
-    wrong = subprocess.run([*command, "wrong.py"], env=environment, capture_output=True, text=True, cwd=tmp_path)
-    assert 'Incompatible return value type (got "float", expected "int")' in wrong.stdout
