@@ -2,6 +2,7 @@
 """The Python examples of the guides: run as they are written."""
 import contextlib
 import pathlib
+import re
 import shutil
 import socket
 import subprocess
@@ -11,6 +12,7 @@ import threading
 import pytest
 
 from guides import PAGES, script_of
+from places import ROOT
 from tlogs import frames_of
 
 
