@@ -155,21 +155,14 @@ public:
     [[nodiscard]] nb::object array(const nb::object& dtype) const {
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
-        const View view(lease_, [](const Lease&) { return ByteView(); });
+        const View looking(lease_, [](const Lease&) { return ByteView(); });
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
         const auto records = this->records();
-        if (const auto stride = distance()) {
-            const ByteView all(records.front().data.data(), (size() - 1) * *stride + records.front().data.size());
-            const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, [&](const Lease&) { return all; })),
-                                                              "u1");
-            return numpy.attr("ndarray")(nb::arg("shape") = size(), nb::arg("dtype") = type, nb::arg("buffer") = bytes,
-                                         nb::arg("strides") = nb::make_tuple(*stride));
-        }
-        std::vector<std::uint8_t> copy;
-        copy.reserve(size() * records.front().data.size());
-        for (const auto& record : records) copy.insert(copy.end(), record.data.begin(), record.data.end());
-        view.check();
-        return numpy.attr("frombuffer")(nb::bytes(copy.data(), copy.size()), type);
+        const ByteView all(records.front().data.data(), (size() - 1) * distance() + records.front().data.size());
+        const nb::object bytes = numpy.attr("frombuffer")(nb::cast(View(lease_, [&](const Lease&) { return all; })),
+                                                          "u1");
+        return numpy.attr("ndarray")(nb::arg("shape") = size(), nb::arg("dtype") = type, nb::arg("buffer") = bytes,
+                                     nb::arg("strides") = nb::make_tuple(distance()));
     }
 
 private:
@@ -184,15 +177,11 @@ private:
                                         records[i].data.size(), expected));
         if (expected == 0) raise_usage("records without bytes make no array");
     }
-    // From record to record in memory; none where the ring's end lies between.
-    [[nodiscard]] std::optional<std::size_t> distance() const {
+    // From record to record in memory: the same for all, which lie in one piece and are equally long.
+    [[nodiscard]] std::size_t distance() const {
         const auto records = this->records();
         if (records.size() == 1) return records.front().data.size();
-        const auto step = records[1].data.data() - records[0].data.data();
-        if (step <= 0) return std::nullopt;
-        for (std::size_t i = 1; i < records.size(); ++i)
-            if (records[i].data.data() - records[i - 1].data.data() != step) return std::nullopt;
-        return static_cast<std::size_t>(step);
+        return static_cast<std::size_t>(records[1].data.data() - records[0].data.data());
     }
 
     const BeforeFork fork_;
@@ -426,8 +415,7 @@ void bind_batch(nb::module_& module) {
              nb::sig("def array(self, dtype: typing.Any) -> numpy.typing.NDArray[typing.Any]"),
              "The records as one read-only numpy array; each has as many bytes as the dtype, else ValueError. Of a "
              "lossless "
-             "reader it is a view, and counts as one, unless\n"
-             "the ring's end lies between the records: then a copy.")
+             "reader it is a view, and counts as one.")
         .def("release", &Batch::release,
              "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
     nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(), "Iterator over batches.")

@@ -336,49 +336,25 @@ def test_numpy_arrays_of_batches(writer, ring):
         batch.array("u8")
 
 
-def test_an_array_of_two_records_with_the_rings_end_between_them(writer, ring):
-    reader, length, turns = mavloom.RingReader(ring, lossless=True), 1100, 0  # 58 of them a lap
+def test_a_batch_ends_with_the_lap_so_that_its_array_is_a_view(writer, ring):
+    reader, length, ends = mavloom.RingReader(ring, lossless=True), 1100, 0  # 58 of them a lap
     writer.write(bytes(length))
-    reader.read()
+    reader.read()  # so that a lap ends between two
     for number in range(200):
         sent = [bytes([value]) * length for value in (number, number + 1)]
         for data in sent:
             writer.write(data)
-        found = []
+        found, batches = [], 0
         for batch in reader.batches(timeout=0):
             array = batch.array(f"V{length}")
+            assert array.base is not None and not array.flags.owndata
             found += [bytes(record) for record in array]
-            turns += len(batch) == 2 and array.strides[0] == length
+            batches += 1
             del array
             batch.release()
         assert found == sent
-    assert turns
-
-
-def test_a_copied_array_is_whole_or_an_error_under_a_writer_that_evicts(ring, start):
-    """The ring's end lies between the records, and the hold on them ends at any instant, also while they are copied."""
-    process = start("""
-import numpy
-with mavloom.RingWriter(ring, capacity=1 << 22, full="evict") as writer:
-    print("open", flush=True)
-    number = 0
-    while True:
-        writer.write(numpy.full(512, number))
-        number += 1
-""", ring)
-    assert process.stdout.readline() == "open\n"
-    reader = mavloom.RingReader(ring, lossless=True)
-    copied = 0
-    while copied < 100:
-        batch, last = next(reader.batches(DEADLINE_S)), None
-        with contextlib.suppress(mavloom.Error):
-            while len(batch) > 1 and (array := batch.array([("number", "i8", 512)])).strides[0] == 4096:  # else a view
-                last = array
-        array = None
-        if last is not None:
-            assert (last["number"] == last["number"][0, 0] + numpy.arange(len(last))[:, None]).all()
-            copied += 1
-        batch.release()
+        ends += batches == 2
+    assert ends == 6
 
 
 # ---- claims: records that are filled in place

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The instruments of `bench` themselves. Of `bench route`: a router that loses, damages and repeats frames in known numbers is reported with these numbers. Nothing
 here asserts a time."""
+import json
 import pathlib
+import subprocess
 import sys
 
 import pytest

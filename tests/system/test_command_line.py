@@ -164,7 +164,7 @@ def test_an_option_of_a_subcommand_has_a_nearest_spelling(run):
 
 def test_bench_shm_hands_every_record_to_every_reader(run):
     done = run("bench", "shm", "--readers", "3", "--records", "20000", "--bytes", "40", "--turns", "2", "--json")
-    assert done.returncode == 0, done.stderr
+    assert done.status == 0, done
     assert {**json.loads(done.stdout), "per_second": 0} == {"bench": "shm", "per_second": 0, "unit": "records", "readers": 3, "bytes": 40, "records": 20000,
                                                             "turns": 2}
 

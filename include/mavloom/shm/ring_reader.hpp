@@ -53,13 +53,13 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // Of a lossless reader (else `empty`): as many records as there are, up to `out.size()` and about an eighth of the ring, in place and all in view until
+    // Of a lossless reader (else `empty`): as many records as there are, up to `out.size()` and about an eighth of the ring, in place, in one piece of memory, and all in view until
     // the next call. How many; `empty` when there are none.
     [[nodiscard]] ReadResult<std::size_t> try_read_batch(std::span<RingRecord> out) noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
         if (forked()) return tl::unexpected(ReadError::forked);
         std::size_t count = 0;
-        const Found found = consumer_.lossless() ? consumer_.next_batch(out, count) : Found::empty;
+        const Found found = consumer_.lossless() && !out.empty() ? consumer_.next_batch(out, count) : Found::empty;
         if (found == Found::record) consumer_.awake();
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);

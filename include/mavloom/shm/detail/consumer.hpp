@@ -85,7 +85,7 @@ public:
         return Found::damaged;
     }
 
-    // Of a lossless reader: up to `out.size()` records (at least one is wanted) and about an eighth of the ring, all in view until the next call. `count`
+    // Of a lossless reader: up to `out.size()` records (at least one is wanted) and about an eighth of the ring, in one piece of memory and all in view until the next call. `count`
     // is 0 unless there are records.
     [[nodiscard]] Found next_batch(std::span<RingRecord> out, std::size_t& count) noexcept {
         const Found found = next(out.front());
@@ -227,7 +227,8 @@ private:
     // What follows the record in hand, as far as it is plain to see: none where the lap ends, or something else stands (next() tells what), or the hold
     // was taken away meanwhile. The hold is looked at once, behind all that was read.
     [[nodiscard]] std::size_t gather(std::span<RingRecord> out) noexcept {
-        const std::uint64_t end = std::min({tail_, after_ + ring_.left_in_lap(after_), position_ + ring_.capacity / 8});
+        const std::uint64_t end = std::min(
+            {tail_, position_ + ring_.left_in_lap(position_), position_ + ring_.capacity / 8});
         std::uint64_t position = position_, after = after_, sequence = sequence_;
         std::size_t count = 0;
         for (; count < out.size() && after < end; ++count) {
