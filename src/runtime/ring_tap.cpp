@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "mavloom/base/thread.hpp"
+
 namespace mavloom::runtime {
 
 static SetupResult<shm::RingWriter> open_writer(const RingConfig& config) {
@@ -64,6 +66,7 @@ template <class Work>
 void RingTap::work_beside(Work work) {
     if (beside_.joinable()) beside_.join();
     try {
+        const BlockedSignals blocked;
         beside_ = std::jthread(std::move(work));
     } catch (const std::system_error&) {
         making_ = {};

@@ -66,7 +66,7 @@ SetupResult<void> RingReader::begin() {
     if (!slot_ && options_.lossless)
         return setup_error(SetupCode::in_use,
                            fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
-    segment_->populate();
+    if (options_.spin) segment_->populate();  // others take the faults of their first lap
     consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
     if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) {
         // Release: pairs with ring_status().
@@ -112,7 +112,7 @@ std::optional<unsigned> RingReader::take_slot() noexcept {
 
 ReadResult<RingRecord> RingReader::read(MonoTime deadline) noexcept {
     auto record = wait(deadline);
-    if (!forked()) consumer_.awake();
+    if (!forked()) woke();
     return record;
 }
 
@@ -160,10 +160,7 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
         record = try_read();  // what was written before the writer went
         if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
     }
-    if (record) {
-        consumer_.awake();
-        waiting_since_ = {};
-    }
+    if (record) woke();
     return record;
 }
 

@@ -67,10 +67,11 @@ public:
     void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
     void arm_until(MonoTime due) noexcept {
         arm();
-        MonoTime before = due_.load(std::memory_order_relaxed);
+        // Sequentially consistent with is_due() and tell(), which take `due_` before `armed_`: who sees the old time here is told by them.
+        MonoTime before = due_.load(std::memory_order_seq_cst);
         do
             if (before <= due) return;
-        while (!due_.compare_exchange_weak(before, due, std::memory_order_relaxed));
+        while (!due_.compare_exchange_weak(before, due, std::memory_order_seq_cst));
         interrupt();
     }
     void disarm() noexcept { armed_.store(false, std::memory_order_relaxed); }
@@ -101,9 +102,9 @@ private:
         return changed;
     }
     bool is_due() noexcept {
-        MonoTime due = due_.load(std::memory_order_relaxed);
+        MonoTime due = due_.load(std::memory_order_seq_cst);
         if (due == MonoTime::max() || mono_now() < due) return false;
-        due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_relaxed);  // another is earlier, and due too
+        due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_seq_cst);  // another is earlier, and due too
         return true;
     }
     void tell() {

@@ -60,7 +60,7 @@ public:
         if (forked()) return tl::unexpected(ReadError::forked);
         std::size_t count = 0;
         const Found found = consumer_.lossless() && !out.empty() ? consumer_.next_batch(out, count) : Found::empty;
-        if (found == Found::record) consumer_.awake();
+        if (found == Found::record) woke();
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
@@ -99,6 +99,11 @@ public:
 
 private:
     RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment);
+    // A wait is over: the writer need not wake this reader, and the next wait begins anew.
+    void woke() noexcept {
+        consumer_.awake();
+        waiting_since_ = {};
+    }
     [[nodiscard]] bool forked() const noexcept { return forked_->load(std::memory_order_relaxed); }
     [[nodiscard]] SetupResult<void> begin();
     [[nodiscard]] std::optional<unsigned> take_slot() noexcept;

@@ -102,7 +102,7 @@ TEST(RingTap, GoesWithTheRingThatIsBeingMadeAnew) {
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     const Bytes bytes = attitude(7);
     tap->write(received(bytes), route::Verdict::forwarded, false);
-    ready.acquire();
+    ASSERT_TRUE(ready.try_acquire_for(std::chrono::seconds(60)));
     EXPECT_EQ(shm::ring_status(name.text())->records, 0u) << "what came meanwhile went into the old one";
     tap.reset();
     EXPECT_FALSE(shm::ring_status(name.text()));
@@ -122,7 +122,7 @@ TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
     ASSERT_TRUE(shm::remove_ring(name.text()));
 
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty()) << "another thread makes it";
-    ready.acquire();
+    ASSERT_TRUE(ready.try_acquire_for(std::chrono::seconds(60)));
     EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is made anew")));
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     const auto page = shm::read_counters(name.text());

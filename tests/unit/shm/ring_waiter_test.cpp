@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_reader.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "support/ring_name.hpp"
@@ -140,15 +141,19 @@ TEST_F(RingWaiting, ABatchEndsTheWishToBeWoken) {
     auto writer = writer_of(one_);
     auto reader = RingReader::open(one_.text(), {.lossless = true});
     ASSERT_TRUE(reader);
-    waiter_.watch({reader->wake_word()});
+    const auto asleep = [&] { return ring_status(one_.text())->readers.at(0).asleep; };
     (void)reader->arm();
+    EXPECT_FALSE(asleep()) << "the first nap is not asked for";
+    std::this_thread::sleep_for(2ms);
+    (void)reader->arm();
+    ASSERT_TRUE(asleep());
     write(writer);
     std::array<RingRecord, 4> records;
     ASSERT_TRUE(reader->try_read_batch(records));
-    const auto wakes = reader->wake_word()->load();
-    std::this_thread::sleep_for(2ms);  // the writer wakes nobody twice in a millisecond
-    write(writer);
-    EXPECT_EQ(reader->wake_word()->load(), wakes);
+    EXPECT_FALSE(asleep());
+    (void)reader->arm();
+    EXPECT_FALSE(asleep()) << "the wait begins anew";
+    EXPECT_EQ(reader->try_read_batch({}).error(), ReadError::empty);
 }
 
 TEST_F(RingWaiting, KeepsARingMappedThatItsReaderHasLeft) {
