@@ -31,7 +31,7 @@ struct Options {
     std::string name;
     bool json = false;
     // write
-    std::string capacity = "8M";
+    std::string capacity;
     std::string full = "wait";
     std::string mode = "0600";
     int link = 0, kind = 0, verdict = 0;
@@ -198,9 +198,13 @@ bool decode_hex(std::string& line) {
 
 SetupResult<shm::RingOptions> ring_options(const Options& options) {
     shm::RingOptions ring;
-    const auto capacity = runtime::parse_size(options.capacity);
-    if (!capacity) return tl::unexpected(SetupError(capacity.error()).within("--capacity"));
-    ring.capacity = *capacity;
+    if (!options.capacity.empty()) {
+        const auto capacity = runtime::parse_size(options.capacity);
+        if (!capacity) return tl::unexpected(SetupError(capacity.error()).within("--capacity"));
+        ring.capacity = *capacity;
+    } else if (const auto there = shm::ring_status(options.name)) {
+        ring.capacity = there->capacity;
+    }
     ring.when_full = options.full == "evict"         ? shm::WhenFull::evict
                      : options.full == "drop_newest" ? shm::WhenFull::drop_newest
                                                      : shm::WhenFull::wait;
@@ -334,7 +338,7 @@ private:
         if (why != shm::ReadError::no_writer) return true;
         if (options_.drain && follower_.opened() != 0) return going_ = false;
         const auto* const error = follower_.error();
-        if (error != nullptr && error->code != SetupCode::not_found) return going_ = false;
+        if (error != nullptr && (options_.drain || error->code != SetupCode::not_found)) return going_ = false;
         if (error != nullptr && !std::exchange(told_, true)) say(common_, error->text + "; waiting for it");
         return true;
     }
@@ -352,7 +356,9 @@ private:
     Exit finish(Exit status) {
         output_.flush();
         if (output_.state() == Output::State::failed) return fail(output_.error());
-        if (const auto* error = follower_.error(); error != nullptr && error->code != SetupCode::not_found)
+        const bool wants_one = options_.drain && follower_.opened() == 0;
+        if (const auto* error = follower_.error();
+            error != nullptr && (wants_one || error->code != SetupCode::not_found))
             return fail(*error);
         if (status == Exit::bad_input) return fail(status, fmt::format("ring {} is damaged", options_.name));
         if (follower_.missed() != 0)
@@ -437,8 +443,8 @@ Run declare_shm(Arguments command, const Common& common) {
     with_name(write_part);
     write_part
         .add_option("--capacity", options->capacity,
-                    "bytes that a new ring holds: a power of two from 64k (bytes, k, M, G)")
-        .capture_default_str()
+                    "bytes that a new ring holds: a power of two from 64k (bytes, k, M, G); 8M unless told otherwise. "
+                    "A ring of another capacity that nobody writes is replaced")
         .type_name("BYTES");
     write_part
         .add_option("--full", options->full, "when lossless readers hold the ring: wait, drop_newest, or evict them")

@@ -25,7 +25,8 @@ hear=$!
 relay=$!
 # The signal ends both: the relay when it has sent what the ring holds.
 end() {
-  trap - INT TERM EXIT
+  trap '' INT TERM
+  trap - EXIT
   kill -TERM "$hear" 2>/dev/null || true
   wait "$hear" || true
   kill -TERM "$relay" 2>/dev/null || true

@@ -155,6 +155,7 @@ public:
     [[nodiscard]] nb::object array(const nb::object& dtype) const {
         const auto numpy = nb::module_::import_("numpy");
         const nb::object type = numpy.attr("dtype")(dtype);
+        if (nb::cast<bool>(type.attr("hasobject"))) raise_usage("a dtype with Python objects: a ring holds bytes");
         const View looking(lease_, [](const Lease&) { return ByteView(); });
         check_lengths(nb::cast<std::size_t>(type.attr("itemsize")));
         const auto records = this->records();
@@ -259,6 +260,15 @@ public:
             return source_->close();
         }();
         if (!closed) check(State::looked_at);
+    }
+
+    // The end of a `with` block: an exception that is on its way is not replaced by one about views that it keeps alive.
+    void leave(const nb::args& why) {
+        try {
+            close();
+        } catch (const nb::python_error& error) {
+            if (!error.matches(PyExc_BufferError) || why.size() == 0 || why[0].is_none()) throw;
+        }
     }
 
     [[nodiscard]] const RingSource& open() const {
@@ -482,9 +492,7 @@ void bind_ring_reader(nb::module_& module) {
              "Gives the ring back; BufferError while a view is alive. May be called again, later reads raise "
              "ClosedError.")
         .def("__enter__", itself, nb::sig("def __enter__(self) -> RingReader"))
-        .def(
-            "__exit__", [](PyRingReader& reader, const nb::args&) { reader.close(); },
-            nb::sig("def __exit__(self, *args: object) -> None"))
+        .def("__exit__", &PyRingReader::leave, nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__",
              [](const PyRingReader& reader) {
                  return fmt::format("<RingReader {}{}>", reader.source().name(),

@@ -72,14 +72,15 @@ SetupResult<void> check_owner(const Segment& segment) {
                                                           segment.path(), user_name(owner)));
 }
 
-SetupResult<Segment> create_ring(const std::string& path, const RingOptions& options) {
+SetupResult<Segment> create_ring(const std::string& path, const RingOptions& options, const Segment* replaced) {
     Identity identity;
     identity.capacity = options.capacity;
     identity.created_ns = unix_time().time_since_epoch().count();
     identity.creator_pid = static_cast<std::uint32_t>(::getpid());
     std::array<std::uint8_t, sizeof identity> bytes;
     std::memcpy(bytes.data(), &identity, sizeof identity);
-    return Segment::create(path, static_cast<std::size_t>(data_offset + options.capacity), options.mode, bytes);
+    return Segment::create(path, static_cast<std::size_t>(data_offset + options.capacity), options.mode, bytes,
+                           replaced);
 }
 
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
@@ -132,13 +133,12 @@ SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& op
             if (!present->is_named()) continue;
             const bool retired = memory_of(*present).control->retired.load(std::memory_order_acquire) != 0;
             if (!retired && memory_of(*present).capacity == options.capacity) return present;
-            // The lock is ours: nobody else replaces it. Retired last: who is woken must not find it by its name again.
-            if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
-            retire(*present);
         } else if (present.error().code != SetupCode::not_found) {
             return present;
         }
-        auto created = create_ring(path_of(name), options);
+        // The lock on the one that is there is ours: nobody else replaces it. Retired last: who is woken must not find it by its name again.
+        auto created = create_ring(path_of(name), options, present ? &*present : nullptr);
+        if (present && !present->is_named()) retire(*present);
         if (created || created.error().code != SetupCode::in_use) return created;
     }
     return setup_error(SetupCode::in_use, fmt::format("ring {} is made and removed by others without end", name));

@@ -145,7 +145,8 @@ SetupResult<Segment> Segment::open(const std::string& path, Access access, std::
     return segment;
 }
 
-SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, unsigned mode, ByteView content) {
+SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, unsigned mode, ByteView content,
+                                     const Segment* replaced) {
     const auto folder = path.substr(0, path.rfind('/'));
     const int fd = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
     if (fd < 0) return no_space(path, size, errno);
@@ -156,6 +157,8 @@ SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, 
     if (!write_all(fd, content) || ::fchmod(fd, mode) != 0) return no_space(path, size, errno);
     if (!segment.try_lock(0)) return system_error(fmt::format("cannot lock {}", path), errno);
     if (auto mapped = segment.map(); !mapped) return tl::unexpected(std::move(mapped.error()));
+    if (replaced != nullptr)
+        if (auto unlinked = replaced->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
     if (::linkat(AT_FDCWD, path_of_descriptor(fd).c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
         return system_error(fmt::format("cannot make {}", path), errno);
     return segment;

@@ -38,9 +38,9 @@ public:
     // `not_found` where there is none; `permission` names the owner; `bad_input` for what is no regular file or shorter than `least_bytes`.
     [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t least_bytes);
     // A new file of `size` bytes that begins with `content`, with the lock on byte 0 held before it gets its name. `in_use` when the name is taken
-    // by then; `no_space` before anything is written.
+    // by then; `no_space` before anything is written. From `replaced` the name is taken when nothing is left to do but to give it.
     [[nodiscard]] static SetupResult<Segment> create(const std::string& path, std::size_t size, unsigned mode,
-                                                     ByteView content);
+                                                     ByteView content, const Segment* replaced = nullptr);
 
     [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }

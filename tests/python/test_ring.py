@@ -229,6 +229,27 @@ def held(writer, ring):
     return reader
 
 
+def test_an_exception_on_its_way_is_not_replaced_by_one_about_views(held, writer):
+    with pytest.raises(KeyError, match="mine"), held:
+        seen = memoryview(held.read(0))
+        raise KeyError("mine")
+    assert bytes(seen) == b"abcd"
+    seen.release()
+    with pytest.raises(BufferError), held:
+        seen = memoryview(held.read(0))
+    seen.release()
+
+
+@pytest.mark.parametrize("dtype", [object, [("a", "O")], [("a", "f4"), ("b", [("c", "O")])]], ids=str)
+def test_no_dtype_makes_objects_of_what_a_ring_holds(ring, writer, dtype):
+    for lossless in (False, True):
+        with mavloom.RingReader(ring, lossless=lossless, start="oldest") as reader:
+            writer.write(bytes(numpy.dtype(dtype).itemsize))
+            batch = next(reader.batches(timeout=0))
+            with pytest.raises(ValueError, match="a ring holds bytes"):
+                batch.array(dtype)
+
+
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
 def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, look):
     seen = look(held.read(0))

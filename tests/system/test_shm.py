@@ -111,6 +111,14 @@ def test_the_next_writer_carries_on_and_another_capacity_begins_anew(run, ring):
     assert run("shm", "write", ring, "--capacity", "128k", input="c\n").status == 0
     assert read_all(run, ring, "--data").lines == ["c"]
     assert stat_of(run, ring)["capacity"] == 131072
+    assert run("shm", "write", ring, input="d\n").status == 0
+    assert read_all(run, ring, "--data").lines == ["c", "d"], "without a capacity the ring is taken as it is"
+
+
+@short
+def test_a_drain_of_no_ring_ends(run, ring):
+    done = read_all(run, ring)
+    assert done.status == 1 and f"there is no ring {ring}" in done.stderr
 
 
 @short
@@ -328,12 +336,13 @@ def test_the_mode_of_a_new_ring(run, ring):
 @pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare"), reason="a small /dev/shm needs root and unshare")
 def test_a_full_dev_shm(program):
     script = ('mount -t tmpfs -o size=1m none /dev/shm && "$0" shm write big --capacity 8M </dev/null; echo "status $?"; ls -A /dev/shm; '
-              'echo x | "$0" shm write small --capacity 64k; echo "status $?"')
+              'echo x | "$0" shm write small --capacity 64k; echo "status $?"; echo y | "$0" shm write small --capacity 8M; echo "status $?"; '
+              '"$0" shm read small --from oldest --drain --data')
     done = subprocess.run(["unshare", "--mount", "sh", "-c", script, str(program)], capture_output=True, text=True,
                           timeout=harness.DEFAULT_TIMEOUT_S)
     if "status" not in done.stdout:
         pytest.skip(f"no mount namespace here: {done.stderr.strip()}")
-    assert done.stdout.split("\n")[:2] == ["status 1", "status 0"], done
+    assert done.stdout.split("\n") == ["status 1", "status 0", "status 1", "x", ""], done  # a ring stays until its successor has room
     assert "cannot make /dev/shm/mavloom.big of 8404992 bytes: No space left on device; /dev/shm has 1048576 bytes free" in done.stderr
 
 
