@@ -90,11 +90,16 @@ void Channel::on_link_up(LinkId link, std::string_view name) {
     peers_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void Channel::on_link_down(std::string_view name, std::span<const wire::SequenceStats> losses) {
+void Channel::on_link_down(LinkId link, std::span<const wire::SequenceStats> losses) {
     peers_.fetch_sub(1, std::memory_order_relaxed);
+    forget_link(link, losses);
+}
+
+void Channel::forget_link(LinkId link, std::span<const wire::SequenceStats> losses) {
+    const auto name = origin_->link_name(link.value);
+    origin_->link_gone(link.value);
     const std::lock_guard lock(mutex_);
-    for (const auto& stats : losses)
-        add_to(losses_, losses_.size() < most_losses ? std::string(name) : std::string(), stats);
+    for (const auto& stats : losses) add_to(losses_, losses_.size() < most_losses ? name : std::string(), stats);
 }
 
 void Channel::on_bad_checksum(MessageId id) {

@@ -71,10 +71,11 @@ public:
     // ---- loop thread
     void on_frame(const runtime::RxFrame& rx, MonoTime now);
     void on_link_up(LinkId link, std::string_view name);
-    void on_link_down(std::string_view name, std::span<const wire::SequenceStats> losses);
+    void on_link_down(LinkId link, std::span<const wire::SequenceStats> losses);
     void on_bad_checksum(MessageId id);
     // A link of a ring: it has a name, but nobody to send to.
     void name_link(LinkId link, std::string_view name) { origin_->name_link(link.value, std::string(name)); }
+    void forget_link(LinkId link, std::span<const wire::SequenceStats> losses);
     // Whether the frames of a turn fit behind what `reader` has not read; where not, `room_made` is called when they do.
     [[nodiscard]] bool has_room();
     static constexpr std::size_t frames_a_turn = 128;  // of a ring that is held for a reader

@@ -64,6 +64,7 @@ void Hub::stop_all() {
 }
 
 Hub::Hub(runtime::Sources sources) : sources_(std::move(sources)) {
+    links().let_repeat();
     thread_ = thread_without_signals([this] { run(); });
 }
 
@@ -141,8 +142,11 @@ void Hub::on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view
     else served->channel->on_link_up(link, name);
 }
 void Hub::on_link_down(LinkId link, runtime::EndpointId endpoint, std::string_view) {
-    if (auto* served = served_by(endpoint))
-        served->channel->on_link_down(links().link_name(link), links().sources(link));
+    auto* served = served_by(endpoint);
+    if (served == nullptr) return;
+    if (!served->is_ring) return served->channel->on_link_down(link, links().sources(link));
+    const auto name = served->channel->origin()->link_name(link.value);
+    served->channel->forget_link(link, sources_.ring_losses(endpoint, name));
 }
 void Hub::on_bad_checksum(LinkId, runtime::EndpointId endpoint, MessageId id) {
     if (auto* served = served_by(endpoint)) served->channel->on_bad_checksum(id);

@@ -325,12 +325,15 @@ private:
     // `make` gives the frame, once it is known that it goes to somebody.
     template <class Make>
     std::size_t send_frame(Make make) {
+        const auto peers = send_if_open(make);
+        if (!peers) raise_closed("the link is closed");
+        return *peers;
+    }
+    template <class Make>
+    std::optional<std::size_t> send_if_open(Make make) {
         const WithoutGil outside;
-        const std::unique_lock lock(mutex_);
-        if (!hub_) {
-            const nb::gil_scoped_acquire acquire;
-            raise_closed("the link is closed");
-        }
+        const std::lock_guard lock(mutex_);
+        if (!hub_) return std::nullopt;
         if (opened_.is_ring && to_ == opened_.endpoint) to_ = hub_->inlet(to_).value_or(to_);
         const auto peers = channel_->peers();
         if (peers == 0) return ++no_peer_, 0;

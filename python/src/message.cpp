@@ -22,7 +22,15 @@ namespace mavloom::python {
 
 void Origin::name_link(std::uint32_t link, std::string name) {
     const std::lock_guard lock(mutex_);
-    if (names_.size() < most_names) names_.insert_or_assign(link, std::move(name));
+    if (!names_.insert_or_assign(link, std::move(name)).second) std::erase(gone_, link);  // it is back
+}
+
+void Origin::link_gone(std::uint32_t link) {
+    const std::lock_guard lock(mutex_);
+    gone_.push_back(link);
+    if (gone_.size() <= most_gone) return;
+    names_.erase(gone_.front());
+    gone_.pop_front();
 }
 
 std::string Origin::link_name(std::uint32_t link) const {

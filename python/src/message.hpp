@@ -5,6 +5,7 @@
 #include <nanobind/nanobind.h>
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -24,15 +25,19 @@ public:
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
 
     void name_link(std::uint32_t link, std::string name);
+    // It keeps its name for the messages that are still there, until many others went after it.
+    void link_gone(std::uint32_t link);
     // Empty for a link that has no name.
     [[nodiscard]] std::string link_name(std::uint32_t link) const;
 
 private:
-    static constexpr std::size_t most_names = 65'536;  // links come and go
+    static constexpr std::size_t most_gone = 65'536;
 
     std::shared_ptr<const Definitions> definitions_;
     mutable std::mutex mutex_;
-    std::unordered_map<std::uint32_t, std::string> names_;  // guarded by mutex_
+    // Guarded by mutex_.
+    std::unordered_map<std::uint32_t, std::string> names_;
+    std::deque<std::uint32_t> gone_;  // those of them that went, the latest last
 };
 
 struct Message {

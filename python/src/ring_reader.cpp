@@ -146,8 +146,8 @@ bool RingSource::release_current() {
 }
 
 bool RingSource::release(Lease& lease) {
-    if (!lease.release()) return false;
     const auto lock = turns_.take();
+    if (!lease.release()) return false;
     if (current_.lock().get() != &lease) return true;
     current_.reset();
     if (!is_closed()) reader_.release();

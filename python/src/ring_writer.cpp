@@ -332,7 +332,8 @@ void bind_ring_writer(nb::module_& module) {
         .def_prop_ro("removed", &PyRingWriter::is_removed,
                      "Whether somebody removed or replaced the ring, so that new readers do not find it.")
         .def_prop_ro("records", &PyRingWriter::records, "Records since the ring was made, by all its writers.")
-        .def_prop_ro("dropped", &PyRingWriter::dropped, "Records that a full ring did not take since it was made.");
+        .def_prop_ro("dropped", &PyRingWriter::dropped,
+                     "Records that a full ring did not take since it was made; a claim counts when it begins.");
 
     module.def(
         "remove_ring",

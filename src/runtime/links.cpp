@@ -58,6 +58,7 @@ public:
     Core core;
     RoutingOptions routing = RoutingOptions::refused;
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
+    bool may_repeat = false;
     std::map<std::string, EndpointId> signs_as;  // by label: to the far side an endpoint that is opened anew stays the same link
 };
 
@@ -110,7 +111,7 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dial
     const bool has_name = endpoint.scheme == Scheme::serial || endpoint.scheme == Scheme::shm ||
                           endpoint.address.port != 0;
     for (const auto& other : impl_->endpoints) {
-        if (other && other->info.endpoint.label() == endpoint.label() && has_name) {
+        if (other && other->info.endpoint.label() == endpoint.label() && has_name && !may_repeat(endpoint)) {
             return setup_error(SetupCode::usage,
                                fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
         }
@@ -118,7 +119,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dial
     const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
     std::vector<std::string> notices;
     const auto before = impl_->signs_as.find(endpoint.label());
-    const EndpointId signs_as = has_name && before != impl_->signs_as.end() ? before->second : id;
+    const bool is_back = has_name && before != impl_->signs_as.end() && impl_->find(before->second) == nullptr;
+    const EndpointId signs_as = is_back ? before->second : id;
     auto signature = Signature::load(endpoint.options, signs_as, impl_->core.key_states(), notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
     for (auto& text : notices) impl_->core.notice(id, std::move(text));
@@ -132,6 +134,12 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dial
     impl_->signs_as.try_emplace(endpoint.label(), id);
     impl_->choose_coalescing();
     return id;
+}
+
+void Links::let_repeat() noexcept { impl_->may_repeat = true; }
+
+bool Links::may_repeat(const Endpoint& endpoint) const noexcept {
+    return impl_->may_repeat && endpoint.options.name.empty();
 }
 
 SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::filesystem::path& socket, unsigned mode) {

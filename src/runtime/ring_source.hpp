@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -62,6 +63,11 @@ public:
     template <class Take>
     void each_link(Take take) const {
         for (const auto& [name, link] : by_name_) take(link->id, link->tracker.sources());
+    }
+    // Nothing of a link that was not heard.
+    [[nodiscard]] std::span<const wire::SequenceStats> losses(const std::string& link) const {
+        const auto known = by_name_.find(link);
+        return known == by_name_.end() ? std::span<const wire::SequenceStats>{} : known->second->tracker.sources();
     }
     [[nodiscard]] const LinkCounters& counters() const noexcept { return counters_; }
 

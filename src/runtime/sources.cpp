@@ -118,6 +118,10 @@ std::vector<Sources::SourceLoss> Sources::losses(EndpointId endpoint) const {
     return losses;
 }
 
+std::span<const wire::SequenceStats> Sources::ring_losses(EndpointId ring, const std::string& name) const {
+    return rings_->find(ring)->losses(name);
+}
+
 bool Sources::advance(Recording& recording, LinkHandler& handler) {
     const auto record = recording.reader.next(damage_a_turn);
     using Stop = record::TlogReader::Stop;

@@ -20,7 +20,7 @@ SetupResult<void> RingSources::check(const Endpoint& endpoint) {
 
 SetupResult<EndpointId> RingSources::add(const Endpoint& endpoint, const dialect::Dialect* dialect) {
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
-    if (std::ranges::any_of(rings_, same))
+    if (!links_.may_repeat(endpoint) && std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
     auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,

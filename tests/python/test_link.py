@@ -3,6 +3,7 @@
 import asyncio
 import gc
 import os
+import pathlib
 import signal
 import socket
 import subprocess
@@ -867,3 +868,30 @@ def test_row_27_descriptors_are_given_back(peer):
         with mavloom.connect("udpin://127.0.0.1:0") as link:
             link.subscribe().event_fd()
     assert len(os.listdir("/proc/self/fd")) <= before + 1
+
+
+def test_several_links_lead_to_one_place(link):
+    url = f"udpout://127.0.0.1:{link.port}"
+    with mavloom.connect(url) as one, mavloom.connect(url, dialect=mavloom.Dialect()) as other:
+        assert one.name == other.name == url
+        one.send("HEARTBEAT", custom_mode=1)
+        other.send("HEARTBEAT", custom_mode=2)
+        assert {link.recv(timeout=DEADLINE_S).custom_mode for _ in range(2)} == {1, 2}
+        until(lambda: link.stats.peers == 2)
+
+
+def test_threads_that_send_on_a_closed_link_do_not_end_the_process_at_its_exit(child_environment):
+    code = ("import threading\nlink.close()\ntries = threading.Semaphore(0)\n"
+            "def send():\n    while True:\n        try: link.send('HEARTBEAT')\n        except mavloom.ClosedError: tries.release()\n"
+            "for _ in range(4): threading.Thread(target=send, daemon=True).start()\n"
+            "for _ in range(1000): tries.acquire()\n")
+    for _ in range(10):
+        process = child(code, child_environment)
+        _, talk = process.communicate(timeout=DEADLINE_S)
+        assert (process.returncode, talk) == (0, "")
+
+
+def test_nothing_takes_the_gil_back_but_at_the_end_of_without_gil():
+    """A thread that asks for the GIL of an interpreter that has ended takes the process with it: WithoutGil's end knows of that."""
+    sources = pathlib.Path(__file__).parents[2] / "python" / "src"
+    assert [path.name for path in sorted(sources.iterdir()) if "gil_scoped_acquire" in path.read_text()] == []

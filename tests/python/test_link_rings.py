@@ -145,11 +145,11 @@ def test_a_ring_that_is_not_there_is_waited_for(ring):
             assert numbers(link, 1) == [1]
 
 
-def test_two_links_of_one_ring_have_names(ring, writer):
-    with mavloom.connect(f"shm://{ring}") as first:
-        with pytest.raises(ValueError, match="name="):
-            mavloom.connect(f"shm://{ring}")
-        with mavloom.connect(f"shm://{ring}?name=second") as second:
+def test_a_name_of_a_link_is_given_once(ring, writer):
+    with mavloom.connect(f"shm://{ring}?name=second") as first:
+        with pytest.raises(ValueError, match="two endpoints are called"):
+            mavloom.connect(f"shm://{ring}?name=second")
+        with mavloom.connect(f"shm://{ring}") as second:
             writer.write(beat(4), kind=1)
             assert numbers(first, 1) == numbers(second, 1) == [4]
 
@@ -199,3 +199,33 @@ def test_a_router_is_heard_and_sent_to(ring, router, peer):
         assert link.latest("COMMAND_LONG") is None
         assert (link.stats.peers, link.stats.frames_out) == (1, 1)
     vehicle.socket.close()
+
+
+def test_links_of_a_ring_that_are_forgotten_are_no_peers_and_keep_their_sums(ring, writer):
+    count = 8300
+    frame = beat(1)
+    with mavloom.connect(f"shm://{ring}?lossless=true") as link:
+        for number in range(count):
+            writer.write(frame, link=number + 1, kind=1)
+        until(lambda: link.stats.frames_in == count)
+        stats = link.stats
+        assert (link.send("HEARTBEAT"), stats.peers) == (0, 0)
+        assert sum(source.received for source in stats.sources) == count
+
+
+def test_links_have_names_however_many_came_before(ring, writer):
+    with mavloom.connect(f"shm://{ring}?lossless=true") as link:
+        frame, count = beat(1), 66_000
+        writing = threading.Thread(target=lambda: [writer.write(frame, link=number + 1, kind=1) for number in range(count)])
+        writing.start()
+        found = [link.recv(timeout=DEADLINE_S) for _ in range(count)]
+        writing.join()
+        assert (found[0].link_name, found[-1].link_name) == (f"shm://{ring}/1", f"shm://{ring}/{count}")
+
+
+def test_several_links_read_one_ring(ring, writer):
+    with mavloom.connect(f"shm://{ring}") as one, mavloom.connect(f"shm://{ring}") as other:
+        writer.write(beat(5), link=1, kind=1)
+        assert (numbers(one, 1), numbers(other, 1)) == ([5], [5]) and one.name == other.name == f"shm://{ring}"
+        with mavloom.connect(f"shm://{ring}?name=a"), pytest.raises(mavloom.UsageError, match="two endpoints are called a"):
+            mavloom.connect(f"shm://{ring}?name=a")

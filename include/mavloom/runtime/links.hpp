@@ -131,6 +131,9 @@ public:
     // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
     // With a dialect, which must outlive the endpoint, its links find and queue frames by that.
     [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, const dialect::Dialect* dialect = nullptr);
+    // From now on endpoints without a name= may lead to the same place: whoever adds them tells them apart by their ids.
+    void let_repeat() noexcept;
+    [[nodiscard]] bool may_repeat(const Endpoint& endpoint) const noexcept;
     // The inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` that may be sent to as `mode` says. Each sender of a
     // valid frame is a link, all that are not bound are one; what is sent to these links is counted and goes nowhere, for they find it in the ring.
     // A socket that nobody serves any more is replaced; `in_use` where somebody does.

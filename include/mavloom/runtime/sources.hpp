@@ -66,6 +66,9 @@ public:
     // What each source lost on each link of a live endpoint that is there, or of a ring.
     [[nodiscard]] std::vector<SourceLoss> losses(EndpointId endpoint) const;
 
+    // The same of the ring's link `name` alone: before it is forgotten (`on_link_down`).
+    [[nodiscard]] std::span<const wire::SequenceStats> ring_losses(EndpointId ring, const std::string& name) const;
+
     // One turn of the links, then what stands in the rings, then the recordings that are due, the earliest first, as far as there is room. Returns the
     // number of frames handed over.
     std::size_t turn(LinkHandler& handler, MonoTime deadline, Room room);
