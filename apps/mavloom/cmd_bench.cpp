@@ -172,6 +172,7 @@ bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, c
     std::atomic<bool> good{true};
     {
         std::vector<std::jthread> threads;
+        threads.reserve(readers.size());
         for (auto& reader : readers)
             threads.emplace_back([&reader, &good, first, end] {
                 auto next = first;
@@ -193,6 +194,7 @@ Exit bench_shm(const RingOptions& options) {
     auto writer = shm::RingWriter::open(name);
     if (!writer) return fail(writer.error());
     std::vector<shm::RingReader> readers;
+    readers.reserve(options.readers);
     for (unsigned i = 0; i < options.readers; ++i) {
         auto reader = shm::RingReader::open(name, {.lossless = true});
         if (!reader) return fail(reader.error());

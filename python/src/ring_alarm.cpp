@@ -16,14 +16,14 @@ namespace mavloom::python {
 class RingAlarm::Clock {
 public:
     [[nodiscard]] static Clock& here() {
-        Clock* known = current_.load();
+        Clock* known = current.load();
         while (known == nullptr || !known->fork_.is_here()) {
             auto made = std::make_unique<Clock>();
-            if (current_.compare_exchange_strong(known, made.get())) return *made.release();
+            if (current.compare_exchange_strong(known, made.get())) return *made.release();
         }
         return *known;
     }
-    [[nodiscard]] static Clock* made() noexcept { return current_.load(); }
+    [[nodiscard]] static Clock* made() noexcept { return current.load(); }
     [[nodiscard]] bool is_here() const noexcept { return fork_.is_here(); }
 
     void add(RingAlarm& alarm) {
@@ -58,6 +58,7 @@ private:
     void watch() {
         if (!waiter_) return;
         std::vector<shm::RingWaiter::WakeWord> words;
+        words.reserve(alarms_.size());
         for (const auto* alarm : alarms_) words.push_back(alarm->word_);
         is_crowded_ = words.size() > shm::RingWaiter::most_rings;
         waiter_->watch(std::move(words));
@@ -77,7 +78,7 @@ private:
         else alarm.tell();
     }
 
-    inline static std::atomic<Clock*> current_{nullptr};
+    inline static std::atomic<Clock*> current{nullptr};
     const BeforeFork fork_;
     std::mutex mutex_;
     // Guarded by mutex_.

@@ -156,7 +156,7 @@ void bind_ring_claim(nb::module_& module) {
             "__enter__", [](Claim& claim) { return claim.data(); }, nb::sig("def __enter__(self) -> memoryview"))
         .def(
             "__exit__",
-            [](Claim& claim, const nb::args& raised) { claim.exit(raised.size() != 0 && !raised[0].is_none()); },
+            [](Claim& claim, const nb::args& raised) { claim.exit(!raised.empty() && !raised[0].is_none()); },
             nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__", [](const Claim&) { return "<RingClaim>"; });
 }

@@ -267,7 +267,7 @@ public:
         try {
             close();
         } catch (const nb::python_error& error) {
-            if (!error.matches(PyExc_BufferError) || why.size() == 0 || why[0].is_none()) throw;
+            if (!error.matches(PyExc_BufferError) || why.empty() || why[0].is_none()) throw;
         }
     }
 

@@ -90,7 +90,8 @@ private:
                 const std::lock_guard lock(mutex_);
                 if (next_) rings_ = std::move(*std::exchange(next_, std::nullopt));
             }
-            if (look() | is_due()) tell();
+            const bool changed = look(), due = is_due();  // both, whatever the first finds
+            if (changed || due) tell();
             if (!ends_.load(std::memory_order_relaxed)) sleep(changes);
         }
     }
