@@ -148,13 +148,15 @@ struct RingOptions {
     bool json = false;
 };
 
-// Up to record `end`, whose payload begins with its number. False: not so, or nobody writes any more.
+constexpr auto patience = std::chrono::seconds(10);  // with the other side
+
+// Up to record `end`, whose payload begins with its number. False: not so, or nothing comes.
 bool read_up_to(shm::RingReader& reader, std::uint64_t& next, std::uint64_t end) {
     std::array<shm::RingRecord, 256> batch;
     while (next < end) {
         auto count = reader.try_read_batch(batch);
         if (!count) {
-            const auto record = reader.read();
+            const auto record = reader.read(mono_now() + patience);
             if (!record) return false;
             batch[0] = *record;
             count = 1;
@@ -182,40 +184,50 @@ bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, c
         Bytes payload(options.bytes);
         for (; first < end && good; ++first) {
             std::memcpy(payload.data(), &first, sizeof first);
-            if (!writer.write(payload, {}, mono_now() + std::chrono::seconds(10))) good = false;
+            if (!writer.write(payload, {}, mono_now() + patience)) good = false;
         }
         writer.flush();
     }
     return good;
 }
 
-Exit bench_shm(const RingOptions& options) {
-    const auto name = fmt::format("bench-{}", ::getpid());
-    auto writer = shm::RingWriter::open(name);
-    if (!writer) return fail(writer.error());
+SetupResult<std::vector<shm::RingReader>> open_readers(std::string_view ring, std::size_t count) {
     std::vector<shm::RingReader> readers;
-    readers.reserve(options.readers);
-    for (unsigned i = 0; i < options.readers; ++i) {
-        auto reader = shm::RingReader::open(name, {.lossless = true});
-        if (!reader) return fail(reader.error());
+    readers.reserve(count);
+    while (readers.size() < count) {
+        auto reader = shm::RingReader::open(ring, {.lossless = true});
+        if (!reader) return tl::unexpected(std::move(reader.error()));
         readers.push_back(std::move(*reader));
     }
-    std::uint64_t next = 0;
-    bool good = true;
-    const double rate = per_second(options.turns, static_cast<double>(options.records),
-                                   [&] { good = good && hand_over(*writer, readers, options, next); });
-    readers.clear();
-    (void)writer->close(shm::RingWriter::Leave::nothing);
-    if (!good) return fail(Exit::mismatch, "a reader did not get what was written");
+    return readers;
+}
+
+void print(const RingOptions& options, double per_s) {
     if (options.json)
         fmt::print(
             "{{\"bench\":\"shm\",\"per_second\":{:.0f},\"unit\":\"records\",\"readers\":{},\"bytes\":{},\"records\":{},"
             "\"turns\":{}}}\n",
-            rate, options.readers, options.bytes, options.records, options.turns);
+            per_s, options.readers, options.bytes, options.records, options.turns);
     else
-        fmt::print("{:<14} {:>14.0f} records/s   ({} bytes each, {}, median of {})\n", "shm", rate, options.bytes,
+        fmt::print("{:<14} {:>14.0f} records/s   ({} bytes each, {}, median of {})\n", "shm", per_s, options.bytes,
                    counted(options.readers, "lossless reader"),
                    counted(static_cast<std::uint64_t>(options.turns), "turn"));
+}
+
+Exit bench_shm(const RingOptions& options) {
+    auto writer = shm::RingWriter::open(fmt::format("bench-{}", ::getpid()));
+    if (!writer) return fail(writer.error());
+    auto readers = open_readers(writer->name(), options.readers);
+    std::uint64_t next = 0;
+    bool good = true;
+    double rate = 0;
+    if (readers)
+        rate = per_second(options.turns, static_cast<double>(options.records),
+                          [&] { good = good && hand_over(*writer, *readers, options, next); });
+    (void)writer->close(shm::RingWriter::Leave::nothing);
+    if (!readers) return fail(readers.error());
+    if (!good) return fail(Exit::mismatch, "a reader did not get what was written");
+    print(options, rate);
     return Exit::done;
 }
 

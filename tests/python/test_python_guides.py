@@ -7,13 +7,13 @@ import shutil
 import socket
 import subprocess
 import sys
-import threading
 
 import pytest
 
 from guides import PAGES, script_of
 from places import ROOT
 from tlogs import frames_of
+from vehicles import again_and_again
 
 
 @contextlib.contextmanager
@@ -21,20 +21,12 @@ def vehicle_at(port, flight):
     """Sends what a recorded vehicle sent, again and again, as fast as it is of use."""
     frames = [frame for _, frame in frames_of(flight) if frame[5] == 1 and frame[7] in (0, 30) and frame[8:10] == b"\0\0"]
     kinds = [next(frame for frame in frames if frame[7] == kind) for kind in (0, 30)]
-    stop = threading.Event()
 
     def send():
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-            while not stop.wait(0.01):
-                for frame in kinds:
-                    sock.sendto(frame, ("127.0.0.1", port))
-    thread = threading.Thread(target=send)
-    thread.start()
-    try:
+        for frame in kinds:
+            sock.sendto(frame, ("127.0.0.1", port))
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock, again_and_again(send, pause_s=0.01):
         yield
-    finally:
-        stop.set()
-        thread.join()
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -48,18 +48,25 @@ class Vehicle:
 
 
 @contextlib.contextmanager
-def flood(vehicle):
-    """Heartbeats without end."""
+def again_and_again(work, pause_s=0.0):
+    """Calls `work` in a thread of its own until the block ends."""
     stop = threading.Event()
 
-    def send():
-        while not stop.is_set():
-            with contextlib.suppress(ConnectionRefusedError):
-                vehicle.send(vehicle.heartbeat())
-    thread = threading.Thread(target=send, daemon=True)
+    def run():
+        while not stop.wait(pause_s):
+            work()
+    thread = threading.Thread(target=run, daemon=True)
     thread.start()
     try:
         yield
     finally:
         stop.set()
         thread.join()
+
+
+def flood(vehicle):
+    """Heartbeats without end."""
+    def send():
+        with contextlib.suppress(ConnectionRefusedError):
+            vehicle.send(vehicle.heartbeat())
+    return again_and_again(send)
