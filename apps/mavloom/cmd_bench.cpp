@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstring>
@@ -152,19 +151,18 @@ constexpr auto patience = std::chrono::seconds(10);  // with the other side
 
 // Up to record `end`, whose payload begins with its number. False: not so, or nothing comes.
 bool read_up_to(shm::RingReader& reader, std::uint64_t& next, std::uint64_t end) {
-    std::array<shm::RingRecord, 256> batch;
-    while (next < end) {
-        auto count = reader.try_read_batch(batch);
-        if (!count) {
-            const auto record = reader.read(mono_now() + patience);
-            if (!record) return false;
-            batch[0] = *record;
-            count = 1;
-        }
-        for (std::size_t i = 0; i < *count; ++i, ++next)
-            if (std::memcmp(batch[i].data.data(), &next, sizeof next) != 0) return false;
+    bool good = true;
+    const auto look = [&](const shm::RingRecord& record) {
+        good = good && std::memcmp(record.data.data(), &next, sizeof next) == 0;
+        ++next;
+    };
+    while (good && next < end) {
+        if (reader.try_visit(end - next, look)) continue;
+        const auto record = reader.read(mono_now() + patience);
+        if (!record) return false;
+        look(*record);
     }
-    return true;
+    return good;
 }
 
 // Once through the ring to every reader.

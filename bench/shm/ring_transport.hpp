@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -27,8 +26,9 @@ auto or_exit(Opened opened) {
 
 class RingTransport {
 public:
-    explicit RingTransport(std::string_view what) : name_(fmt::format("bench-{}-{}", ::getpid(), what)) {
-        (void)or_exit(shm::RingWriter::open(name_));  // so that readers find it
+    explicit RingTransport(std::string_view what, const shm::RingOptions& options = {})
+        : name_(fmt::format("bench-{}-{}", ::getpid(), what)), options_(options) {
+        (void)or_exit(shm::RingWriter::open(name_, options_));  // so that readers find it
     }
     RingTransport(const RingTransport&) = delete;
     RingTransport& operator=(const RingTransport&) = delete;
@@ -58,19 +58,15 @@ public:
 
         template <class Each>
         void poll(Each&& each) {
-            if (const auto count = reader_.try_read_batch(records_)) {
-                for (std::size_t i = 0; i < *count; ++i) each(records_[i].data);
-            } else if (const auto record = reader_.read(mono_now() + std::chrono::milliseconds(100))) {
-                each(record->data);
-            }
+            if (reader_.try_visit(256, [&](const shm::RingRecord& record) { each(record.data); })) return;
+            if (const auto record = reader_.read(mono_now() + std::chrono::milliseconds(100))) each(record->data);
         }
 
     private:
         shm::RingReader reader_;
-        std::array<shm::RingRecord, 256> records_;
     };
 
-    [[nodiscard]] Writer writer() const { return Writer(or_exit(shm::RingWriter::open(name_))); }
+    [[nodiscard]] Writer writer() const { return Writer(or_exit(shm::RingWriter::open(name_, options_))); }
     [[nodiscard]] Reader reader(unsigned) const { return Reader(or_exit(open({.lossless = true}))); }
     [[nodiscard]] SetupResult<shm::RingReader> open(const shm::ReaderOptions& options) const {
         return shm::RingReader::open(name_, options);
@@ -78,6 +74,7 @@ public:
 
 private:
     std::string name_;
+    shm::RingOptions options_;
 };
 
 }  // namespace mavloom::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shm_throughput ring|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from one writer to READERS lossless readers, of 64
-// bytes or of the recorded mix. Prints the records and the seconds they took.
+// shm_throughput ring[:MIB]|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from one writer to READERS lossless readers, of 64
+// bytes or of the recorded mix; MIB: of the ring, unless it is the usual one. Prints the records and the seconds they took.
 #include <string_view>
 
 #include "bare_transport.hpp"
@@ -24,8 +24,10 @@ static std::vector<std::vector<std::uint8_t>> frames_of(const char* flight) {
 
 template <class Records>
 static int run(std::string_view transport, const Records& records, const Plan& plan) {
-    if (transport == "ring") {
-        RingTransport ring("throughput");
+    if (transport.starts_with("ring")) {
+        shm::RingOptions options;
+        if (transport.starts_with("ring:")) options.capacity = std::strtoull(transport.data() + 5, nullptr, 10) << 20;
+        RingTransport ring("throughput", options);
         measure(ring, records, plan);
     } else if (transport == "bare" && plan.readers == 1) {
         BareTransport bare;

@@ -74,7 +74,7 @@ SetupResult<void> RingWriter::begin() {
 }
 
 // What nearly always holds, without the why where it does not. Then the record is claimed.
-bool RingWriter::has_room(std::size_t length) noexcept {
+[[gnu::always_inline]] inline bool RingWriter::has_room(std::size_t length) noexcept {
     return segment_ && !forked_->load(std::memory_order_relaxed) && length <= longest() &&
            producer_.claim(length) == detail::Producer<SharedWords>::Room::there;
 }

@@ -53,16 +53,26 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // Of a lossless reader (else `empty`): as many records as there are, up to `out.size()` and about an eighth of the ring, in place, in one piece of memory, and all in view until
-    // the next call. How many; `empty` when there are none.
-    [[nodiscard]] ReadResult<std::size_t> try_read_batch(std::span<RingRecord> out) noexcept {
+    // Of a lossless reader (else `empty`): as many records as there are, up to `most` and about an eighth of the ring, in place, in one piece of memory, and
+    // all in view until the next call. How many; `empty` when there are none. `visit(const RingRecord&)` gets each;
+    // it does not throw, and of this reader it may ask `holds` alone.
+    template <class Visit>
+    [[nodiscard]] ReadResult<std::size_t> try_visit(std::size_t most, Visit&& visit) noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
         if (forked()) return tl::unexpected(ReadError::forked);
+        if (!consumer_.lossless() || most == 0) return tl::unexpected(ReadError::empty);
         std::size_t count = 0;
-        const Found found = consumer_.lossless() && !out.empty() ? consumer_.next_batch(out, count) : Found::empty;
+        const Found found = consumer_.visit(most, [&](const RingRecord& record) {
+            ++count;
+            visit(record);
+        });
         if (found == Found::record) woke();
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
+    }
+    // The same into `out`.
+    [[nodiscard]] ReadResult<std::size_t> try_read_batch(std::span<RingRecord> out) noexcept {
+        return try_visit(out.size(), [at = out.begin()](const RingRecord& record) mutable { *at++ = record; });
     }
     // The next record, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;

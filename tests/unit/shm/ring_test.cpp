@@ -236,6 +236,42 @@ TEST(Ring, ABatchThatIsEvictedIsNotHeldAnyLonger) {
     EXPECT_EQ(std::stoul(text_of(batch[0])), batch[0].sequence);
 }
 
+TEST(Ring, AVisitorGetsWhatABatchHolds) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    auto reader = open_reader(name, lossless);
+    std::vector<std::string> seen;
+    const auto look = [&](const RingRecord& record) { seen.push_back(text_of(record)); };
+    EXPECT_EQ(reader.try_visit(100, look).error(), ReadError::empty);
+    for (std::size_t length = 0; length <= 40; ++length)
+        ASSERT_TRUE(writer.write(bytes_of(std::string(length, static_cast<char>('A' + length))), {}));
+    EXPECT_EQ(reader.try_visit(0, look).error(), ReadError::empty);
+    ASSERT_EQ(reader.try_visit(3, look), 3u);
+    ASSERT_EQ(reader.try_visit(100, look), 38u);
+    ASSERT_EQ(seen.size(), 41u);
+    for (std::size_t length = 0; length <= 40; ++length)
+        EXPECT_EQ(seen[length], std::string(length, static_cast<char>('A' + length)));
+    EXPECT_EQ(open_reader(name).try_visit(100, look).error(), ReadError::empty) << "a lossy reader has one record at a time";
+}
+
+TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasTakenAway) {
+    const RingName name;
+    auto writer = open_writer(name, WhenFull::evict);
+    auto reader = open_reader(name, lossless);
+    write_many(writer, 5);
+    std::size_t seen = 0;
+    ASSERT_EQ(reader.try_visit(100,
+                               [&](const RingRecord& record) {
+                                   EXPECT_EQ(std::stoul(text_of(record)), seen);
+                                   if (++seen == 2) write_many(writer, 200, 5);
+                               }),
+              2u);
+    EXPECT_FALSE(reader.holds());
+    const auto record = reader.try_read();
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->sequence, 2 + record->missed);
+}
+
 TEST(Ring, AWaitingWriterGoesOnWhenTheReaderReleases) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::wait);

@@ -78,18 +78,40 @@ public:
             }
             if (header.sequence != static_cast<std::uint32_t>(sequence_)) return Found::damaged;
             in_hand_ = true;
-            fill(out, header, position_, sequence_);
+            out = in_place(ring_, header, position_, sequence_);
+            if (!lossless_) out.data = {reinterpret_cast<const std::uint8_t*>(copy_.data()), out.data.size()};
             out.missed = std::exchange(missed_now_, 0);
             return Found::record;
         }
         return Found::damaged;
     }
 
-    // Of a lossless reader: up to `out.size()` records (at least one is wanted) and about an eighth of the ring, in one piece of memory and all in view until the next call. `count`
-    // is 0 unless there are records.
-    [[nodiscard]] Found next_batch(std::span<RingRecord> out, std::size_t& count) noexcept {
-        const Found found = next(out.front());
-        count = found == Found::record ? 1 + gather(out.subspan(1)) : 0;
+    // Of a lossless reader: gives up to `most` records (at least one is wanted) and about an eighth of the ring to `visit`, in one piece of memory and all in
+    // view until the next call. `record` unless there is none to give. What follows the first is given as far as it is plain to see: next() tells what else
+    // stands there. The state is local meanwhile: `visit` could change a member, for all that the compiler knows.
+    template <class Visit>
+    [[nodiscard]] Found visit(std::size_t most, Visit&& visit) noexcept {
+        RingRecord record;
+        const Found found = next(record);
+        if (found != Found::record) return found;
+        std::uint64_t position = position_, after = after_, sequence = sequence_;
+        const std::uint64_t end = std::min(
+            {tail_, position + ring_.left_in_lap(position), position + ring_.capacity / 8});
+        const auto& holders = ring_.control->holders;
+        const std::uint64_t bit = this->bit();
+        const RingMemory<Words> ring = ring_;
+        visit(std::as_const(record));
+        while (--most != 0 && after < end) {
+            Header header;
+            const std::uint64_t size = load_record(ring, after, end, header);
+            if (size == 0 || header.sequence != static_cast<std::uint32_t>(sequence + 1)) break;
+            if ((holders.load(std::memory_order_acquire) & bit) == 0) break;
+            position = std::exchange(after, after + size);
+            visit(in_place(ring, header, position, ++sequence));
+        }
+        position_ = position;
+        after_ = after;
+        sequence_ = sequence;
         return found;
     }
 
@@ -224,27 +246,6 @@ private:
         return true;
     }
 
-    // What follows the record in hand, as far as it is plain to see: none where the lap ends, or something else stands (next() tells what), or the hold
-    // was taken away meanwhile. The hold is looked at once, behind all that was read.
-    [[nodiscard]] std::size_t gather(std::span<RingRecord> out) noexcept {
-        const std::uint64_t end = std::min(
-            {tail_, position_ + ring_.left_in_lap(position_), position_ + ring_.capacity / 8});
-        std::uint64_t position = position_, after = after_, sequence = sequence_;
-        std::size_t count = 0;
-        for (; count < out.size() && after < end; ++count) {
-            Header header;
-            const std::uint64_t size = load_record(ring_, after, end, header);
-            if (size == 0 || header.sequence != static_cast<std::uint32_t>(sequence + 1)) break;
-            position = std::exchange(after, after + size);
-            fill(out[count], header, position, ++sequence);
-        }
-        if (!has_hold()) return 0;
-        position_ = position;
-        after_ = after;
-        sequence_ = sequence;
-        return count;
-    }
-
     void copy_payload(std::size_t length) noexcept {
         const auto* word = ring_.word(position_) + record_header_bytes / sizeof(std::uint64_t);
         const std::size_t words = (length + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
@@ -252,14 +253,14 @@ private:
         for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
     }
 
-    void fill(RingRecord& out, const Header& header, std::uint64_t position, std::uint64_t sequence) const noexcept {
-        const auto* bytes = lossless_ ? reinterpret_cast<const std::uint8_t*>(ring_.word(position)) + record_header_bytes
-                                      : reinterpret_cast<const std::uint8_t*>(copy_.data());
-        out = {{bytes, static_cast<std::size_t>(header.state.length)},
-               {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict},
-               position,
-               sequence,
-               0};
+    [[nodiscard]] static RingRecord in_place(const RingMemory<Words>& ring, const Header& header,
+                                             std::uint64_t position, std::uint64_t sequence) noexcept {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(ring.word(position)) + record_header_bytes;
+        return {{bytes, static_cast<std::size_t>(header.state.length)},
+                {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict},
+                position,
+                sequence,
+                0};
     }
 
     RingMemory<Words> ring_;

@@ -44,16 +44,12 @@ public:
     // Room for a record of `length` bytes of payload (at most max_payload()); of an earlier claim nothing remains. `payload` is valid then.
     [[nodiscard]] Room claim(std::size_t length) noexcept {
         const std::uint64_t size = record_size(length);
-        const std::uint64_t left = ring_.left_in_lap(tail_);
-        const std::uint64_t padding = size <= left ? 0 : left;
-        const std::uint64_t end = tail_ + padding + size;
         if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
-        if (end > limit_ && !extend(end)) return Room::held;
-        if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
+        start_ = tail_;
+        if (tail_ + size > plain_ && !claim_farther(size)) return Room::held;
         claimed_ = length;
-        start_ = end - size;
-        record_ = ring_.word(start_);
-        record_->store(pack({-1 - static_cast<std::int32_t>(length), 0, 0, 0}), std::memory_order_release);
+        auto* const record = record_ = ring_.word(start_);
+        record->store(pack({-1 - static_cast<std::int32_t>(length), 0, 0, 0}), std::memory_order_release);
         return Room::there;
     }
 
@@ -67,27 +63,25 @@ public:
     void store_payload(ByteView bytes) noexcept {
         auto* word = record_ + header_words;
         const std::uint8_t* from = bytes.data();
-        std::size_t left = bytes.size();
-#pragma GCC unroll 8
-        for (; left >= sizeof(std::uint64_t); left -= sizeof(std::uint64_t), from += sizeof(std::uint64_t), ++word) {
-            std::uint64_t value;
-            std::memcpy(&value, from, sizeof value);
-            word->store(value, std::memory_order_release);
+        const std::uint8_t* const end = from + bytes.size();
+        constexpr std::ptrdiff_t word_bytes = sizeof(std::uint64_t), words_at_once = 4;
+        for (; end - from >= words_at_once * word_bytes; from += words_at_once * word_bytes, word += words_at_once) {
+#pragma GCC unroll 4
+            for (std::ptrdiff_t i = 0; i < words_at_once; ++i)
+                word[i].store(load_word(from + i * word_bytes), std::memory_order_release);
         }
-        if (left == 0) return;
-        std::uint64_t value = 0;
-        std::memcpy(&value, from, left);
-        word->store(value, std::memory_order_release);
+        for (; end - from >= word_bytes; from += word_bytes, ++word)
+            word->store(load_word(from), std::memory_order_release);
+        if (from != end) word->store(load_rest(bytes, static_cast<std::size_t>(end - from)), std::memory_order_release);
     }
 
     // Publishes the first `length` bytes of the claim (no more than were claimed).
     void commit(const RecordInfo& info, std::size_t length) noexcept {
         auto& control = *ring_.control;
         store_header(info, length);
-        const std::uint64_t end = start_ + record_size(length);
-        ++sequence_;
+        const std::uint64_t end = start_ + record_size(length), sequence = ++sequence_;
         if (end >= next_mark_) set_marks(end);
-        control.records.store(sequence_, std::memory_order_relaxed);
+        control.records.store(sequence, std::memory_order_relaxed);
         tail_ = end;
         control.tail.store(
             end, std::memory_order_release);  // pairs with the acquires of `tail` in Consumer and ring_scan.hpp
@@ -127,7 +121,7 @@ public:
 
     // Wakes all who sleep, at most once in `wake_distance`: whose bit is set now has set it since the last time, and sleeps no longer than that at first
     // (Consumer::sleep()). Nor need commit() order its load of `sleepers` behind its store of `tail`: who is overlooked looks again himself.
-    void wake_readers() noexcept {
+    [[gnu::noinline]] void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;
         next_wake_ = now + wake_distance;
@@ -146,20 +140,47 @@ public:
 private:
     static constexpr std::size_t header_words = record_header_bytes / sizeof(std::uint64_t);
 
+    // A claim at the end of a lap, or of what is known of the holds.
+    [[nodiscard, gnu::noinline]] bool claim_farther(std::uint64_t size) noexcept {
+        const std::uint64_t left = ring_.left_in_lap(tail_);
+        const std::uint64_t padding = size <= left ? 0 : left;
+        const std::uint64_t end = tail_ + padding + size;
+        if (end > limit_ && !extend(end)) return false;
+        if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
+        start_ += padding;
+        plain_ = std::min(limit_, tail_ + left);
+        return true;
+    }
+
+    [[nodiscard]] static std::uint64_t load_word(const std::uint8_t* from) noexcept {
+        std::uint64_t word;
+        std::memcpy(&word, from, sizeof word);
+        return word;
+    }
+    // The last `count` bytes, fewer than a word, with zeros behind.
+    [[nodiscard]] static std::uint64_t load_rest(ByteView bytes, std::size_t count) noexcept {
+        if (bytes.size() >= sizeof(std::uint64_t))
+            return load_word(bytes.data() + bytes.size() - sizeof(std::uint64_t)) >> 8 * (sizeof(std::uint64_t) - count);
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data(), count);
+        return word;
+    }
+
     void store_state(std::uint64_t position, RecordState state) noexcept {
         ring_.word(position)->store(pack(state), std::memory_order_release);  // pairs with load_header()
     }
 
     void store_header(const RecordInfo& info, std::size_t length) noexcept {
-        record_[1].store(info.link.value | sequence_ << 32,
-                         std::memory_order_release);  // pairs with load_header(), all three
-        record_[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
-        record_[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}),
-                         std::memory_order_release);
+        auto* const record = record_;
+        record[1].store(info.link.value | sequence_ << 32,
+                        std::memory_order_release);  // pairs with load_header(), all three
+        record[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
+        record[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}),
+                        std::memory_order_release);
     }
 
     // The commit goes from tail_ to `end`, with padding up to start_ in between, and sequence_ counts it already.
-    void set_marks(std::uint64_t end) noexcept {
+    [[gnu::noinline]] void set_marks(std::uint64_t end) noexcept {
         for (; next_mark_ <= end; next_mark_ += ring_.mark_distance()) {
             const bool in_padding = next_mark_ <= start_;
             auto& mark = ring_.control->marks[next_mark_ / ring_.mark_distance() % mark_count];
@@ -206,6 +227,7 @@ private:
     RingMemory<Words> ring_;
     std::uint64_t tail_ = 0;
     std::uint64_t limit_ = 0;  // may be written up to here without another look
+    std::uint64_t plain_ = 0;  // likewise, in the lap of tail_
     std::uint64_t next_mark_ = 0;
     std::uint64_t sequence_ = 0;
     std::uint64_t start_ = 0;                   // of the claimed record

@@ -57,8 +57,8 @@ template <class Words>
 
 // The header of a record that ends before `end`, in the same lap and an eighth of the ring from here at most, and its size; 0 where anything else stands.
 template <class Words>
-[[nodiscard]] std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position, std::uint64_t end,
-                                        Header& header) noexcept {
+[[nodiscard, gnu::always_inline]] inline std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position,
+                                                                   std::uint64_t end, Header& header) noexcept {
     const auto* word = ring.word(position);
     header.state = unpack(word[0].load(std::memory_order_acquire));
     const auto length = static_cast<std::uint32_t>(header.state.length);
