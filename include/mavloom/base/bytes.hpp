@@ -47,15 +47,10 @@ inline void store_le(void* p, T value) noexcept {
     std::memcpy(p, &bits, sizeof bits);
 }
 
-// tlog files count big-endian.
-[[nodiscard]] inline std::uint64_t load_be64(const std::uint8_t* p) noexcept {
-    std::uint64_t v = 0;
-    for (int i = 0; i < 8; ++i) v = (v << 8) | p[i];
-    return v;
+// tlog files count big-endian. (GCC 12 makes one load of it with the built-in alone, and eight of a loop.)
+[[nodiscard]] inline std::uint64_t load_be64(const void* p) noexcept {
+    return __builtin_bswap64(load_le<std::uint64_t>(p));
 }
-
-inline void store_be64(std::uint8_t* p, std::uint64_t v) noexcept {
-    for (int i = 7; i >= 0; --i, v >>= 8) p[i] = static_cast<std::uint8_t>(v);
-}
+inline void store_be64(void* p, std::uint64_t v) noexcept { store_le(p, __builtin_bswap64(v)); }
 
 }  // namespace mavloom

@@ -251,7 +251,8 @@ TEST(Ring, AVisitorGetsWhatABatchHolds) {
     ASSERT_EQ(seen.size(), 41u);
     for (std::size_t length = 0; length <= 40; ++length)
         EXPECT_EQ(seen[length], std::string(length, static_cast<char>('A' + length)));
-    EXPECT_EQ(open_reader(name).try_visit(100, look).error(), ReadError::empty) << "a lossy reader has one record at a time";
+    EXPECT_EQ(open_reader(name).try_visit(100, look).error(), ReadError::empty)
+        << "a lossy reader has one record at a time";
 }
 
 TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasTakenAway) {
