@@ -59,7 +59,11 @@ public:
     RoutingOptions routing = RoutingOptions::refused;
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
     bool may_repeat = false;
-    std::map<std::string, EndpointId> signs_as;  // by label: to the far side an endpoint that is opened anew stays the same link
+    // By label: to the far side an endpoint that is opened anew stays the same link. Of several to one place the first that is there.
+    struct SignsAs {
+        EndpointId id, holder;
+    };
+    std::map<std::string, SignsAs> signs_as;
 };
 
 Links::Links(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -119,8 +123,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dial
     const EndpointId id{static_cast<EndpointId::rep>(impl_->endpoints.size())};
     std::vector<std::string> notices;
     const auto before = impl_->signs_as.find(endpoint.label());
-    const bool is_back = has_name && before != impl_->signs_as.end() && impl_->find(before->second) == nullptr;
-    const EndpointId signs_as = is_back ? before->second : id;
+    const bool is_back = has_name && before != impl_->signs_as.end() && impl_->find(before->second.holder) == nullptr;
+    const EndpointId signs_as = is_back ? before->second.id : id;
     auto signature = Signature::load(endpoint.options, signs_as, impl_->core.key_states(), notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
     for (auto& text : notices) impl_->core.notice(id, std::move(text));
@@ -131,7 +135,8 @@ SetupResult<EndpointId> Links::add(const Endpoint& endpoint, const dialect::Dial
         return tl::unexpected(std::move(opened).error());
     }
     impl_->endpoints.push_back(std::move(*opened));
-    impl_->signs_as.try_emplace(endpoint.label(), id);
+    if (is_back) before->second.holder = id;
+    else impl_->signs_as.try_emplace(endpoint.label(), Impl::SignsAs{id, id});
     impl_->choose_coalescing();
     return id;
 }

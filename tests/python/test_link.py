@@ -458,6 +458,27 @@ print(threads() - before)
     assert (out, talk) == ("1\n", "")
 
 
+def test_links_to_one_place_sign_with_ids_of_their_own(tmp_path):
+    """Whichever of them were closed before: a receiver knows a replay by the link id, the first byte behind the checksum."""
+    key = tmp_path / "key"
+    key.write_text("07" * 32)
+    key.chmod(0o600)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sink, mavloom.connect("udpin://127.0.0.1:0"):  # keeps what links have in common
+        sink.bind(("127.0.0.1", 0))
+        sink.settimeout(DEADLINE_S)
+        url = f"udpout://127.0.0.1:{sink.getsockname()[1]}?sign={key}"
+
+        def link_ids():
+            with mavloom.connect(url) as first, mavloom.connect(url) as second:
+                for link in (first, second):
+                    link.send("HEARTBEAT", system_status=4)
+                    yield sink.recv(2000)[-13]
+
+        before, after = list(link_ids()), list(link_ids())
+    assert before[0] != before[1] and after[0] != after[1]
+    assert after[0] == before[0], "who comes back is the same link"
+
+
 def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
     for name, byte in (("ours", "07"), ("other", "08")):
         (tmp_path / name).write_text(byte * 32)
