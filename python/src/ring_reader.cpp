@@ -96,8 +96,10 @@ RingSource::State RingSource::take(std::size_t most, Portion& out) {
 RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
     if (is_closed()) return State::closed;
     if (pending_.lease) return State::found;
-    if (lossless_ && !release_current())
-        return current_.lock()->is_another_threads() ? State::used_elsewhere : State::looked_at;
+    if (lossless_ && !release_current()) {
+        const auto lease = current_.lock();  // gone by now, if another thread let it go
+        return lease && !lease->is_another_threads() ? State::looked_at : State::used_elsewhere;
+    }
     const State state = lossless_ ? view(most, deadline) : copy(most, deadline);
     missed_.store(reader_.missed(), std::memory_order_relaxed);
     return state;
