@@ -123,7 +123,7 @@ def throughputs(tools, folder, scale, without, missing):
             at_hand[name] = make()
         except Missing as why:
             missing.append(f"{name} is left out: {why}")
-    as_aeron = Program(tools, f"ring:{AERON_WINDOW_MIB}", 20_000_000 // scale)
+    as_aeron = Program(tools, f"ring{AERON_WINDOW_MIB}", 20_000_000 // scale)
     aeron = [(us, readers, mode, "Aeron IPC", 1.5) for us in (as_aeron, ring) for readers in (1, 3) for mode in ("threads", "processes")]
     wanted = [*aeron, (ring, 3, "processes", "iceoryx", 40), (ring, 3, "processes", "UDP on loopback", 50)]
     rows = [(f"64 bytes, {readers} reader{'s' * (readers > 1)}, {mode}, {AERON_WINDOW_MIB if us is as_aeron else 8} MiB", us, name, at_hand[name], readers, mode,

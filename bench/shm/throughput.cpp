@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shm_throughput ring[:MIB]|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from one writer to READERS lossless readers, of 64
-// bytes or of the recorded mix; MIB: of the ring, unless it is the usual one. Prints the records and the seconds they took.
+// shm_throughput ring|ring32|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from one writer to READERS lossless
+// readers, of 64 bytes or of the recorded mix; ring32: of 32 MiB. Prints the records and the seconds they took.
 #include <string_view>
 
 #include "bare_transport.hpp"
@@ -22,11 +22,13 @@ static std::vector<std::vector<std::uint8_t>> frames_of(const char* flight) {
     return frames;
 }
 
+static constexpr std::string_view large_ring = "ring32";
+
 template <class Records>
 static int run(std::string_view transport, const Records& records, const Plan& plan) {
-    if (transport.starts_with("ring")) {
+    if (transport == "ring" || transport == large_ring) {
         shm::RingOptions options;
-        if (transport.starts_with("ring:")) options.capacity = std::strtoull(transport.data() + 5, nullptr, 10) << 20;
+        if (transport == large_ring) options.capacity = 32 << 20;
         RingTransport ring("throughput", options);
         measure(ring, records, plan);
     } else if (transport == "bare" && plan.readers == 1) {

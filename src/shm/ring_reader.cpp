@@ -118,7 +118,7 @@ ReadResult<RingRecord> RingReader::read(MonoTime deadline) noexcept {
 
 ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
     MonoTime waiting_since{};
-    for (unsigned spins = 1;; ++spins) {
+    for (unsigned spins = 0;; ++spins) {
         auto record = try_read();
         if (record || record.error() != ReadError::empty) return record;
         if (options_.spin && spins % spins_per_look != 0) {

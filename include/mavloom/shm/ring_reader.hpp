@@ -53,9 +53,9 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // Of a lossless reader (else `empty`): as many records as there are, up to `most` and about an eighth of the ring, in place, in one piece of memory, and
-    // all in view until the next call. How many; `empty` when there are none. `visit(const RingRecord&)` gets each;
-    // it does not throw, and of this reader it may ask `holds` alone.
+    // Of a lossless reader (else `empty`): as many records as there are, up to `most` and about an eighth of the ring, in place, in one piece of
+    // memory, and all in view until the next call. How many; `empty` when there are none. `visit(const RingRecord&)` gets each; what it throws ends
+    // the program, and of this reader it may ask `holds` alone.
     template <class Visit>
     [[nodiscard]] ReadResult<std::size_t> try_visit(std::size_t most, Visit&& visit) noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
@@ -63,10 +63,9 @@ public:
         if (!consumer_.lossless() || most == 0) return tl::unexpected(ReadError::empty);
         std::size_t count = 0;
         const Found found = consumer_.visit(most, [&](const RingRecord& record) {
-            ++count;
+            if (count++ == 0) woke();
             visit(record);
         });
-        if (found == Found::record) woke();
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }

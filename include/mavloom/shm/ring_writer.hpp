@@ -77,7 +77,7 @@ public:
 private:
     RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment);
     [[nodiscard]] SetupResult<void> begin();
-    [[nodiscard]] bool has_room(std::size_t length) noexcept;
+    [[nodiscard]] inline bool has_room(std::size_t length) noexcept;
     [[nodiscard]] WriteResult<void> make_room(std::size_t length, MonoTime deadline) noexcept;
     [[nodiscard]] WriteResult<void> wait_for_room(std::size_t length, MonoTime deadline) noexcept;
     void drop_dead(std::uint64_t slots) noexcept;

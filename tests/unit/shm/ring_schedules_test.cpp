@@ -216,6 +216,40 @@ TEST(RingSchedules, AReaderThatIsEvictedIsToldWhatItMissed) {
         failed);
 }
 
+TEST(RingSchedules, AVisitorGetsOnlyWhatIsHeldAndIsToldWhatItMissed) {
+    constexpr unsigned writes = 4;
+    explore(
+        within(3),
+        [](Schedule& schedule) {
+            Bench bench;
+            Consumer reader(bench.ring.memory(), 5, true);
+            ASSERT_TRUE(reader.start(Consumer::Start::oldest));
+            bench.fill(lap - 1);
+            Log log;
+            bool intact = true;
+            const auto look = [&](const RingRecord& record) {
+                const std::uint64_t seen = content_in(record);
+                intact = intact && record.sequence == log.expected + record.missed &&
+                         (seen == content_of(record.sequence) || !reader.holds());
+                log.expected = record.sequence + 1;
+                log.missed += record.missed;
+                ++log.delivered;
+            };
+            schedule.add([&] {
+                for (unsigned i = 0; i < writes; ++i)
+                    while (!write(bench.producer)) bench.producer.drop_holds(bench.producer.blockers(payload));
+            });
+            schedule.add([&] {
+                for (int i = 0; i < 2; ++i) intact = reader.visit(4, look) != Found::damaged && intact;
+            });
+            ASSERT_TRUE(schedule.run());
+            intact = intact && read_some(reader, log, 100);
+            ASSERT_TRUE(intact && log.good);
+            ASSERT_EQ(log.delivered + log.missed, lap - 1u + writes);
+        },
+        failed);
+}
+
 TEST(RingSchedules, TheNextWriterCarriesOnWhereverTheLastOneWasKilled) {
     for (int steps = 0; steps < 80; ++steps)
         explore(

@@ -264,7 +264,8 @@ TEST(Ring, AVisitorGetsNothingBehindAHoldThatWasTakenAway) {
     ASSERT_EQ(reader.try_visit(100,
                                [&](const RingRecord& record) {
                                    EXPECT_EQ(std::stoul(text_of(record)), seen);
-                                   if (++seen == 2) write_many(writer, 200, 5);
+                                   if (++seen == 2)
+                                       for (int i = 5; reader.holds(); ++i) write_many(writer, 1, i);
                                }),
               2u);
     EXPECT_FALSE(reader.holds());

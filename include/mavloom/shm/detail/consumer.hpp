@@ -86,14 +86,15 @@ public:
         return Found::damaged;
     }
 
-    // Of a lossless reader: gives up to `most` records (at least one is wanted) and about an eighth of the ring to `visit`, in one piece of memory and all in
-    // view until the next call. `record` unless there is none to give. What follows the first is given as far as it is plain to see: next() tells what else
-    // stands there. The state is local meanwhile: `visit` could change a member, for all that the compiler knows.
+    // Of a lossless reader: gives up to `most` records (at least one is wanted) and about an eighth of the ring to `visit`, in one piece of memory
+    // and all in view until the next call. `record` unless there is none to give. What follows the first is given as far as it is plain to see:
+    // next() tells what else stands there.
     template <class Visit>
     [[nodiscard]] Found visit(std::size_t most, Visit&& visit) noexcept {
         RingRecord record;
         const Found found = next(record);
         if (found != Found::record) return found;
+        // Local, for `visit` could change a member, for all that the compiler knows.
         std::uint64_t position = position_, after = after_, sequence = sequence_;
         const std::uint64_t end = std::min(
             {tail_, position + ring_.left_in_lap(position), position + ring_.capacity / 8});

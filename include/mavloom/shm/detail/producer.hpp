@@ -35,7 +35,7 @@ public:
         sequence_ = end->sequence;
         control.records.store(sequence_, std::memory_order_relaxed);
         next_mark_ = (tail_ / ring_.mark_distance() + 1) * ring_.mark_distance();
-        limit_ = tail_;
+        limit_ = plain_ = tail_;
         return true;
     }
 
@@ -45,8 +45,8 @@ public:
     [[nodiscard]] Room claim(std::size_t length) noexcept {
         const std::uint64_t size = record_size(length);
         if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
-        start_ = tail_;
-        if (tail_ + size > plain_ && !claim_farther(size)) return Room::held;
+        if (tail_ + size <= plain_) start_ = tail_;
+        else if (!claim_farther(size)) return Room::held;
         claimed_ = length;
         auto* const record = record_ = ring_.word(start_);
         record->store(pack({-1 - static_cast<std::int32_t>(length), 0, 0, 0}), std::memory_order_release);
@@ -147,7 +147,7 @@ private:
         const std::uint64_t end = tail_ + padding + size;
         if (end > limit_ && !extend(end)) return false;
         if (padding != 0) store_state(tail_, {static_cast<std::int32_t>(padding), 0, 0, padding_flag});
-        start_ += padding;
+        start_ = tail_ + padding;
         plain_ = std::min(limit_, tail_ + left);
         return true;
     }
