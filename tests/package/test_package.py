@@ -8,6 +8,9 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import pymavlink_vectors as vectors  # noqa: E402
+
 OUTSIDE = pathlib.Path(__file__).parent / "outside"
 BUILD = (ROOT / os.environ.get("MAVLOOM_PROGRAM", "build/release/bin/mavloom")).parent.parent
 
@@ -59,6 +62,53 @@ def test_change_of_the_definitions_rebuilds_what_uses_them(installed, tmp_path):
     # Another type is another CRC_EXTRA and length: the frame is no longer one of this dialect.
     done = subprocess.run([build / "outside"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (1, "re-encoded: other bytes\n")
+
+
+def attitudes_of(flight, peer):
+    """The frames of a recording, and the lines that its attitudes make, by pymavlink's module."""
+    data, at, frames, lines = flight.read_bytes(), 8, [], []
+    parser = peer.MAVLink(None)
+    while at < len(data):
+        length = data[at + 1] + (12 + 13 * (data[at + 2] & 1) if data[at] == 0xFD else 8)
+        frames.append(data[at:at + length])
+        at += length + 8
+        message = parser.decode(bytearray(frames[-1]))
+        if message.get_type() == "ATTITUDE":
+            values = " ".join(f"{value:.6f}" for value in (message.roll, message.pitch, message.yaw))
+            lines.append(f"{message.get_srcSystem()} {message.get_srcComponent()} {message.time_boot_ms} {values}\n")
+    return frames, lines
+
+
+def test_the_example_reads_a_ring(installed, tmp_path):
+    """examples/ring, built as its own project, on a recorded flight in a ring."""
+    call("cmake", "-S", ROOT / "examples" / "ring", "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
+    call("cmake", "--build", tmp_path)
+    frames, lines = attitudes_of(ROOT / "tests" / "data" / "px4_gcs_flight.tlog", vectors.generate(tmp_path, "2.0"))
+    assert len(frames) > 40_000 and len(lines) > 5_000
+    name, program = f"package-{os.getpid()}", BUILD / "bin" / "mavloom"
+    subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in frames), text=True, check=True,
+                   stderr=subprocess.DEVNULL)
+    try:
+        done = subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    finally:
+        call(program, "shm", "remove", name)
+    assert (done.returncode, done.stderr) == (0, "0 records missed\n")
+    assert done.stdout.splitlines(keepends=True) == lines
+    done = subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert done.returncode == 1 and f"there is no ring {name}" in done.stderr
+
+
+def test_the_readme_s_program_compiles(installed, tmp_path):
+    """The block of C++ in README.md, as a function of what it uses."""
+    text = (ROOT / "README.md").read_text().split("```cpp\n")[1].split("```")[0]
+    includes = "".join(line + "\n" for line in text.splitlines() if line.startswith("#"))
+    body = "".join(line + "\n" for line in text.splitlines() if not line.startswith("#"))
+    (tmp_path / "readme.cpp").write_text(f"{includes}void use(float);\nvoid example(mavloom::ByteView bytes) {{\n{body}}}\n")
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(readme LANGUAGES CXX)\nfind_package(mavloom REQUIRED COMPONENTS wire dialect)\n"
+        "add_library(readme OBJECT readme.cpp)\ntarget_link_libraries(readme PRIVATE mavloom::wire mavloom::dialect)\n")
+    call("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
+    call("cmake", "--build", tmp_path / "build")
 
 
 def test_components_that_do_not_exist_are_refused(installed, tmp_path):
