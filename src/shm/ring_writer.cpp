@@ -127,7 +127,7 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
         return tl::unexpected(WriteError::full);
     }
     if (now >= deadline) return tl::unexpected(WriteError::full);
-    producer_.wake_sleepers();  // whoever sleeps may be who holds
+    producer_.wake_readers_now();  // whoever sleeps, or naps unasked, may be who holds
     producer_.sleep_for_room(length, std::min(looked_for_dead_ + look_for_dead, deadline) - now);
     return {};
 }

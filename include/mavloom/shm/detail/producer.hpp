@@ -127,9 +127,6 @@ public:
         next_wake_ = now + wake_distance;
         wake_readers_now();
     }
-    void wake_sleepers() noexcept {
-        if (ring_.control->sleepers.load(std::memory_order_seq_cst) != 0) wake_readers_now();
-    }
     void wake_readers_now() noexcept {
         auto& control = *ring_.control;
         control.sleepers.store(0, std::memory_order_relaxed);
