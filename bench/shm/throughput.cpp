@@ -22,14 +22,10 @@ static std::vector<std::vector<std::uint8_t>> frames_of(const char* flight) {
     return frames;
 }
 
-static constexpr std::string_view large_ring = "ring32";
-
 template <class Records>
 static int run(std::string_view transport, const Records& records, const Plan& plan) {
-    if (transport == "ring" || transport == large_ring) {
-        shm::RingOptions options;
-        if (transport == large_ring) options.capacity = 32 << 20;
-        RingTransport ring("throughput", options);
+    if (transport == "ring" || transport == "ring32") {
+        RingTransport ring("throughput", {.capacity = transport == "ring" ? shm::default_capacity : 32 << 20});
         measure(ring, records, plan);
     } else if (transport == "bare" && plan.readers == 1) {
         BareTransport bare;

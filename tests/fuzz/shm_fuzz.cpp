@@ -22,7 +22,7 @@ using namespace mavloom;
 using namespace mavloom::shm;
 
 constexpr std::uint32_t later_flag = 0x80000000;
-constexpr int most_reads = 5000;
+constexpr std::size_t most_reads = 5000;
 
 struct Patch {
     std::uint32_t offset;
@@ -77,7 +77,9 @@ private:
     std::vector<std::uint8_t> good_;
 };
 
-void read_all(Victim& victim, const std::vector<Patch>& patches, const ReaderOptions& options) {
+// `read(reader, i, look)`: for the i-th time; false ends it.
+template <class Read>
+void read_all(Victim& victim, const std::vector<Patch>& patches, const ReaderOptions& options, Read read) {
     victim.restore();
     for (const auto& patch : patches)
         if ((patch.offset & later_flag) == 0) victim.apply(patch);
@@ -88,39 +90,35 @@ void read_all(Victim& victim, const std::vector<Patch>& patches, const ReaderOpt
     }
     auto patch = patches.begin();
     std::uint64_t sum = 0;
-    for (int i = 0; i < most_reads; ++i) {
-        const auto record = reader->try_read();
-        if (!record) break;
-        if (record->data.size() > max_record_bytes) std::abort();
-        for (const auto byte : record->data) sum += byte;  // the address sanitizer looks where it is
+    const auto look = [&](const RingRecord& record) {
+        if (record.data.size() > max_record_bytes) std::abort();
+        for (const auto byte : record.data) sum += byte;  // the address sanitizer looks where it is
         while (patch != patches.end() && (patch->offset & later_flag) == 0) ++patch;
         if (patch != patches.end()) victim.apply(*patch++);
-    }
+    };
+    for (std::size_t i = 0; i < most_reads && read(*reader, i, look); ++i) {}
     volatile std::uint64_t sink = sum;
     static_cast<void>(sink);
 }
 
-// The same by visits of changing length; what one of them gives lies in one piece.
-void visit_all(Victim& victim, const std::vector<Patch>& patches) {
-    victim.restore();
-    auto reader = RingReader::open(victim.name(), {.lossless = true, .from = ReaderOptions::From::oldest});
-    if (!reader) std::abort();
-    auto patch = patches.begin();
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < most_reads; ++i) {
-        const std::uint8_t* end = nullptr;
-        const auto count = reader->try_visit(1 + i % 7, [&](const RingRecord& record) {
-            if (record.data.size() > max_record_bytes) std::abort();
-            if (end != nullptr && record.data.data() != end + record_header_bytes) std::abort();
-            end = record.data.data() + record_size(record.data.size()) - record_header_bytes;
-            for (const auto byte : record.data) sum += byte;
-            if (patch != patches.end()) victim.apply(*patch++);
-        });
-        if (!count) break;
-    }
-    volatile std::uint64_t sink = sum;
-    static_cast<void>(sink);
-}
+constexpr auto one_by_one = [](RingReader& reader, std::size_t, const auto& look) {
+    const auto record = reader.try_read();
+    if (record) look(*record);
+    return record.has_value();
+};
+
+// By visits of changing length; what one of them gives lies in one piece.
+constexpr auto by_visits = [](RingReader& reader, std::size_t i, const auto& look) {
+    const std::uint8_t* end = nullptr;
+    return reader
+        .try_visit(1 + i % 7,
+                   [&](const RingRecord& record) {
+                       if (end != nullptr && record.data.data() != end + record_header_bytes) std::abort();
+                       end = record.data.data() + record_size(record.data.size()) - record_header_bytes;
+                       look(record);
+                   })
+        .has_value();
+};
 
 void write_one(Victim& victim, const std::vector<Patch>& patches) {
     victim.restore();
@@ -137,10 +135,10 @@ void write_one(Victim& victim, const std::vector<Patch>& patches) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static Victim victim;
     const auto patches = patches_in({data, size});
-    read_all(victim, patches, {.from = ReaderOptions::From::oldest});
-    read_all(victim, patches, {.lossless = true, .from = ReaderOptions::From::oldest});
-    read_all(victim, patches, {.read_only = true});
-    visit_all(victim, patches);
+    read_all(victim, patches, {.from = ReaderOptions::From::oldest}, one_by_one);
+    read_all(victim, patches, {.lossless = true, .from = ReaderOptions::From::oldest}, one_by_one);
+    read_all(victim, patches, {.lossless = true, .from = ReaderOptions::From::oldest}, by_visits);
+    read_all(victim, patches, {.read_only = true}, one_by_one);
     write_one(victim, patches);
     return 0;
 }

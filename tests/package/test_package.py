@@ -8,7 +8,8 @@ import sys
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "support"))
+sys.path[:0] = [str(ROOT / "tests" / "support"), str(ROOT / "tests" / "system")]
+import frames  # noqa: E402
 import pymavlink_vectors as vectors  # noqa: E402
 
 OUTSIDE = pathlib.Path(__file__).parent / "outside"
@@ -64,29 +65,23 @@ def test_change_of_the_definitions_rebuilds_what_uses_them(installed, tmp_path):
     assert (done.returncode, done.stdout) == (1, "re-encoded: other bytes\n")
 
 
-def attitudes_of(flight, peer):
-    """The frames of a recording, and the lines that its attitudes make, by pymavlink's module."""
-    data, at, frames, lines = flight.read_bytes(), 8, [], []
-    parser = peer.MAVLink(None)
-    while at < len(data):
-        length = data[at + 1] + (12 + 13 * (data[at + 2] & 1) if data[at] == 0xFD else 8)
-        frames.append(data[at:at + length])
-        at += length + 8
-        message = parser.decode(bytearray(frames[-1]))
+def attitude_lines(flight, peer):
+    """What the attitudes among these frames make, by pymavlink's module."""
+    for message in map(peer.MAVLink(None).decode, map(bytearray, flight)):
         if message.get_type() == "ATTITUDE":
             values = " ".join(f"{value:.6f}" for value in (message.roll, message.pitch, message.yaw))
-            lines.append(f"{message.get_srcSystem()} {message.get_srcComponent()} {message.time_boot_ms} {values}\n")
-    return frames, lines
+            yield f"{message.get_srcSystem()} {message.get_srcComponent()} {message.time_boot_ms} {values}\n"
 
 
 def test_the_example_reads_a_ring(installed, tmp_path):
     """examples/ring, built as its own project, on a recorded flight in a ring."""
     call("cmake", "-S", ROOT / "examples" / "ring", "-B", tmp_path, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
     call("cmake", "--build", tmp_path)
-    frames, lines = attitudes_of(ROOT / "tests" / "data" / "px4_gcs_flight.tlog", vectors.generate(tmp_path, "2.0"))
-    assert len(frames) > 40_000 and len(lines) > 5_000
+    flight = [frame for _, frame in frames.read_tlog(frames.FLIGHT)]
+    lines = list(attitude_lines(flight, vectors.generate(tmp_path, "2.0")))
+    assert len(flight) > 40_000 and len(lines) > 5_000
     name, program = f"package-{os.getpid()}", BUILD / "bin" / "mavloom"
-    subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in frames), text=True, check=True,
+    subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in flight), text=True, check=True,
                    stderr=subprocess.DEVNULL)
     try:
         done = subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)

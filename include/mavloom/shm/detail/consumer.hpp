@@ -78,7 +78,7 @@ public:
             }
             if (header.sequence != static_cast<std::uint32_t>(sequence_)) return Found::damaged;
             in_hand_ = true;
-            out = in_place(ring_, header, position_, sequence_);
+            out = in_place(header, position_, sequence_);
             if (!lossless_) out.data = {reinterpret_cast<const std::uint8_t*>(copy_.data()), out.data.size()};
             out.missed = std::exchange(missed_now_, 0);
             return Found::record;
@@ -98,17 +98,13 @@ public:
         std::uint64_t position = position_, after = after_, sequence = sequence_;
         const std::uint64_t end = std::min(
             {tail_, position + ring_.left_in_lap(position), position + ring_.capacity / 8});
-        const auto& holders = ring_.control->holders;
-        const std::uint64_t bit = this->bit();
-        const RingMemory<Words> ring = ring_;
         visit(std::as_const(record));
         while (--most != 0 && after < end) {
             Header header;
-            const std::uint64_t size = load_record(ring, after, end, header);
-            if (size == 0 || header.sequence != static_cast<std::uint32_t>(sequence + 1)) break;
-            if ((holders.load(std::memory_order_acquire) & bit) == 0) break;
+            const std::uint64_t size = load_record(ring_, after, end, header);
+            if (size == 0 || header.sequence != static_cast<std::uint32_t>(sequence + 1) || !has_hold()) break;
             position = std::exchange(after, after + size);
-            visit(in_place(ring, header, position, ++sequence));
+            visit(in_place(header, position, ++sequence));
         }
         position_ = position;
         after_ = after;
@@ -254,9 +250,9 @@ private:
         for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
     }
 
-    [[nodiscard]] static RingRecord in_place(const RingMemory<Words>& ring, const Header& header,
-                                             std::uint64_t position, std::uint64_t sequence) noexcept {
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(ring.word(position)) + record_header_bytes;
+    [[nodiscard]] RingRecord in_place(const Header& header, std::uint64_t position,
+                                      std::uint64_t sequence) const noexcept {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(ring_.word(position)) + record_header_bytes;
         return {{bytes, static_cast<std::size_t>(header.state.length)},
                 {WallTime{Nanoseconds{header.time_ns}}, LinkId{header.link}, header.state.kind, header.state.verdict},
                 position,

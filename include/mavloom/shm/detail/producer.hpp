@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 
+#include "mavloom/base/bytes.hpp"
 #include "mavloom/shm/detail/ring_scan.hpp"
 #include "mavloom/shm/record.hpp"
 
@@ -68,10 +69,10 @@ public:
         for (; end - from >= words_at_once * word_bytes; from += words_at_once * word_bytes, word += words_at_once) {
 #pragma GCC unroll 4
             for (std::ptrdiff_t i = 0; i < words_at_once; ++i)
-                word[i].store(load_word(from + i * word_bytes), std::memory_order_release);
+                word[i].store(load_le<std::uint64_t>(from + i * word_bytes), std::memory_order_release);
         }
         for (; end - from >= word_bytes; from += word_bytes, ++word)
-            word->store(load_word(from), std::memory_order_release);
+            word->store(load_le<std::uint64_t>(from), std::memory_order_release);
         if (from != end) word->store(load_rest(bytes, static_cast<std::size_t>(end - from)), std::memory_order_release);
     }
 
@@ -149,15 +150,11 @@ private:
         return true;
     }
 
-    [[nodiscard]] static std::uint64_t load_word(const std::uint8_t* from) noexcept {
-        std::uint64_t word;
-        std::memcpy(&word, from, sizeof word);
-        return word;
-    }
     // The last `count` bytes, fewer than a word, with zeros behind.
     [[nodiscard]] static std::uint64_t load_rest(ByteView bytes, std::size_t count) noexcept {
         if (bytes.size() >= sizeof(std::uint64_t))
-            return load_word(bytes.data() + bytes.size() - sizeof(std::uint64_t)) >> 8 * (sizeof(std::uint64_t) - count);
+            return load_le<std::uint64_t>(bytes.data() + bytes.size() - sizeof(std::uint64_t)) >>
+                   8 * (sizeof(std::uint64_t) - count);
         std::uint64_t word = 0;
         std::memcpy(&word, bytes.data(), count);
         return word;
