@@ -36,7 +36,7 @@ def page_examples():
 
 
 def runnable(line):
-    words = shlex.split(line)[1:]
+    words = shlex.split(line.removesuffix("&"))[1:]
     def port(match):  # a router wants a port that others can know
         return match[1] + (str(harness.free_port(harness.socket.SOCK_STREAM)) if words[0] == "route" else "0")
     words = [re.sub(r"((?:udpin|tcpin):(?://)?[^?]*:)\d+", port, word) for word in words]
