@@ -255,7 +255,7 @@ Exit write_lines(const Common& common, const Options& options, shm::RingWriter& 
     }
     say(common, fmt::format("{}: {}, {} written{}", writer.name(), counted(records, "record"), counted(bytes, "byte"),
                             number == records ? "" : fmt::format(", {} not", number - records)));
-    return status;
+    return status == Exit::done && number != records ? Exit::mismatch : status;
 }
 
 Exit write(const Common& common, const Options& options) {
@@ -268,7 +268,7 @@ Exit write(const Common& common, const Options& options) {
     using Leave = shm::RingWriter::Leave;
     const auto closed = writer->close(options.remove ? Leave::nothing : Leave::ring);
     if (!closed && status == Exit::done) return fail(closed.error());
-    return status == Exit::done ? Signals::status(Exit::done) : status;
+    return status == Exit::done || status == Exit::mismatch ? Signals::status(status) : status;
 }
 
 // ---- read ------------------------------------------------------------------------------------------------------------
@@ -436,7 +436,7 @@ Run declare_shm(Arguments command, const Common& common) {
     with_json(stat_part);
 
     auto write_part = part(
-        "write", "write each line of standard input as a record",
+        "write", "write each line of standard input as a record; status 4 when some were not, for the ring was full",
         "A ring that is there and has no writer is carried on with. It stays when the command ends.\n\n"
         "Examples: mavloom shm write px4 --capacity 1M < lines.txt\n"
         "          mavloom shm write px4 --hex --full evict < frames.hex");

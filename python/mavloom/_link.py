@@ -8,7 +8,6 @@ from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ._core import Dialect, LinkStats, Message, Port, RingWriter, Subscription
-from ._errors import UsageError
 from ._types import MessageTypes
 
 if TYPE_CHECKING:
@@ -38,9 +37,6 @@ class Link:
                  buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
         """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background, or with
         `required=true` in the address for up to 5 s, and is then a SystemFailure too."""
-        for what, number in (("source_system", source_system), ("source_component", source_component)):
-            if not 0 <= number <= 255:
-                raise UsageError(f"{what}: {number} is out of range, 0 to 255")
         self._port = Port(url, source_system, source_component, dialect, buffer, version)
         self._reader: Subscription = self._port.reader
         self.mav = Sender(self._port)

@@ -80,20 +80,21 @@ nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& mess
                           array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), fields);
 }
 
-nb::tuple read_columns_of(const nb::object& path, const std::string& name, std::optional<std::uint8_t> system,
-                          std::optional<std::uint8_t> component, std::optional<Instance> instance,
+nb::tuple read_columns_of(const nb::object& path, const std::string& name, const std::optional<Integer>& system,
+                          const std::optional<Integer>& component, std::optional<Instance> instance,
                           const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = message_of(definitions->dialect(), name, instance.has_value());
     auto reader = open(path, definitions->dialect());
-    const ColumnsQuery query{&message, system, component, std::move(instance)};
+    const ColumnsQuery query{&message, in<std::uint8_t>("system", system), in<std::uint8_t>("component", component),
+                             std::move(instance)};
     Rows rows(message);
     read_all([&] { return read_rows(reader, query, rows, bytes_between_signals); });
     return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
 }
 
-nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::optional<std::uint8_t> system,
-                         std::optional<std::uint8_t> component, const nb::object& dialect) {
+nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const std::optional<Integer>& system,
+                         const std::optional<Integer>& component, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& known = definitions->dialect();
     const auto infos = known.wire_table().messages();
@@ -106,7 +107,7 @@ nb::tuple read_tables_of(const nb::object& path, const nb::object& type, std::op
     }
     auto reader = open(path, known);
     read_all([&] {
-        return read_tables(reader, known, {nullptr, system, component, {}}, tables, bytes_between_signals);
+        return read_tables(reader, known, {nullptr, filter.system, filter.component, {}}, tables, bytes_between_signals);
     });
     nb::dict made;
     for (std::size_t i = 0; i < infos.size(); ++i) {

@@ -149,25 +149,24 @@ nb::tuple enum_entries(const PyDialect& dialect, std::string_view name) {
 }
 
 // A message's own header stands where it is encoded again, unless the caller gives another.
-wire::FrameHeader header_for(const nb::object& message, std::optional<std::uint8_t> system,
-                             std::optional<std::uint8_t> component, std::optional<std::uint8_t> seq,
-                             std::optional<int> version) {
+wire::FrameHeader header_for(const nb::object& message, const std::optional<Integer>& system,
+                             const std::optional<Integer>& component, const std::optional<Integer>& seq,
+                             const std::optional<Integer>& version) {
     wire::FrameHeader header{.source = {SystemId{255}, ComponentId{190}}};
     if (nb::isinstance<Message>(message)) {
         const auto frame = nb::inst_ptr<Message>(message)->frame();
         header = {frame.version(), frame.sequence(), frame.source(), frame.compat_flags()};
     }
-    if (version && *version != 1 && *version != 2) raise_usage("frame_version is 1 or 2");
-    if (version) header.version = *version == 1 ? wire::Version::v1 : wire::Version::v2;
-    if (seq) header.sequence = *seq;
-    if (system) header.source.system = SystemId{*system};
-    if (component) header.source.component = ComponentId{*component};
+    if (version) header.version = version_of("frame_version", *version);
+    if (seq) header.sequence = seq->in<std::uint8_t>("frame_seq");
+    if (system) header.source.system = SystemId{system->in<std::uint8_t>("source_system")};
+    if (component) header.source.component = ComponentId{component->in<std::uint8_t>("source_component")};
     return header;
 }
 
-nb::bytes encode(const PyDialect& dialect, const nb::object& message, std::optional<std::uint8_t> system,
-                 std::optional<std::uint8_t> component, std::optional<std::uint8_t> seq, std::optional<int> version,
-                 const nb::kwargs& fields) {
+nb::bytes encode(const PyDialect& dialect, const nb::object& message, const std::optional<Integer>& system,
+                 const std::optional<Integer>& component, const std::optional<Integer>& seq,
+                 const std::optional<Integer>& version, const nb::kwargs& fields) {
     const auto builder = build(*dialect.definitions, message, fields);
     wire::FrameBuffer buffer;
     const auto bytes = write(buffer, header_for(message, system, component, seq, version), builder).bytes();
@@ -181,9 +180,9 @@ nb::object make(const PyDialect& dialect, const nb::object& name, const nb::kwar
     return make_message(std::make_shared<Origin>(dialect.definitions), &builder.definition(), 0, 0, frame);
 }
 
-nb::object decode_bytes(const PyDialect& dialect, const nb::object& bytes, std::int64_t time_ns) {
+nb::object decode_bytes(const PyDialect& dialect, const nb::object& bytes, const Integer& time_ns) {
     const Buffer buffer(bytes);
-    return decode(std::make_shared<Origin>(dialect.definitions), buffer.bytes(), time_ns);
+    return decode(std::make_shared<Origin>(dialect.definitions), buffer.bytes(), time_ns.in<std::int64_t>("time_ns"));
 }
 
 nb::object path_or_none(const PyDialect& dialect) {

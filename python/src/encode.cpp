@@ -101,7 +101,27 @@ void set_value(MessageBuilder& builder, const Field& field, const nb::object& va
     set_number(builder, field, value, 0);
 }
 
+// By a buffer's format (PEP 3118), in which names stand between colons.
+bool has_objects(const char* format) {
+    bool is_name = false;
+    for (; format != nullptr && *format != '\0'; ++format) {
+        if (*format == ':') is_name = !is_name;
+        if (*format == 'O' && !is_name) return true;
+    }
+    return false;
+}
+
 }  // namespace
+
+Buffer::Buffer(const nb::object& object) {
+    if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_ND | PyBUF_FORMAT) != 0) {
+        PyErr_Clear();  // some of numpy's types have no format, times for example
+        if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
+    }
+    if (!has_objects(view_.format)) return;
+    PyBuffer_Release(&view_);
+    raise_usage("an array of Python objects: bytes are wanted");
+}
 
 void set_fields(const dialect::Dialect& dialect, MessageBuilder& builder, const nb::kwargs& fields) {
     for (const auto& [key, value] : fields) {
@@ -131,6 +151,10 @@ MessageBuilder build(const Definitions& definitions, const nb::object& message, 
     MessageBuilder builder(*given.definition, given.frame().payload());
     set_fields(given.origin->dialect(), builder, fields);
     return builder;
+}
+
+wire::Version version_of(const char* what, const Integer& given) {
+    return given.in<int>(what, 1, 2) == 1 ? wire::Version::v1 : wire::Version::v2;
 }
 
 void check_version(wire::Version version, const dialect::Message& message) {

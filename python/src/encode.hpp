@@ -5,6 +5,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include "integer.hpp"
 #include "mavloom/message/builder.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 #include "message.hpp"
@@ -18,6 +19,7 @@ void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builde
 [[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
                                             const nb::kwargs& fields);
 
+[[nodiscard]] wire::Version version_of(const char* what, const Integer& given);
 // Raises UsageError where MAVLink 1 has no room for a message.
 void check_version(wire::Version version, const dialect::Message& message);
 
@@ -30,12 +32,10 @@ void check_version(wire::Version version, const dialect::Message& message);
 // Makes a Message of it.
 [[nodiscard]] nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns);
 
-// A view of any bytes-like object, held as long as this lives.
+// A view of any bytes-like object, held as long as this lives. An array of Python objects is refused (UsageError): its bytes are pointers.
 class Buffer {
 public:
-    explicit Buffer(const nb::object& object) {
-        if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
-    }
+    explicit Buffer(const nb::object& object);
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
     ~Buffer() { PyBuffer_Release(&view_); }

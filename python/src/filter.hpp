@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "integer.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/wire/frame.hpp"
 
@@ -38,7 +39,7 @@ using Instance = std::variant<std::int64_t, std::string>;
 
 // `type` is None, a name, a class of mavloom.messages, or an iterable of those; an unknown name raises UsageError with the nearest.
 [[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,
-                                 std::optional<std::uint8_t> system, std::optional<std::uint8_t> component);
+                                 const std::optional<Integer>& system, const std::optional<Integer>& component);
 
 // Raises TypeError unless `condition` is None or callable: pymavlink's text for eval() is not taken.
 void check_condition(const nb::object& condition);

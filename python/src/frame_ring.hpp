@@ -25,7 +25,9 @@ public:
         std::uint64_t byte = 0, frame = 0;
     };
 
-    // Rounded up to a power of two, at least 64 KiB.
+    static constexpr std::size_t max_capacity = std::size_t{1} << 36;
+
+    // Rounded up to a power of two, at least 64 KiB. At most max_capacity.
     explicit FrameRing(std::size_t capacity_bytes)
         : capacity_(std::bit_ceil(std::max<std::size_t>(capacity_bytes, 64 * 1024))),
           memory_(std::make_unique_for_overwrite<std::uint8_t[]>(capacity_)) {}

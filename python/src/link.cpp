@@ -25,7 +25,7 @@
 namespace mavloom::python {
 namespace {
 
-using OptionalByte = std::optional<std::uint8_t>;
+using OptionalInteger = std::optional<Integer>;
 
 // ---- class Subscription
 
@@ -72,7 +72,7 @@ public:
     nb::object recv(const nb::object& timeout) { return or_closed({}, nb::none(), deadline_after(timeout)); }
 
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool blocking, const nb::object& timeout,
-                          OptionalByte system, OptionalByte component) {
+                          const OptionalInteger& system, const OptionalInteger& component) {
         check_condition(condition);
         const auto filter = make_filter(channel().origin()->dialect(), type, system, component);
         return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
@@ -210,20 +210,17 @@ runtime::Endpoint endpoint_of(const std::string& url) {
     return endpoint;
 }
 
-wire::Version frame_version(int version) {
-    if (version != 1 && version != 2) raise_usage(fmt::format("version: {} is none, 1 or 2", version));
-    return version == 1 ? wire::Version::v1 : wire::Version::v2;
-}
-
 class Port {
 public:
-    Port(const std::string& url, std::uint8_t system, std::uint8_t component, const nb::object& dialect,
-         std::size_t buffer_bytes, int version)
+    Port(const std::string& url, const Integer& system, const Integer& component, const nb::object& dialect,
+         const Integer& buffer, const Integer& version)
         : origin_(std::make_shared<Origin>(definitions_of(dialect))),
-          source_{SystemId{system}, ComponentId{component}},
-          version_(frame_version(version)) {
+          source_{SystemId{system.in<std::uint8_t>("source_system")},
+                  ComponentId{component.in<std::uint8_t>("source_component")}},
+          version_(version_of("version", version)) {
         const auto endpoint = endpoint_of(url);
-        channel_ = std::make_shared<Channel>(origin_, buffer_bytes, endpoint);
+        channel_ = std::make_shared<Channel>(origin_, buffer.in<std::size_t>("buffer", 0, FrameRing::max_capacity),
+                                             endpoint);
         // Before anything can arrive.
         reader_ = nb::cast(new Subscription(channel_, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<Hub::Opened> {
@@ -281,7 +278,7 @@ public:
         return send_frame([&] { return frame; });
     }
 
-    nb::object latest(const nb::object& type, OptionalByte system, OptionalByte component,
+    nb::object latest(const nb::object& type, const OptionalInteger& system, const OptionalInteger& component,
                       const std::optional<Instance>& instance, const nb::object& max_age) {
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
@@ -293,7 +290,7 @@ public:
                             found->head.verdict);
     }
 
-    nb::object subscribe(const nb::object& type, OptionalByte system, OptionalByte component) {
+    nb::object subscribe(const nb::object& type, const OptionalInteger& system, const OptionalInteger& component) {
         check();
         auto filter = make_filter(origin_->dialect(), type, system, component);
         return nb::cast(new Subscription(channel_, std::move(filter)), nb::rv_policy::take_ownership);
@@ -411,7 +408,8 @@ void bind_link(nb::module_& module) {
             nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Message, None]"));
 
     nb::class_<Port>(module, "Port", nb::is_final())
-        .def(nb::init<const std::string&, std::uint8_t, std::uint8_t, const nb::object&, std::size_t, int>(),
+        .def(nb::init<const std::string&, const Integer&, const Integer&, const nb::object&, const Integer&,
+                      const Integer&>(),
              nb::arg("url"), nb::arg("source_system"), nb::arg("source_component"), nb::arg("dialect").none(),
              nb::arg("buffer"), nb::arg("version"),
              nb::sig("def __init__(self, url: str, source_system: int, source_component: int, dialect: Dialect | None, "

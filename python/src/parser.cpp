@@ -8,6 +8,7 @@
 #include "encode.hpp"
 #include "frame_batch.hpp"
 #include "gil.hpp"
+#include "integer.hpp"
 #include "mavloom/wire/stream_parser.hpp"
 
 namespace mavloom::python {
@@ -18,12 +19,13 @@ public:
     explicit Parser(const nb::object& dialect)
         : origin_(std::make_shared<Origin>(definitions_of(dialect))), parser_(origin_->dialect().wire_table()) {}
 
-    nb::list feed(const nb::object& data, std::int64_t time_ns) {
+    nb::list feed(const nb::object& data, const Integer& time_ns) {
         const Buffer buffer(data);
-        return parse([&](auto sink) { parser_.feed(buffer.bytes(), mono_now(), sink); }, time_ns);
+        return parse([&](auto sink) { parser_.feed(buffer.bytes(), mono_now(), sink); },
+                     time_ns.in<std::int64_t>("time_ns"));
     }
-    nb::list finish(std::int64_t time_ns) {
-        return parse([&](auto sink) { parser_.finish(sink); }, time_ns);
+    nb::list finish(const Integer& time_ns) {
+        return parse([&](auto sink) { parser_.finish(sink); }, time_ns.in<std::int64_t>("time_ns"));
     }
 
     [[nodiscard]] const wire::ParseCounters& counters() const noexcept { return parser_.counters(); }

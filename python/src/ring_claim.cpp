@@ -46,6 +46,10 @@ PyType_Slot claim_view_slots[] = {
     {0, nullptr},
 };
 
+std::size_t length_within(const Integer& length, std::size_t most) {
+    return length.in<std::size_t>("length", 0, static_cast<std::int64_t>(most));
+}
+
 class Claim {
 public:
     Claim(nb::object holder, PyRingWriter& writer, std::shared_ptr<Claimed> claimed, bool has_time,
@@ -67,15 +71,14 @@ public:
         return view_;
     }
 
-    bool commit(std::optional<std::int64_t> length, std::optional<std::int64_t> time_ns) {
+    bool commit(const std::optional<Integer>& length, const std::optional<Integer>& time_ns) {
         if (is_over_) PyRingWriter::raise_over();
-        const auto most = static_cast<std::int64_t>(claimed_->bytes.size());
-        if (length && (*length < 0 || *length > most))
-            raise_usage(fmt::format("length: {} is out of range, 0 to {}", *length, most));
-        if (time_ns) info_.time = WallTime{Nanoseconds{*time_ns}};
+        const auto most = claimed_->bytes.size();
+        const auto used = length ? length_within(*length, most) : most;
+        if (time_ns) info_.time = wall_time(*time_ns);
         else if (!has_time_) info_.time = wall_now();
         end_view();
-        const bool written = writer_->commit(*claimed_, info_, static_cast<std::size_t>(length.value_or(most)));
+        const bool written = writer_->commit(*claimed_, info_, used);
         is_over_ = true;
         return written;
     }
@@ -120,12 +123,11 @@ private:
 
 }  // namespace
 
-nb::object claim_room(const nb::object& writer, std::int64_t length, std::optional<std::int64_t> time_ns,
-                      std::int64_t link, std::int64_t kind, std::int64_t verdict) {
+nb::object claim_room(const nb::object& writer, const Integer& length, const std::optional<Integer>& time_ns,
+                      const Integer& link, const Integer& kind, const Integer& verdict) {
     auto& of = nb::cast<PyRingWriter&>(writer);
     const auto info = record_info(time_ns, link, kind, verdict);
-    if (length < 0) raise_usage(fmt::format("length: {} is out of range, 0 to {}", length, of.longest()));
-    auto claimed = of.claim(static_cast<std::size_t>(length));
+    auto claimed = of.claim(length_within(length, of.longest()));
     return nb::cast(new Claim(writer, of, std::move(claimed), time_ns.has_value(), info), nb::rv_policy::take_ownership);
 }
 

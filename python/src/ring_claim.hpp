@@ -13,7 +13,8 @@ namespace mavloom::python {
 void bind_ring_claim(nb::module_& module);
 
 // RingWriter.claim; `writer` is one.
-[[nodiscard]] nb::object claim_room(const nb::object& writer, std::int64_t length, std::optional<std::int64_t> time_ns,
-                                    std::int64_t link, std::int64_t kind, std::int64_t verdict);
+[[nodiscard]] nb::object claim_room(const nb::object& writer, const Integer& length,
+                                    const std::optional<Integer>& time_ns, const Integer& link, const Integer& kind,
+                                    const Integer& verdict);
 
 }  // namespace mavloom::python

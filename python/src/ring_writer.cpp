@@ -7,7 +7,6 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
-#include <limits>
 
 #include "bindings.hpp"
 #include "encode.hpp"
@@ -28,26 +27,33 @@ shm::WhenFull policy_of(const std::string& full) {
     return static_cast<shm::WhenFull>(found - policies.begin());
 }
 
-template <class T>
-T in_range(const char* what, std::int64_t value) {
-    constexpr std::int64_t most = std::numeric_limits<T>::max();
-    if (value < 0 || value > most) raise_usage(fmt::format("{}: {} is out of range, 0 to {}", what, value, most));
-    return static_cast<T>(value);
+// Used with the GIL, or once there is no interpreter any more.
+std::vector<PyRingWriter*>& open_writers() {
+    static auto* const writers = new std::vector<PyRingWriter*>;  // outlives the writers that the interpreter's end leaves
+    return *writers;
+}
+
+void close_what_is_left() noexcept {
+    for (auto* const writer : open_writers()) writer->close_at_exit();
 }
 
 }  // namespace
 
-shm::RecordInfo record_info(std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
-                            std::int64_t verdict) {
-    return {time_ns ? WallTime{Nanoseconds{*time_ns}} : wall_now(), LinkId{in_range<std::uint32_t>("link", link)},
-            in_range<std::uint16_t>("kind", kind), in_range<std::uint8_t>("verdict", verdict)};
+shm::RecordInfo record_info(const std::optional<Integer>& time_ns, const Integer& link, const Integer& kind,
+                            const Integer& verdict) {
+    return {time_ns ? wall_time(*time_ns) : wall_now(), LinkId{link.in<std::uint32_t>("link")},
+            kind.in<std::uint16_t>("kind"), verdict.in<std::uint8_t>("verdict")};
 }
 
-PyRingWriter::PyRingWriter(const std::string& name, std::int64_t capacity, const std::string& full, std::int64_t mode)
+WallTime wall_time(const Integer& time_ns) { return WallTime{Nanoseconds{time_ns.in<std::int64_t>("time_ns")}}; }
+
+PyRingWriter::PyRingWriter(const std::string& name, const Integer& capacity, const std::string& full,
+                           const Integer& mode)
     : name_(name), when_full_(policy_of(full)) {
-    const shm::RingOptions options{.capacity = static_cast<std::uint64_t>(std::max<std::int64_t>(capacity, 0)),
-                                   .when_full = when_full_,
-                                   .mode = in_range<std::uint16_t>("mode", mode)};
+    const shm::RingOptions options{
+        .capacity = capacity.in<std::uint64_t>("capacity", shm::min_capacity, shm::max_capacity),
+        .when_full = when_full_,
+        .mode = mode.in<std::uint16_t>("mode")};
     auto opened = [&] {
         const WithoutGil outside;  // a large ring takes its memory here
         return shm::RingWriter::open(name, options);
@@ -55,7 +61,10 @@ PyRingWriter::PyRingWriter(const std::string& name, std::int64_t capacity, const
     writer_ = value_or_raise(std::move(opened));
     longest_ = writer_->longest();
     created_ = writer_->created();
+    open_writers().push_back(this);
 }
+
+PyRingWriter::~PyRingWriter() { std::erase(open_writers(), this); }
 
 void PyRingWriter::check_open() const {
     fork_.check();
@@ -68,11 +77,9 @@ void PyRingWriter::check() const {
         raise_buffer(fmt::format("a claim of the writer of ring {} is open: commit or abandon it first", name_));
 }
 
-bool PyRingWriter::write(const nb::object& data, std::optional<std::int64_t> time_ns, std::int64_t link,
-                         std::int64_t kind, std::int64_t verdict) {
+bool PyRingWriter::write(const nb::object& data, const shm::RecordInfo& info) {
     check();
     const Buffer bytes(data);
-    const auto info = record_info(time_ns, link, kind, verdict);
     for (;;) {
         let_claim_end();
         const auto written = put_or_wait(bytes.bytes(), info);
@@ -243,6 +250,13 @@ SetupResult<void> PyRingWriter::close_locked(bool remove) {
     return closed;
 }
 
+void PyRingWriter::close_at_exit() noexcept {
+    if (!fork_.is_here()) return;
+    const auto lock = turns_.take_until(MonoTime::max());
+    if (!lock.owns_lock() || (claim_ && !claim_->looks.finish())) return;
+    writer_.reset();
+}
+
 void PyRingWriter::note_counters() {
     if (!writer_) return;
     records_ = writer_->records();
@@ -275,6 +289,7 @@ std::uint64_t PyRingWriter::dropped() {
 void bind_ring_writer(nb::module_& module) {
     using namespace nb::literals;
     bind_ring_claim(module);
+    Py_AtExit(close_what_is_left);
     nb::class_<PyRingWriter>(
         module, "RingWriter", nb::is_final(),
         "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "
@@ -286,16 +301,19 @@ void bind_ring_writer(nb::module_& module) {
         "`evict` "
         "takes the hold away from the readers in the\n"
         "way. Closing leaves the ring for its readers and for the next writer.")
-        .def(nb::init<const std::string&, std::int64_t, const std::string&, std::int64_t>(), "name"_a, nb::kw_only(),
-             "capacity"_a = shm::default_capacity, "full"_a = "wait", "mode"_a = 0600,
+        .def(nb::init<const std::string&, const Integer&, const std::string&, const Integer&>(), "name"_a,
+             nb::kw_only(), "capacity"_a = shm::default_capacity, "full"_a = "wait", "mode"_a = 0600,
              nb::sig("def __init__(self, name: str, *, capacity: int = 8388608, full: typing.Literal['wait', "
                      "'drop_newest', 'evict'] = 'wait', mode: int = 0o600) -> None"),
              "ValueError for a name or option that is none; SystemFailure (an OSError) where another writer is alive, "
              "which names its process, or where /dev/shm is\n"
              "full; InputError for a file that is no ring of this version, which stays as it is.")
         .def(
-            "write", &PyRingWriter::write, "data"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0,
-            "kind"_a = 0, "verdict"_a = 0,
+            "write",
+            [](PyRingWriter& writer, const nb::object& data, const std::optional<Integer>& time_ns, const Integer& link,
+               const Integer& kind,
+               const Integer& verdict) { return writer.write(data, record_info(time_ns, link, kind, verdict)); },
+            "data"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0, "kind"_a = 0, "verdict"_a = 0,
             nb::sig("def write(self, data: Buffer | numpy.typing.NDArray[typing.Any], *, time_ns: int | None = None, "
                     "link: int = 0, kind: int = 0, "
                     "verdict: int = 0) -> bool"),

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "integer.hpp"
 #include "looks.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "waiting.hpp"
@@ -30,17 +31,23 @@ struct Claimed {
 };
 
 // As users give it: now unless a time is given; UsageError for what is out of range.
-[[nodiscard]] shm::RecordInfo record_info(std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
-                                          std::int64_t verdict);
+[[nodiscard]] shm::RecordInfo record_info(const std::optional<Integer>& time_ns, const Integer& link,
+                                          const Integer& kind, const Integer& verdict);
+[[nodiscard]] WallTime wall_time(const Integer& time_ns);
 
 class PyRingWriter {
 public:
-    PyRingWriter(const std::string& name, std::int64_t capacity, const std::string& full, std::int64_t mode);
+    PyRingWriter(const std::string& name, const Integer& capacity, const std::string& full, const Integer& mode);
+    PyRingWriter(const PyRingWriter&) = delete;
+    PyRingWriter& operator=(const PyRingWriter&) = delete;
+    ~PyRingWriter();
 
     // Waits while lossless readers hold the ring. False: the record was dropped, and counted (`drop_newest`).
-    bool write(const nb::object& data, std::optional<std::int64_t> time_ns, std::int64_t link, std::int64_t kind,
-               std::int64_t verdict);
+    bool write(const nb::object& data, const shm::RecordInfo& info);
     void close(bool remove);
+    // For a writer that the interpreter's end did not destroy: a daemon thread's, or one that such a thread's frames keep alive. No Python any more;
+    // its threads wait for ever. A claim that somebody looks at keeps its writer open.
+    void close_at_exit() noexcept;
 
     // Room for one record. One is open at a time: other threads wait until it is committed or given up, and its own gets BufferError from all that writes.
     [[nodiscard]] std::shared_ptr<Claimed> claim(std::size_t length);

@@ -51,6 +51,13 @@ std::string names_of(const std::vector<std::string>& rings) {
     return text;
 }
 
+// It may have come since it was looked for.
+std::vector<std::string> other_rings(std::string_view name) {
+    auto rings = ring_names();
+    std::erase(rings, name);
+    return rings;
+}
+
 SetupResult<void> check_options(const RingOptions& options) {
     if (!std::has_single_bit(options.capacity) || options.capacity < min_capacity || options.capacity > max_capacity)
         return setup_error(
@@ -104,7 +111,7 @@ SetupResult<Segment> open_ring(std::string_view name, Segment::Access access) {
     auto segment = Segment::open(path_of(name), access, data_offset);
     if (!segment) {
         if (segment.error().code == SetupCode::not_found)
-            segment.error().text = fmt::format("there is no ring {}; {}", name, names_of(ring_names()));
+            segment.error().text = fmt::format("there is no ring {}; {}", name, names_of(other_rings(name)));
         return segment;
     }
     if (auto good = check_identity(*segment); !good) return tl::unexpected(std::move(good.error()));

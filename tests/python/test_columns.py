@@ -129,6 +129,15 @@ def test_row_29_unknown_names(flight):
         mavloom.columns(flight / "x", "ATTITUDE")
 
 
+def test_row_29_a_source_that_is_none(flight):
+    for call in (lambda **source: mavloom.columns(flight, "ATTITUDE", **source), lambda **source: mavloom.tables(flight, **source),
+                 lambda **source: mavloom.read(flight, **source), lambda **source: mavloom.read(flight).recv_match(**source)):
+        with pytest.raises(mavloom.UsageError, match="^system: 256 is out of range, 0 to 255$"):
+            call(system=256)
+        with pytest.raises(mavloom.UsageError, match="^component: -1 is out of range, 0 to 255$"):
+            call(component=-1)
+
+
 def test_units_and_enum_names(flight):
     columns = mavloom.columns(flight, "HEARTBEAT")
     assert columns.enums == {"type": "MAV_TYPE", "autopilot": "MAV_AUTOPILOT", "base_mode": "MAV_MODE_FLAG", "system_status": "MAV_STATE"}

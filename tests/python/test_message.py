@@ -180,6 +180,24 @@ def test_row_29_unknown_names_end_at_once_with_the_nearest(dialect):
     assert getattr(message, "".join(["ro", "ll"])) == 0.0
 
 
+@pytest.mark.parametrize("argument, value, limits", [("source_system", 256, "0 to 255"), ("source_component", -1, "0 to 255"), ("frame_seq", 2**64, "0 to 255"),
+                                                     ("frame_version", 3, "1 to 2")])
+def test_row_29_a_number_that_does_not_fit_is_a_value_error(dialect, argument, value, limits):
+    with pytest.raises(mavloom.UsageError, match=f"^{argument}: {value} is out of range, {limits}$"):
+        dialect.encode("HEARTBEAT", **{argument: value})
+    for wrong in (1.0, "1"):
+        with pytest.raises(TypeError):
+            dialect.encode("HEARTBEAT", **{argument: wrong})
+
+
+def test_row_29_a_time_that_does_not_fit_is_a_value_error(dialect):
+    frame = dialect.encode("HEARTBEAT")
+    for call in (dialect.decode, mavloom.Parser().feed):
+        with pytest.raises(mavloom.UsageError, match=f"time_ns: {2**63} is out of range"):
+            call(frame, time_ns=2**63)
+    assert dialect.decode(frame, time_ns=-2**63).time_ns == -2**63
+
+
 # ---- row 16: ids without definition
 
 def test_row_16_unknown_id_keeps_its_header_and_bytes(dialect, tmp_path):

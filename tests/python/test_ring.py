@@ -9,6 +9,7 @@ and examples: the wishes there. What is not here, or not all of it:
     3.18      all schedules of a few operations          tests/unit/shm/ring_schedules_test.cpp, and threads under ThreadSanitizer: ring_threads_test.cpp
     3.21      the thread behind descriptors by itself    tests/unit/shm/ring_waiter_test.cpp
 """
+import array
 import asyncio
 import concurrent.futures
 import contextlib
@@ -250,6 +251,28 @@ def test_no_dtype_makes_objects_of_what_a_ring_holds(ring, writer, dtype):
                 batch.array(dtype)
 
 
+@pytest.mark.parametrize("dtype", [object, [("O", "f4"), ("b", [("c", "O")])]], ids=str)
+def test_objects_are_no_bytes(writer, dtype):
+    for data in (numpy.zeros(3, dtype), memoryview(numpy.zeros(3, dtype)), (ctypes.py_object * 2)(1, 2)):
+        with pytest.raises(ValueError, match="Python objects"):
+            writer.write(data)
+    assert writer.records == 0
+
+
+@pytest.mark.parametrize("values", [numpy.arange(3), numpy.zeros((2, 3), [("O", "f4"), ("bO", "u1")]), numpy.array(["2026-11-23", "1970-01-01"], "M8[s]"),
+                                    array.array("d", [1, 2]), memoryview(numpy.float32([1, 2])), numpy.float64(7), (ctypes.c_uint16 * 2)(1, 2)], ids=repr)
+def test_whatever_has_a_contiguous_buffer_is_written(writer, ring, values):
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        writer.write(values)
+        assert reader.read(0).data == (values.tobytes() if hasattr(values, "tobytes") else bytes(values))
+
+
+def test_what_is_not_contiguous_is_refused(writer):
+    for data in (numpy.arange(9)[::2], numpy.asfortranarray(numpy.zeros((2, 3)))):
+        with pytest.raises((BufferError, ValueError), match="contiguous"):
+            writer.write(data)
+
+
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
 def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, look):
     seen = look(held.read(0))
@@ -261,6 +284,28 @@ def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, loo
     gc.collect()
     assert held.read(0).position == 32
     held.close()
+
+
+@pytest.mark.parametrize("dtype", [object, [("O", "f4"), ("b", [("c", "O")])]], ids=str)
+def test_objects_are_no_bytes(writer, dtype):
+    for data in (numpy.zeros(3, dtype), memoryview(numpy.zeros(3, dtype)), (ctypes.py_object * 2)(1, 2)):
+        with pytest.raises(ValueError, match="Python objects"):
+            writer.write(data)
+    assert writer.records == 0
+
+
+@pytest.mark.parametrize("values", [numpy.arange(3), numpy.zeros((2, 3), [("O", "f4"), ("bO", "u1")]), numpy.array(["2026-11-23", "1970-01-01"], "M8[s]"),
+                                    array.array("d", [1, 2]), memoryview(numpy.float32([1, 2])), numpy.float64(7), (ctypes.c_uint16 * 2)(1, 2)], ids=repr)
+def test_whatever_has_a_contiguous_buffer_is_written(writer, ring, values):
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        writer.write(values)
+        assert reader.read(0).data == (values.tobytes() if hasattr(values, "tobytes") else bytes(values))
+
+
+def test_what_is_not_contiguous_is_refused(writer):
+    for data in (numpy.arange(9)[::2], numpy.asfortranarray(numpy.zeros((2, 3)))):
+        with pytest.raises((BufferError, ValueError), match="contiguous"):
+            writer.write(data)
 
 
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
@@ -479,13 +524,13 @@ def test_row_3_16_a_view_that_outlives_its_claim_keeps_the_room(writer, ring):
 
 
 def test_row_29_a_claim_of_what_does_not_fit_is_a_value_error(writer):
-    for length, what in ((-1, "length: -1 is out of range, 0 to 16360"), (16361, "16361 bytes: a record of ring .* has at most 16360")):
-        with pytest.raises(ValueError, match=what):
+    for length in (-1, 16361, 2**64):
+        with pytest.raises(ValueError, match=f"length: {length} is out of range, 0 to 16360"):
             writer.claim(length)
     with writer.claim(16360):
         pass
     claim = writer.claim(4)
-    for length in (-1, 5):
+    for length in (-1, 5, 2**64):
         with pytest.raises(ValueError, match=f"length: {length} is out of range, 0 to 4"):
             claim.commit(length)
     with pytest.raises(ValueError, match="link"):
@@ -584,8 +629,13 @@ def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
     with pytest.raises(ValueError, match="16361 bytes: a record of ring .* has at most 16360"):
         writer.write(bytes(writer.longest + 1))
     writer.write(bytes(writer.longest))
-    for options, what in (({"link": -1}, "link: -1 is out of range, 0 to 4294967295"), ({"kind": 65536}, "0 to 65535"), ({"verdict": 256}, "0 to 255")):
+    for options, what in (({"link": -1}, "link: -1 is out of range, 0 to 4294967295"), ({"kind": 65536}, "0 to 65535"), ({"verdict": 256}, "0 to 255"),
+                          ({"link": 2**64}, "link: 18446744073709551616 is"), ({"time_ns": 2**63}, "time_ns: 9223372036854775808 is out of range, -9223372036854775808 to"),
+                          ({"kind": 10**5000}, "kind: a number with thousands of digits is")):
         with pytest.raises(ValueError, match=what):
+            writer.write(b"", **options)
+    for options in ({"link": 1.0}, {"kind": "1"}, {"time_ns": b"1"}):
+        with pytest.raises(TypeError):
             writer.write(b"", **options)
     with pytest.raises(TypeError, match="bytes-like"):
         writer.write("text")
@@ -593,7 +643,8 @@ def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
         for call in (mavloom.RingWriter, mavloom.RingReader, mavloom.remove_ring):
             with pytest.raises(mavloom.UsageError, match="is no name of a ring"):
                 call(name)
-    for options, what in (({"capacity": 100_000}, "power of two"), ({"capacity": -1}, "power of two"), ({"full": "wiat"}, "did you mean 'wait'"),
+    for options, what in (({"capacity": 100_000}, "power of two"), ({"capacity": -1}, "capacity: -1 is out of range, 65536 to 68719476736"),
+                          ({"capacity": 2**64}, "capacity: 18446744073709551616 is"), ({"full": "wiat"}, "did you mean 'wait'"),
                           ({"mode": 0o060}, "owner must"), ({"mode": -1}, "mode: -1")):
         with pytest.raises(ValueError, match=what):
             mavloom.RingWriter(ring + "x", **options)
@@ -1126,7 +1177,27 @@ if not {leaks}:
         threading.Thread(target=work, daemon=True).start()
 """, ring)
     assert ended(process) == (0, "", "")
-    assert status_of(ring)["readers"] == [] and not status_of(ring)["writer_alive"]
+    left = status_of(ring)
+    assert (left["readers"], left["writer_alive"], left["writer_pid"]) == ([], False, 0), "closed, as by close()"
+
+
+def test_row_3_22_an_exit_with_a_claim_in_hand_closes_its_writer(ring, start):
+    """Nothing is written; a view that outlives the interpreter keeps the writer, whose end then looks like a kill."""
+    process = start("""
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+writer.write(b"abcd")
+claim = writer.claim(8)
+claim.data[:] = bytes(8)
+threading.Thread(target=lambda: (claim, writer.write(b"never")), daemon=True).start()
+time.sleep(0.1)
+""", ring)
+    assert ended(process) == (0, "", "")
+    left = status_of(ring)
+    assert (left["records"], left["writer_alive"]) == (1, False)
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
+        writer.write(b"next")
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        assert [record.data for record in reader] == [b"abcd", b"next"]
 
 
 def test_example_11_a_forked_child_is_refused_and_the_parent_untouched(ring, start):
@@ -1267,6 +1338,7 @@ def test_a_signal_handler_that_reads_the_same_reader_costs_no_record(ring, start
 # ---- asyncio: rows 19 and 3.21
 
 MANY_TASKS = """
+import array
 import asyncio
 def threads():
     return len(os.listdir("/proc/self/task"))
@@ -1340,6 +1412,7 @@ def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
 def test_rows_3_21_and_3_23_who_may_only_read_is_told_too(start, ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
         process = start(AS_NOBODY + """
+import array
 import asyncio
 async def main():
     reader, found = mavloom.RingReader(ring), []
@@ -1487,6 +1560,7 @@ def test_row_3_21_a_loop_of_ones_own(writer, ring):
 @pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
 def test_rows_3_21_and_3_22_an_exit_while_tasks_wait_is_silent(ring, start, leaks):
     process = start(f"""
+import array
 import asyncio
 if {leaks}:
     mavloom._core.set_leak_warnings(True)
@@ -1509,11 +1583,32 @@ if not {leaks}:  # a thread that never ends keeps what it has
     time.sleep(0.01)
 """, ring)
     assert ended(process) == (0, "", "")
-    assert status_of(ring)["readers"] == [] and not status_of(ring)["writer_alive"]
+    left = status_of(ring)
+    assert (left["readers"], left["writer_alive"], left["writer_pid"]) == ([], False, 0), "closed, as by close()"
+
+
+def test_row_3_22_an_exit_with_a_claim_in_hand_closes_its_writer(ring, start):
+    """Nothing is written; a view that outlives the interpreter keeps the writer, whose end then looks like a kill."""
+    process = start("""
+writer = mavloom.RingWriter(ring, capacity=1 << 16)
+writer.write(b"abcd")
+claim = writer.claim(8)
+claim.data[:] = bytes(8)
+threading.Thread(target=lambda: (claim, writer.write(b"never")), daemon=True).start()
+time.sleep(0.1)
+""", ring)
+    assert ended(process) == (0, "", "")
+    left = status_of(ring)
+    assert (left["records"], left["writer_alive"]) == (1, False)
+    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
+        writer.write(b"next")
+    with mavloom.RingReader(ring, start="oldest") as reader:
+        assert [record.data for record in reader] == [b"abcd", b"next"]
 
 
 def test_row_3_21_and_example_11_a_forked_child_has_a_waiter_of_its_own(ring, start):
     process = start("""
+import array
 import asyncio
 writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
 async def take(reader, what):

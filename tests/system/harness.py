@@ -175,11 +175,12 @@ class Running:
 
 
 def end(processes):
-    """Kills what still runs, and takes away what a killed router leaves of its control socket."""
+    """Kills what still runs, and takes away what a killed router leaves of its sockets."""
     for process in processes:
         process.kill()
-        if process.process.returncode == -signal.SIGKILL and "--name" in process.args:
-            name = process.args[process.args.index("--name") + 1]
-            for left in ("ctl", "ctl.lock"):
-                with contextlib.suppress(OSError):
-                    os.unlink(f"/run/mavloom/{name}.{left}")
+        if process.process.returncode != -signal.SIGKILL:
+            continue
+        names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring") if option in process.args]
+        for left in (f"/run/mavloom/{name}.{end}" for name in names for end in ("ctl", "ctl.lock", "in")):
+            with contextlib.suppress(OSError):
+                os.unlink(left)

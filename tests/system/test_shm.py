@@ -252,6 +252,19 @@ def test_options_that_are_wrong(run, ring, options):
 
 
 @short
+def test_lines_that_a_full_ring_does_not_take(run, spawn, ring):
+    write(run, ring, "first\n")
+    reader = spawn("shm", "read", ring, "--from", "oldest", "--lossless", "--data")
+    reader.wait_output("^first$", stream="out")
+    os.kill(reader.pid, signal.SIGSTOP)
+    done = run("shm", "write", ring, "--full", "drop_newest", input=("x" * 1000 + "\n") * 100)
+    stat = stat_of(run, ring)
+    os.kill(reader.pid, signal.SIGCONT)
+    assert done.status == 4 and 0 < stat["dropped"] < 100, done
+    assert done.stderr == f"mavloom: {ring}: {100 - stat['dropped']} records, {(100 - stat['dropped']) * 1000} bytes written, {stat['dropped']} not\n"
+
+
+@short
 def test_absent_rings(run, ring):
     for words in (("stat", ring), ("remove", ring)):
         done = run("shm", *words)

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Whole numbers as arguments: one of any size comes through, and what does not fit is a UsageError that says what does. (nanobind's own casters
+// refuse it as an argument of the wrong type.)
+#pragma once
+
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "errors.hpp"
+
+namespace mavloom::python {
+
+// Valid during the call that it is an argument of.
+class Integer {
+public:
+    // Raises UsageError, which begins with `what`.
+    template <class T>
+        requires(sizeof(T) < sizeof(std::int64_t) || std::is_signed_v<T>)
+    [[nodiscard]] T in(const char* what) const {
+        return in<T>(what, std::numeric_limits<T>::min(), std::numeric_limits<T>::max());
+    }
+    template <class T>
+    [[nodiscard]] T in(const char* what, std::int64_t least, std::int64_t most) const {
+        if (!fits_ || value_ < least || value_ > most)
+            raise_usage(fmt::format("{}: {} is out of range, {} to {}", what, text(), least, most));
+        return static_cast<T>(value_);
+    }
+    // False with an error of Python's: no whole number.
+    [[nodiscard]] bool take(nb::handle given) noexcept {
+        const nb::object number = nb::steal(PyNumber_Index(given.ptr()));
+        if (!number.is_valid()) return false;
+        int overflow = 0;
+        value_ = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+        fits_ = overflow == 0;
+        given_ = given;
+        return true;
+    }
+
+private:
+    [[nodiscard]] std::string text() const {
+        const nb::object text = nb::steal(PyObject_Str(given_.ptr()));
+        if (text.is_valid()) return nb::borrow<nb::str>(text).c_str();
+        PyErr_Clear();  // Python writes no number of more than 4,300 digits
+        return "a number with thousands of digits";
+    }
+
+    std::int64_t value_ = 0;
+    bool fits_ = true;
+    nb::handle given_;
+};
+
+template <class T>
+[[nodiscard]] std::optional<T> in(const char* what, const std::optional<Integer>& given) {
+    return given ? std::optional<T>(given->in<T>(what)) : std::nullopt;
+}
+
+}  // namespace mavloom::python
+
+template <>
+struct nanobind::detail::type_caster<mavloom::python::Integer> {
+    NB_TYPE_CASTER(mavloom::python::Integer, const_name("int"))
+    bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
+        if (value.take(source)) return true;
+        PyErr_Clear();
+        return false;
+    }
+};
