@@ -3,6 +3,7 @@
 oldest Python that is supported and with this one. They also find what that Python's grammar and library do not have."""
 import json
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -21,11 +22,12 @@ WRONG = "from mavloom import messages\ndef f(m: messages.ATTITUDE) -> int:\n    
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """The package, the examples, one that is wrong and one that needs a newer Python."""
+    """The package, the examples of the guides and as_typed.py, one that is wrong and one that needs a newer Python."""
     folder = tmp_path_factory.mktemp("types")
     shutil.copytree(PACKAGE / "mavloom", folder / "mavloom", ignore=shutil.ignore_patterns("*.so", "__pycache__"))
     for page in PAGES:
         (folder / f"{page.stem.replace('-', '_')}.py").write_text(script_of(page))
+    shutil.copy(pathlib.Path(__file__).parent / "as_typed.py", folder)
     (folder / "wrong.py").write_text(WRONG)
     (folder / "newer.py").write_text("from datetime import UTC\nprint(UTC)\n")  # 3.11
     return folder

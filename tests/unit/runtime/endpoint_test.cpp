@@ -362,6 +362,8 @@ TEST(ParseSize, CountsBytes) {
     EXPECT_EQ(*parse_size("64K"), 65536u);
     EXPECT_EQ(*parse_size("64kB"), 64000u);
     EXPECT_EQ(*parse_size("1M"), 1048576u);
+    EXPECT_EQ(*parse_size("32m"), 33554432u);
+    EXPECT_EQ(*parse_size("1g"), 1073741824u);
     EXPECT_EQ(*parse_size("32MiB"), 33554432u);
     EXPECT_EQ(*parse_size("32MB"), 32000000u);
     EXPECT_EQ(*parse_size("2G"), 2147483648u);
