@@ -6,6 +6,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "counters_repr.hpp"
+
 namespace mavloom::python {
 
 // What a user should look at: a message whose checksum never agrees is defined otherwise at its sender.
@@ -78,7 +80,8 @@ void bind_source_stats(nb::module_& module) {
         .def_prop_ro("lost", of_source<&S::lost>())
         .def_prop_ro("late", of_source<&S::late>())
         .def_prop_ro("duplicate", of_source<&S::duplicate>())
-        .def_prop_ro("resync", of_source<&S::resync>(), "Jumps too long to be loss: a reboot.");
+        .def_prop_ro("resync", of_source<&S::resync>(), "Jumps too long to be loss: a reboot.")
+        .def("__repr__", &counters_repr);
 }
 
 }  // namespace
@@ -124,7 +127,8 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(), "Frames dropped on the way out: the queue was full.")
         .def_prop_ro("queue_age", of_links<&L::queue_age>(), "Frames dropped on the way out: too old.")
         .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Frames that the kernel refused.")
-        .def_prop_ro("reconnects", of_endpoint<&E::reconnects>());
+        .def_prop_ro("reconnects", of_endpoint<&E::reconnects>())
+        .def("__repr__", &counters_repr);
 }
 
 }  // namespace mavloom::python

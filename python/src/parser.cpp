@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "bindings.hpp"
+#include "counters_repr.hpp"
 #include "encode.hpp"
 #include "frame_batch.hpp"
 #include "gil.hpp"
@@ -81,7 +82,8 @@ void bind_parser(nb::module_& module) {
                      "What looked like a frame and had a wrong checksum.")
         .def_prop_ro("unknown_flags", counter<&ParseCounters::unknown_flags>(),
                      "Frames with an undefined incompatibility flag: left out.")
-        .def_prop_ro("junk_bytes", counter<&ParseCounters::junk_bytes>(), "Bytes that belong to no frame.");
+        .def_prop_ro("junk_bytes", counter<&ParseCounters::junk_bytes>(), "Bytes that belong to no frame.")
+        .def("__repr__", &counters_repr);
 }
 
 }  // namespace mavloom::python

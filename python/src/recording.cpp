@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "counters_repr.hpp"
 #include "errors.hpp"
 #include "filter.hpp"
 #include "frame_batch.hpp"
@@ -185,7 +186,8 @@ void bind_recording(nb::module_& module) {
         .def_ro("unknown_flags", &RecordingStats::unknown_flags,
                 "Records with an undefined incompatibility flag: left out.")
         .def_ro("junk_bytes", &RecordingStats::junk_bytes, "Damaged, or cut at the end.")
-        .def_ro("damaged_places", &RecordingStats::damaged_places, "Runs of such bytes.");
+        .def_ro("damaged_places", &RecordingStats::damaged_places, "Runs of such bytes.")
+        .def("__repr__", &counters_repr);
 
     nb::class_<Recording>(
         module, "Recording", nb::type_slots(iterator_slots<Recording>), nb::is_final(),

@@ -122,6 +122,19 @@ print(left, os.waitpid(pid, 0)[1])
     assert (done.stdout, done.stderr) == (f"{FRAMES - 1} 0\n", "")
 
 
+def test_counters_are_shown(flight):
+    log, parser, dialect = mavloom.read(flight), mavloom.Parser(), mavloom.Dialect()
+    assert (repr(log.stats), repr(parser)) == ("RecordingStats()", "Parser()")
+    messages = sum(1 for _ in log)
+    assert repr(log.stats) == f"RecordingStats(records={messages}, record_bytes={flight.stat().st_size})"
+    parser.feed(b"junk" + dialect.encode("HEARTBEAT"))
+    assert repr(parser) == "Parser(frames=1, junk_bytes=4)"
+    with mavloom.connect("udpin://127.0.0.1:0") as receiver, mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender:
+        sender.send("HEARTBEAT")
+        receiver.recv(timeout=10)
+        assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=13, ") and "received=1)" in repr(receiver.stats)
+
+
 def test_row_29_types_each_call_with_its_own(flight, peer):
     """pymavlink keeps the first list in force."""
     log = mavloom.read(flight)

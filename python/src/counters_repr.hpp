@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string>
+
+namespace mavloom::python {
+
+// __repr__ of objects whose properties are all there is to them: Name(frames=12, lost=3), without those that are 0 or empty.
+[[nodiscard]] inline std::string counters_repr(nanobind::handle self) {
+    namespace nb = nanobind;
+    const nb::object type = nb::borrow(self.type());
+    std::string text = nb::cast<nb::str>(type.attr("__name__")).c_str();
+    const char* before = "(";
+    for (const nb::handle key : nb::iter(type.attr("__dict__"))) {
+        const std::string name = nb::borrow<nb::str>(key).c_str();
+        if (name.starts_with('_')) continue;
+        const nb::object value = self.attr(name.c_str());
+        if (PyCallable_Check(value.ptr()) != 0 || PyObject_IsTrue(value.ptr()) != 1) continue;
+        text += before + name + "=" + nb::repr(value).c_str();
+        before = ", ";
+    }
+    return text + (*before == '(' ? "()" : ")");
+}
+
+}  // namespace mavloom::python
