@@ -267,8 +267,8 @@ Exit write(const Common& common, const Options& options) {
     const Exit status = write_lines(common, options, *writer);
     using Leave = shm::RingWriter::Leave;
     const auto closed = writer->close(options.remove ? Leave::nothing : Leave::ring);
-    if (!closed && status == Exit::done) return fail(closed.error());
-    return status == Exit::done || status == Exit::mismatch ? Signals::status(status) : status;
+    if (status != Exit::done && status != Exit::mismatch) return status;
+    return closed ? Signals::status(status) : fail(closed.error());
 }
 
 // ---- read ------------------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator, Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ._core import Dialect, LinkStats, Message, Port, RingWriter, Subscription
+from ._errors import UsageError
 from ._types import MessageTypes
 
 if TYPE_CHECKING:
@@ -168,6 +169,9 @@ class Link:
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
         """Per cent lost on the way here, of all sources or of these; late and doubled frames are no loss. `stats.sources` has each of them."""
+        for what, number in (("system", system), ("component", component)):
+            if number is not None and not 0 <= number <= 255:
+                raise UsageError(f"{what}: {number} is out of range, 0 to 255")
         chosen = [source for source in self.stats.sources if system in (None, source.sys) and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
         return 100.0 * lost / max(lost + sum(source.received - source.duplicate for source in chosen), 1)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -44,7 +45,7 @@ void set_int(MessageBuilder& builder, const Field& field, const nb::object& numb
         if (PyErr_Occurred() == nullptr) return value_or_raise(builder.set_number(field, real, index));
         PyErr_Clear();
     }
-    refuse(builder, field, fmt::format("{} is out of range", nb::str(number).c_str()));
+    refuse(builder, field, fmt::format("{} is out of range", digits_of(number)));
 }
 
 void set_number(MessageBuilder& builder, const Field& field, const nb::handle& value, std::size_t index) {
@@ -103,24 +104,37 @@ void set_value(MessageBuilder& builder, const Field& field, const nb::object& va
 
 // By a buffer's format (PEP 3118), in which names stand between colons.
 bool has_objects(const char* format) {
+    if (format == nullptr || std::strchr(format, 'O') == nullptr) return false;
     bool is_name = false;
-    for (; format != nullptr && *format != '\0'; ++format) {
+    for (; *format != '\0'; ++format) {
         if (*format == ':') is_name = !is_name;
         if (*format == 'O' && !is_name) return true;
     }
     return false;
 }
 
+// Where an object does not say it, as packed structures of ctypes, it is not seen.
+bool has_objects(const nb::object& array) {
+    if (PyBytes_Check(array.ptr()) || PyByteArray_Check(array.ptr())) return false;
+    if (PyMemoryView_Check(array.ptr())) return has_objects(PyMemoryView_GET_BUFFER(array.ptr())->format);
+    const nb::object type = nb::getattr(array, "dtype", nb::none());
+    if (!type.is_none()) return nb::cast<bool>(nb::bool_(nb::getattr(type, "hasobject", nb::bool_(false))));
+    Py_buffer view;
+    if (PyObject_GetBuffer(array.ptr(), &view, PyBUF_ND | PyBUF_FORMAT) != 0) {
+        PyErr_Clear();
+        return false;
+    }
+    const bool has = has_objects(view.format);
+    PyBuffer_Release(&view);
+    return has;
+}
+
 }  // namespace
 
 Buffer::Buffer(const nb::object& object) {
-    if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_ND | PyBUF_FORMAT) != 0) {
-        PyErr_Clear();  // some of numpy's types have no format, times for example
-        if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
-    }
-    if (!has_objects(view_.format)) return;
-    PyBuffer_Release(&view_);
-    raise_usage("an array of Python objects: bytes are wanted");
+    if (PyObject_CheckBuffer(object.ptr()) != 0 && has_objects(object))
+        raise_usage("an array of Python objects: bytes are wanted");
+    if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
 }
 
 void set_fields(const dialect::Dialect& dialect, MessageBuilder& builder, const nb::kwargs& fields) {

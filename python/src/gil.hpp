@@ -23,6 +23,8 @@ public:
         while (returning.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     [[nodiscard]] static bool ended() noexcept { return over.load(); }
+    // Whether this thread, which is outside, will not come back.
+    [[nodiscard]] static bool is_for_good() noexcept { return over.load() && std::this_thread::get_id() != exiting; }
     // In a forked child: the threads that were on the way stayed in the parent.
     static void forked() noexcept {
         returning.store(0);
@@ -46,7 +48,7 @@ private:
         Turnstile& operator=(const Turnstile&) = delete;
         ~Turnstile() {
             returning.fetch_add(1);
-            if (!over.load() || std::this_thread::get_id() == exiting) return;
+            if (!is_for_good()) return;
             returning.fetch_sub(1);
             for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
         }

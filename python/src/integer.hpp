@@ -16,7 +16,14 @@
 
 namespace mavloom::python {
 
-// Valid during the call that it is an argument of.
+// Of an int. Python writes none of more than 4,300 digits.
+[[nodiscard]] inline std::string digits_of(const nb::object& number) {
+    const nb::object digits = nb::steal(PyLong_Type.tp_repr(number.ptr()));
+    if (digits.is_valid()) return nb::borrow<nb::str>(digits).c_str();
+    PyErr_Clear();
+    return "a number with thousands of digits";
+}
+
 class Integer {
 public:
     // Raises UsageError, which begins with `what`.
@@ -28,31 +35,23 @@ public:
     template <class T>
     [[nodiscard]] T in(const char* what, std::int64_t least, std::int64_t most) const {
         if (!fits_ || value_ < least || value_ > most)
-            raise_usage(fmt::format("{}: {} is out of range, {} to {}", what, text(), least, most));
+            raise_usage(fmt::format("{}: {} is out of range, {} to {}", what, digits_of(number_), least, most));
         return static_cast<T>(value_);
     }
     // False with an error of Python's: no whole number.
     [[nodiscard]] bool take(nb::handle given) noexcept {
-        const nb::object number = nb::steal(PyNumber_Index(given.ptr()));
-        if (!number.is_valid()) return false;
+        number_ = nb::steal(PyNumber_Index(given.ptr()));
+        if (!number_.is_valid()) return false;
         int overflow = 0;
-        value_ = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+        value_ = PyLong_AsLongLongAndOverflow(number_.ptr(), &overflow);
         fits_ = overflow == 0;
-        given_ = given;
         return true;
     }
 
 private:
-    [[nodiscard]] std::string text() const {
-        const nb::object text = nb::steal(PyObject_Str(given_.ptr()));
-        if (text.is_valid()) return nb::borrow<nb::str>(text).c_str();
-        PyErr_Clear();  // Python writes no number of more than 4,300 digits
-        return "a number with thousands of digits";
-    }
-
+    nb::object number_;
     std::int64_t value_ = 0;
     bool fits_ = true;
-    nb::handle given_;
 };
 
 template <class T>
@@ -67,7 +66,7 @@ struct nanobind::detail::type_caster<mavloom::python::Integer> {
     NB_TYPE_CASTER(mavloom::python::Integer, const_name("int"))
     bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
         if (value.take(source)) return true;
-        PyErr_Clear();
+        PyErr_Clear();  // whatever it was, nanobind raises TypeError
         return false;
     }
 };

@@ -311,6 +311,7 @@ public:
     [[nodiscard]] nb::object reader() const { return reader_; }
     [[nodiscard]] PyDialect dialect() const { return {origin_->definitions()}; }
     [[nodiscard]] const std::string& name() const noexcept { return opened_.name; }
+    [[nodiscard]] const std::string& ring() const noexcept { return channel_->ring_name(); }
     [[nodiscard]] int port() const noexcept { return opened_.port; }
     [[nodiscard]] int version() const noexcept { return static_cast<int>(version_); }
     [[nodiscard]] Source target() const {
@@ -431,6 +432,7 @@ void bind_link(nb::module_& module) {
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))
         .def_prop_ro("dialect", &Port::dialect)
         .def_prop_ro("name", &Port::name)
+        .def_prop_ro("ring", &Port::ring)
         .def_prop_ro("port", &Port::port)
         .def_prop_ro("version", &Port::version)
         .def_prop_ro("target_system", [](const Port& link) { return link.target().system.value; })

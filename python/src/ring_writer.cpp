@@ -56,7 +56,9 @@ PyRingWriter::PyRingWriter(const std::string& name, const Integer& capacity, con
         .mode = mode.in<std::uint16_t>("mode")};
     auto opened = [&] {
         const WithoutGil outside;  // a large ring takes its memory here
-        return shm::RingWriter::open(name, options);
+        auto made = shm::RingWriter::open(name, options);
+        if (made && WithoutGil::is_for_good()) static_cast<void>(made->close(shm::RingWriter::Leave::ring));
+        return made;
     }();
     writer_ = value_or_raise(std::move(opened));
     longest_ = writer_->longest();
@@ -289,7 +291,7 @@ std::uint64_t PyRingWriter::dropped() {
 void bind_ring_writer(nb::module_& module) {
     using namespace nb::literals;
     bind_ring_claim(module);
-    Py_AtExit(close_what_is_left);
+    static_cast<void>(Py_AtExit(close_what_is_left));  // no place left there: an exit may look like a kill
     nb::class_<PyRingWriter>(
         module, "RingWriter", nb::is_final(),
         "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "

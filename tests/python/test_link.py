@@ -700,7 +700,8 @@ def test_row_29_numbers_that_do_not_fit_are_value_errors(link):
                                 ("buffer", 2**70, "0 to 68719476736")):
         with pytest.raises(mavloom.UsageError, match=f"^{name}: {value} is out of range, {limits}$"):
             mavloom.connect("udpin://127.0.0.1:0", **{name: value})
-    for call in (link.subscribe, lambda **source: link.recv_match(blocking=False, **source), lambda **source: link.latest("HEARTBEAT", **source)):
+    for call in (link.subscribe, lambda **source: link.recv_match(blocking=False, **source), lambda **source: link.latest("HEARTBEAT", **source),
+                 link.packet_loss):
         with pytest.raises(mavloom.UsageError, match="^system: 256 is out of range, 0 to 255$"):
             call(system=256)
         with pytest.raises(mavloom.UsageError, match="^component: -1 is out of range, 0 to 255$"):

@@ -112,6 +112,7 @@ def test_row_14_arrays_from_any_sequence_or_buffer(dialect):
 
 @pytest.mark.parametrize("name, fields, text", [
     ("STATUSTEXT", {"severity": 300}, r"STATUSTEXT\.severity: 300 is out of range, 0 to 255"),
+    ("HEARTBEAT", {"custom_mode": 10**5000}, r"HEARTBEAT\.custom_mode: a number with thousands of digits is out of range"),
     ("STATUSTEXT", {"severity": -1}, r"STATUSTEXT\.severity: -1 is out of range, 0 to 255"),
     ("ATTITUDE", {"time_boot_ms": 2**70}, r"ATTITUDE\.time_boot_ms: 1180591620717411303424 is out of range"),
     ("ATTITUDE", {"time_boot_ms": 1.5}, r"ATTITUDE\.time_boot_ms: 1\.5 is not a whole number"),

@@ -253,7 +253,8 @@ def test_no_dtype_makes_objects_of_what_a_ring_holds(ring, writer, dtype):
 
 @pytest.mark.parametrize("dtype", [object, [("O", "f4"), ("b", [("c", "O")])]], ids=str)
 def test_objects_are_no_bytes(writer, dtype):
-    for data in (numpy.zeros(3, dtype), memoryview(numpy.zeros(3, dtype)), (ctypes.py_object * 2)(1, 2)):
+    with_time = numpy.zeros(2, [("t", "M8[s]"), ("o", "O")])  # of which numpy knows no format
+    for data in (numpy.zeros(3, dtype), memoryview(numpy.zeros(3, dtype)), with_time, with_time[0], numpy.zeros(1, [("a:b", "O")]), (ctypes.py_object * 2)(1, 2)):
         with pytest.raises(ValueError, match="Python objects"):
             writer.write(data)
     assert writer.records == 0
@@ -284,28 +285,6 @@ def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, loo
     gc.collect()
     assert held.read(0).position == 32
     held.close()
-
-
-@pytest.mark.parametrize("dtype", [object, [("O", "f4"), ("b", [("c", "O")])]], ids=str)
-def test_objects_are_no_bytes(writer, dtype):
-    for data in (numpy.zeros(3, dtype), memoryview(numpy.zeros(3, dtype)), (ctypes.py_object * 2)(1, 2)):
-        with pytest.raises(ValueError, match="Python objects"):
-            writer.write(data)
-    assert writer.records == 0
-
-
-@pytest.mark.parametrize("values", [numpy.arange(3), numpy.zeros((2, 3), [("O", "f4"), ("bO", "u1")]), numpy.array(["2026-11-23", "1970-01-01"], "M8[s]"),
-                                    array.array("d", [1, 2]), memoryview(numpy.float32([1, 2])), numpy.float64(7), (ctypes.c_uint16 * 2)(1, 2)], ids=repr)
-def test_whatever_has_a_contiguous_buffer_is_written(writer, ring, values):
-    with mavloom.RingReader(ring, start="oldest") as reader:
-        writer.write(values)
-        assert reader.read(0).data == (values.tobytes() if hasattr(values, "tobytes") else bytes(values))
-
-
-def test_what_is_not_contiguous_is_refused(writer):
-    for data in (numpy.arange(9)[::2], numpy.asfortranarray(numpy.zeros((2, 3)))):
-        with pytest.raises((BufferError, ValueError), match="contiguous"):
-            writer.write(data)
 
 
 @pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
@@ -625,13 +604,21 @@ around.append(around)
 
 # ---- errors
 
+class Index:
+    def __init__(self, number):
+        self._number = number
+
+    def __index__(self):
+        return self._number
+
+
 def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
     with pytest.raises(ValueError, match="16361 bytes: a record of ring .* has at most 16360"):
         writer.write(bytes(writer.longest + 1))
     writer.write(bytes(writer.longest))
     for options, what in (({"link": -1}, "link: -1 is out of range, 0 to 4294967295"), ({"kind": 65536}, "0 to 65535"), ({"verdict": 256}, "0 to 255"),
                           ({"link": 2**64}, "link: 18446744073709551616 is"), ({"time_ns": 2**63}, "time_ns: 9223372036854775808 is out of range, -9223372036854775808 to"),
-                          ({"kind": 10**5000}, "kind: a number with thousands of digits is")):
+                          ({"kind": 10**5000}, "kind: a number with thousands of digits is"), ({"kind": Index(70000)}, "kind: 70000 is")):
         with pytest.raises(ValueError, match=what):
             writer.write(b"", **options)
     for options in ({"link": 1.0}, {"kind": "1"}, {"time_ns": b"1"}):
@@ -1181,19 +1168,21 @@ if not {leaks}:
     assert (left["readers"], left["writer_alive"], left["writer_pid"]) == ([], False, 0), "closed, as by close()"
 
 
-def test_row_3_22_an_exit_with_a_claim_in_hand_closes_its_writer(ring, start):
-    """Nothing is written; a view that outlives the interpreter keeps the writer, whose end then looks like a kill."""
-    process = start("""
+@pytest.mark.parametrize("looks", [False, True], ids=["", "looked at"])
+def test_row_3_22_an_exit_with_a_claim_in_hand_writes_nothing(ring, start, looks):
+    """A view that outlives the interpreter keeps the writer open, whose end then looks like a kill."""
+    process = start(f"""
 writer = mavloom.RingWriter(ring, capacity=1 << 16)
 writer.write(b"abcd")
 claim = writer.claim(8)
-claim.data[:] = bytes(8)
+if {looks}:
+    claim.data[:] = bytes(8)
 threading.Thread(target=lambda: (claim, writer.write(b"never")), daemon=True).start()
 time.sleep(0.1)
 """, ring)
     assert ended(process) == (0, "", "")
     left = status_of(ring)
-    assert (left["records"], left["writer_alive"]) == (1, False)
+    assert (left["records"], left["writer_alive"], left["writer_pid"] != 0) == (1, False, looks)
     with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
         writer.write(b"next")
     with mavloom.RingReader(ring, start="oldest") as reader:
@@ -1338,7 +1327,6 @@ def test_a_signal_handler_that_reads_the_same_reader_costs_no_record(ring, start
 # ---- asyncio: rows 19 and 3.21
 
 MANY_TASKS = """
-import array
 import asyncio
 def threads():
     return len(os.listdir("/proc/self/task"))
@@ -1412,7 +1400,6 @@ def test_row_3_21_the_waiter_tells_and_no_timer(writer, ring, monkeypatch):
 def test_rows_3_21_and_3_23_who_may_only_read_is_told_too(start, ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:
         process = start(AS_NOBODY + """
-import array
 import asyncio
 async def main():
     reader, found = mavloom.RingReader(ring), []
@@ -1560,7 +1547,6 @@ def test_row_3_21_a_loop_of_ones_own(writer, ring):
 @pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
 def test_rows_3_21_and_3_22_an_exit_while_tasks_wait_is_silent(ring, start, leaks):
     process = start(f"""
-import array
 import asyncio
 if {leaks}:
     mavloom._core.set_leak_warnings(True)
@@ -1587,28 +1573,8 @@ if not {leaks}:  # a thread that never ends keeps what it has
     assert (left["readers"], left["writer_alive"], left["writer_pid"]) == ([], False, 0), "closed, as by close()"
 
 
-def test_row_3_22_an_exit_with_a_claim_in_hand_closes_its_writer(ring, start):
-    """Nothing is written; a view that outlives the interpreter keeps the writer, whose end then looks like a kill."""
-    process = start("""
-writer = mavloom.RingWriter(ring, capacity=1 << 16)
-writer.write(b"abcd")
-claim = writer.claim(8)
-claim.data[:] = bytes(8)
-threading.Thread(target=lambda: (claim, writer.write(b"never")), daemon=True).start()
-time.sleep(0.1)
-""", ring)
-    assert ended(process) == (0, "", "")
-    left = status_of(ring)
-    assert (left["records"], left["writer_alive"]) == (1, False)
-    with mavloom.RingWriter(ring, capacity=64 * KIB) as writer:
-        writer.write(b"next")
-    with mavloom.RingReader(ring, start="oldest") as reader:
-        assert [record.data for record in reader] == [b"abcd", b"next"]
-
-
 def test_row_3_21_and_example_11_a_forked_child_has_a_waiter_of_its_own(ring, start):
     process = start("""
-import array
 import asyncio
 writer, reader = mavloom.RingWriter(ring, capacity=1 << 16), mavloom.RingReader(ring)
 async def take(reader, what):

@@ -181,6 +181,6 @@ def end(processes):
         if process.process.returncode != -signal.SIGKILL:
             continue
         names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring") if option in process.args]
-        for left in (f"/run/mavloom/{name}.{end}" for name in names for end in ("ctl", "ctl.lock", "in")):
+        for left in (f"/run/mavloom/{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in")):
             with contextlib.suppress(OSError):
                 os.unlink(left)

@@ -257,6 +257,7 @@ def test_lines_that_a_full_ring_does_not_take(run, spawn, ring):
     reader = spawn("shm", "read", ring, "--from", "oldest", "--lossless", "--data")
     reader.wait_output("^first$", stream="out")
     os.kill(reader.pid, signal.SIGSTOP)
+    harness.wait_for(lambda: pathlib.Path(f"/proc/{reader.pid}/stat").read_text().rpartition(") ")[2][0] == "T", what="a reader that stands still")
     done = run("shm", "write", ring, "--full", "drop_newest", input=("x" * 1000 + "\n") * 100)
     stat = stat_of(run, ring)
     os.kill(reader.pid, signal.SIGCONT)
