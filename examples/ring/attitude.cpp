@@ -23,12 +23,16 @@ int main(int argc, char** argv) {
     }
     shm::RingFollower ring(argv[1], {.lossless = true, .from = shm::ReaderOptions::From::oldest});
     wire::DatagramParser parser(dialect::default_dialect().wire_table());
-    while (const auto record = ring.read(mono_now() + std::chrono::seconds(2))) {
+    const auto next_record = [&] { return ring.read(mono_now() + std::chrono::seconds(2)); };
+    auto record = next_record();
+    for (; record; record = next_record()) {
         parser.parse(record->data, show);
         // All that waits behind it, where it lies: nothing is copied.
         (void)ring.reader()->try_visit(256, [&](const shm::RingRecord& next) { parser.parse(next.data, show); });
     }
     if (const auto* error = ring.error()) std::fprintf(stderr, "%s\n", error->text.c_str());
     std::fprintf(stderr, "%llu records missed\n", static_cast<unsigned long long>(ring.missed()));
-    return ring.opened() == 0 ? 1 : 0;
+    const bool is_damaged = record.error() == shm::ReadError::damaged;
+    if (is_damaged) std::fprintf(stderr, "ring %s is damaged\n", argv[1]);
+    return ring.opened() == 0 || is_damaged ? 1 : 0;
 }

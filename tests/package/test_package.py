@@ -83,13 +83,22 @@ def test_the_example_reads_a_ring(installed, tmp_path):
     name, program = f"package-{os.getpid()}", BUILD / "bin" / "mavloom"
     subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in flight), text=True, check=True,
                    stderr=subprocess.DEVNULL)
+    def read():
+        return subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
     try:
-        done = subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        done = read()
+        with open(f"/dev/shm/mavloom.{name}", "r+b") as ring:  # the length of the record behind the first (docs/formats/ring.md)
+            ring.seek(16384)
+            first = (24 + int.from_bytes(ring.read(4), "little") + 7) // 8 * 8
+            ring.seek(16384 + first)
+            ring.write(b"\xff\xff\xff\x7f")
+        damaged = read()
     finally:
         call(program, "shm", "remove", name)
     assert (done.returncode, done.stderr) == (0, "0 records missed\n")
     assert done.stdout.splitlines(keepends=True) == lines
-    done = subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert (damaged.returncode, damaged.stderr.splitlines()[-1]) == (1, f"ring {name} is damaged")
+    done = read()
     assert done.returncode == 1 and f"there is no ring {name}" in done.stderr
 
 
