@@ -179,7 +179,8 @@ def test_example_11_ctrl_c_ends_the_reading_of_a_file_without_end(read, tmp_path
                 written += len(data)
                 if written > 1 << 20:
                     child.send_signal(signal.SIGINT)
-        assert "KeyboardInterrupt" in child.communicate(timeout=60)[1]
+        child.communicate(timeout=60)
+        assert child.returncode == -signal.SIGINT  # by KeyboardInterrupt, whose traceback further signals may cut short
     finally:
         child.kill()
         child.communicate()
