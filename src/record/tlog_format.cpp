@@ -40,16 +40,6 @@ std::size_t record_length(ByteView bytes) noexcept {
     return length == 0 || time_length + length > bytes.size() ? 0 : time_length + length;
 }
 
-std::size_t joined_record_length(ByteView bytes, std::uint64_t before_us, const wire::MessageTable& table) noexcept {
-    constexpr std::uint64_t day_us = 86'400'000'000;
-    const auto length = record_length(bytes);
-    if (length == 0 || load_be64(bytes.data()) - before_us + day_us > 2 * day_us) return 0;
-    const auto frame = wire::FrameView::unchecked(bytes.subspan(time_length, length - time_length));
-    const auto* info = table.find(frame.id());
-    const bool known = info != nullptr && frame.payload_length() <= info->max_length;
-    return known && (frame.incompat_flags() & ~wire::incompat_signed) == 0 ? length : 0;
-}
-
 Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept {
     if (!has_plausible_time(bytes)) return {};
     const auto size = record_length(bytes);

@@ -11,14 +11,6 @@
 
 namespace mavloom::record {
 
-namespace {
-
-wire::FrameView frame_at(ByteView record, std::size_t length) noexcept {
-    return wire::FrameView::unchecked(record.subspan(time_length, length - time_length));
-}
-
-}  // namespace
-
 TlogReader::TlogReader(File file, std::uint64_t size, const wire::MessageTable& table)
     : file_(std::move(file)),
       table_(&table),
@@ -118,19 +110,19 @@ std::size_t TlogReader::pass_over_to(MessageId id) noexcept {
     std::size_t at = begin_, found = 0;
     std::uint64_t time_us = end_ - at < look_ahead ? 0 : load_be64(buffer_.get() + at);
     while (end_ - at >= look_ahead) {
-        const ByteView bytes{buffer_.get() + at, end_ - at};
-        const auto length = joined_record_length(bytes, time_us, *table_);
-        const bool wanted = length != 0 && frame_at(bytes, length).id() == id;
-        if (length == 0 || (wanted && examine_record(bytes, *table_).kind != Found::Kind::record)) {
+        const auto* const record = buffer_.get() + at;
+        const auto joined = joined_record(record, time_us, *table_);
+        const bool wanted = joined.id == id && joined.length != 0;
+        if (joined.length == 0 || (wanted && examine_record({record, end_ - at}, *table_).kind != Found::Kind::record)) {
             examine_until_ = base_ + at + 1;
             return 0;
         }
         if (wanted) {
-            found = length;
+            found = joined.length;
             break;
         }
-        time_us = load_be64(bytes.data());
-        at += length;
+        time_us = joined.time_us;
+        at += joined.length;
         ++records;
     }
     counters_.records.add(records);
