@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The loop thread behind all links of the process, whatever their dialects: it receives, sends and reconnects without ever touching Python. It runs while a link is open.
+// The loop thread behind all links of the process, whatever their dialects: it receives, sends and reconnects without ever touching Python.
+// It runs while a link is open.
 #pragma once
 
 #include <atomic>

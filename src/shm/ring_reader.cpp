@@ -89,7 +89,8 @@ static std::array<std::uint64_t, 2> program_name() noexcept {
     return words;
 }
 
-// The lock is the claim; who looks at the ring lists the slot once it is attached, with its place. What the slot's last owner left, killed perhaps, is taken back before anything of ours stands there.
+// The lock is the claim; who looks at the ring lists the slot once it is attached, with its place. What the slot's last owner left, killed perhaps,
+// is taken back before anything of ours stands there.
 std::optional<unsigned> RingReader::take_slot() noexcept {
     const auto ring = memory_of(*segment_);
     for (unsigned index = 0; index < reader_slots; ++index) {

@@ -45,7 +45,8 @@ public:
     // What `add` would find wrong with it before anything is opened or waited for: options, and a file that is missing or no recording.
     [[nodiscard]] SetupResult<void> check(const Endpoint& endpoint) const;
 
-    // Opens the endpoint; a ring that is not there is told of by `on_notice` and waited for, without end; a tlog:// is read from `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
+    // Opens the endpoint; a ring that is not there is told of by `on_notice` and waited for, without end; a tlog:// is read from
+    // `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
     [[nodiscard]] SetupResult<EndpointId> add(const Endpoint& endpoint, MonoTime now,
                                               double default_speed = record::Pacer::max_speed, Nanoseconds skip = {});
 
@@ -79,7 +80,8 @@ public:
 
     [[nodiscard]] bool has_recordings() const noexcept { return !recordings_.empty(); }
 
-    // Sends a frame to every live source, to a ring's inlet where there is one: what a destination answered goes back. Returns the number of links that took it.
+    // Sends a frame to every live source, to a ring's inlet where there is one: what a destination answered goes back. Returns the
+    // number of links that took it.
     std::size_t send(const wire::FrameView& frame);
 
     // Adds all that is here now, after asking the kernel for its drops: at the end. What links that went had counted is added by whoever
