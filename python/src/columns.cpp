@@ -27,12 +27,16 @@ std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std
     auto* to = values.get();
     rows.each_run([&](const std::uint8_t* from, std::size_t many, std::size_t stride) {
         from += offset;
-        for (std::size_t i = 0; i < many; ++i, from += stride) {
-            for (std::size_t k = 0; k < count; ++k, to += sizeof(T)) {
-                const T value = load_le<T>(from + k * sizeof(T));
-                std::memcpy(to, &value, sizeof value);
+        const auto copy = [&](std::size_t each) {
+            for (std::size_t i = 0; i < many; ++i, from += stride) {
+                for (std::size_t k = 0; k < each; ++k, to += sizeof(T)) {
+                    const T value = load_le<T>(from + k * sizeof(T));
+                    std::memcpy(to, &value, sizeof value);
+                }
             }
-        }
+        };
+        if (count == 1) copy(1);  // nearly all fields
+        else copy(count);
     });
     return values;
 }

@@ -65,16 +65,17 @@ void TlogReader::lose(std::size_t bytes) noexcept {
     begin_ += bytes;
 }
 
-// Hands out the record at the front.
-Record TlogReader::take(std::size_t size, const wire::MessageInfo* info) noexcept {
+// Hands out the record at the front, made where it is returned: a copy of what was written a moment ago holds the processor up.
+Result<Record, TlogReader::Stop> TlogReader::take(std::size_t size, const wire::MessageInfo* info) noexcept {
     const ByteView bytes = unread().first(size);
     const std::uint64_t offset = position();
     begin_ += size;
     counters_.records.add();
     counters_.record_bytes.add(size);
     if (info == nullptr) counters_.unknown_ids.add();
-    return {wall_from_us(load_be64(bytes.data())), wire::FrameView::unchecked(bytes.subspan(time_length)), info, offset,
-            std::exchange(lost_run_, 0)};
+    return Result<Record, Stop>(tl::in_place, wall_from_us(load_be64(bytes.data())),
+                                wire::FrameView::unchecked(bytes.subspan(time_length)), info, offset,
+                                std::exchange(lost_run_, 0));
 }
 
 Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {

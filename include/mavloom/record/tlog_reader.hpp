@@ -69,7 +69,7 @@ private:
 
     [[nodiscard]] ByteView unread() const noexcept { return {buffer_.get() + begin_, end_ - begin_}; }
     [[nodiscard]] bool needs_more() const noexcept;
-    [[nodiscard]] Record take(std::size_t size, const wire::MessageInfo* info) noexcept;
+    [[nodiscard]] Result<Record, Stop> take(std::size_t size, const wire::MessageInfo* info) noexcept;
     [[nodiscard]] std::size_t pass_over_to(MessageId id) noexcept;
     [[nodiscard]] std::optional<Stop> fill();
     [[nodiscard]] Stop read_failed(SetupError error);
