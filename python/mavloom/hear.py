@@ -128,8 +128,7 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
         if not options.quiet:
             print(text, file=sys.stderr, flush=True)
     with connect(options.url) as link:
-        if link._port.ring == options.ring:
-            raise UsageError(f"ring {options.ring} is what is heard here: it would be filled with itself")
+        link._reader.check_target(options.ring)
         ring = Ring(options)
         try:
             name = ring.writer.name

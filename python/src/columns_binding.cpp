@@ -80,9 +80,8 @@ nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& mess
                           array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), fields);
 }
 
-nb::tuple read_columns_of(const nb::object& path, const std::string& name, const std::optional<Integer>& system,
-                          const std::optional<Integer>& component, std::optional<Instance> instance,
-                          const nb::object& dialect) {
+nb::tuple read_columns_of(const nb::object& path, const std::string& name, const OptionalInteger& system,
+                          const OptionalInteger& component, std::optional<Instance> instance, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = message_of(definitions->dialect(), name, instance.has_value());
     auto reader = open(path, definitions->dialect());
@@ -93,8 +92,8 @@ nb::tuple read_columns_of(const nb::object& path, const std::string& name, const
     return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
 }
 
-nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const std::optional<Integer>& system,
-                         const std::optional<Integer>& component, const nb::object& dialect) {
+nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const OptionalInteger& system,
+                         const OptionalInteger& component, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& known = definitions->dialect();
     const auto infos = known.wire_table().messages();

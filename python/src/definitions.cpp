@@ -149,9 +149,8 @@ nb::tuple enum_entries(const PyDialect& dialect, std::string_view name) {
 }
 
 // A message's own header stands where it is encoded again, unless the caller gives another.
-wire::FrameHeader header_for(const nb::object& message, const std::optional<Integer>& system,
-                             const std::optional<Integer>& component, const std::optional<Integer>& seq,
-                             const std::optional<Integer>& version) {
+wire::FrameHeader header_for(const nb::object& message, const OptionalInteger& system, const OptionalInteger& component,
+                             const OptionalInteger& seq, const OptionalInteger& version) {
     wire::FrameHeader header{.source = {SystemId{255}, ComponentId{190}}};
     if (nb::isinstance<Message>(message)) {
         const auto frame = nb::inst_ptr<Message>(message)->frame();
@@ -164,9 +163,9 @@ wire::FrameHeader header_for(const nb::object& message, const std::optional<Inte
     return header;
 }
 
-nb::bytes encode(const PyDialect& dialect, const nb::object& message, const std::optional<Integer>& system,
-                 const std::optional<Integer>& component, const std::optional<Integer>& seq,
-                 const std::optional<Integer>& version, const nb::kwargs& fields) {
+nb::bytes encode(const PyDialect& dialect, const nb::object& message, const OptionalInteger& system,
+                 const OptionalInteger& component, const OptionalInteger& seq, const OptionalInteger& version,
+                 const nb::kwargs& fields) {
     const auto builder = build(*dialect.definitions, message, fields);
     wire::FrameBuffer buffer;
     const auto bytes = write(buffer, header_for(message, system, component, seq, version), builder).bytes();

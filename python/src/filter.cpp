@@ -34,8 +34,8 @@ Instance instance_of(const dialect::Message& message, const dialect::Field& fiel
     return view.integer(field);
 }
 
-Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const std::optional<Integer>& system,
-                   const std::optional<Integer>& component) {
+Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
+                   const OptionalInteger& component) {
     Filter filter{std::nullopt, in<std::uint8_t>("system", system), in<std::uint8_t>("component", component)};
     if (type.is_none()) return filter;
     auto& ids = filter.ids.emplace();

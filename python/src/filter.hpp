@@ -38,8 +38,8 @@ using Instance = std::variant<std::int64_t, std::string>;
                                    const wire::FrameView& frame);
 
 // `type` is None, a name, a class of mavloom.messages, or an iterable of those; an unknown name raises UsageError with the nearest.
-[[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,
-                                 const std::optional<Integer>& system, const std::optional<Integer>& component);
+[[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
+                                 const OptionalInteger& component);
 
 // Raises TypeError unless `condition` is None or callable: pymavlink's text for eval() is not taken.
 void check_condition(const nb::object& condition);

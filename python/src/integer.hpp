@@ -54,8 +54,10 @@ private:
     bool fits_ = true;
 };
 
+using OptionalInteger = std::optional<Integer>;
+
 template <class T>
-[[nodiscard]] std::optional<T> in(const char* what, const std::optional<Integer>& given) {
+[[nodiscard]] std::optional<T> in(const char* what, const OptionalInteger& given) {
     return given ? std::optional<T>(given->in<T>(what)) : std::nullopt;
 }
 

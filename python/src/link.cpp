@@ -25,8 +25,6 @@
 namespace mavloom::python {
 namespace {
 
-using OptionalInteger = std::optional<Integer>;
-
 // ---- class Subscription
 
 class Subscription {
@@ -78,11 +76,15 @@ public:
         return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
     }
 
+    // A ring to pump into must be another than the one that is read.
+    void check_target(const std::string& ring) const {
+        if (ring == channel().ring_name())
+            raise_usage(fmt::format("ring {} is what is heard here: it would be filled with itself", ring));
+    }
     // Into a ring, without an object for each message; how many. Also after the time what was there when it began, as far as the ring has room.
     std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout) {
         fork_.check();
-        if (writer.name() == channel().ring_name())
-            raise_usage(fmt::format("ring {} is what is read here: it would be filled with itself", writer.name()));
+        check_target(writer.name());
         const auto deadline = deadline_after(timeout);
         const auto end = consumer_->newest();
         for (Pumped pumped;;) {
@@ -311,7 +313,6 @@ public:
     [[nodiscard]] nb::object reader() const { return reader_; }
     [[nodiscard]] PyDialect dialect() const { return {origin_->definitions()}; }
     [[nodiscard]] const std::string& name() const noexcept { return opened_.name; }
-    [[nodiscard]] const std::string& ring() const noexcept { return channel_->ring_name(); }
     [[nodiscard]] int port() const noexcept { return opened_.port; }
     [[nodiscard]] int version() const noexcept { return static_cast<int>(version_); }
     [[nodiscard]] Source target() const {
@@ -391,6 +392,8 @@ void bind_link(nb::module_& module) {
              "The next message of these types for which `condition(message)` is true; what comes before it is passed "
              "over. None when there is none: at once,\n"
              "or with `blocking` after `timeout` seconds.")
+        .def("check_target", &Subscription::check_target, nb::arg("ring"),
+             "UsageError for the name of the ring that is read: `pump` would fill it with itself.")
         .def(
             "pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
             nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
@@ -432,7 +435,6 @@ void bind_link(nb::module_& module) {
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))
         .def_prop_ro("dialect", &Port::dialect)
         .def_prop_ro("name", &Port::name)
-        .def_prop_ro("ring", &Port::ring)
         .def_prop_ro("port", &Port::port)
         .def_prop_ro("version", &Port::version)
         .def_prop_ro("target_system", [](const Port& link) { return link.target().system.value; })

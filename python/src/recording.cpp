@@ -28,8 +28,8 @@ struct RecordingStats {
 
 class Recording {
 public:
-    Recording(std::string path, const nb::object& dialect, const nb::object& type, const std::optional<Integer>& system,
-              const std::optional<Integer>& component)
+    Recording(std::string path, const nb::object& dialect, const nb::object& type, const OptionalInteger& system,
+              const OptionalInteger& component)
         : path_(std::move(path)),
           origin_(std::make_shared<Origin>(definitions_of(dialect))),
           filter_(make_filter(origin_->dialect(), type, system, component)),
@@ -41,8 +41,7 @@ public:
     PyObject* iterate() { return next_match({}, {}).release().ptr(); }
 
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
-                          const nb::object& timeout, const std::optional<Integer>& system,
-                          const std::optional<Integer>& component) {
+                          const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component) {
         check_condition(condition);
         const auto filter = make_filter(origin_->dialect(), type, system, component);
         const Limit limit(timeout);
@@ -198,8 +197,8 @@ void bind_recording(nb::module_& module) {
         "is free while reading. A file that is open is closed by `close()`, `with`, or when the object goes.")
         .def(
             "__init__",
-            [](Recording* self, const nb::object& path, const nb::object& type, const std::optional<Integer>& system,
-               const std::optional<Integer>& component, const nb::object& dialect) {
+            [](Recording* self, const nb::object& path, const nb::object& type, const OptionalInteger& system,
+               const OptionalInteger& component, const nb::object& dialect) {
                 const nb::object bytes = nb::module_::import_("os").attr("fsencode")(path);
                 const auto name = nb::cast<nb::bytes>(bytes);
                 new (self) Recording(std::string(name.c_str(), name.size()), dialect, type, system, component);

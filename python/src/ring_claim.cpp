@@ -71,7 +71,7 @@ public:
         return view_;
     }
 
-    bool commit(const std::optional<Integer>& length, const std::optional<Integer>& time_ns) {
+    bool commit(const OptionalInteger& length, const OptionalInteger& time_ns) {
         if (is_over_) PyRingWriter::raise_over();
         const auto most = claimed_->bytes.size();
         const auto used = length ? length_within(*length, most) : most;
@@ -123,7 +123,7 @@ private:
 
 }  // namespace
 
-nb::object claim_room(const nb::object& writer, const Integer& length, const std::optional<Integer>& time_ns,
+nb::object claim_room(const nb::object& writer, const Integer& length, const OptionalInteger& time_ns,
                       const Integer& link, const Integer& kind, const Integer& verdict) {
     auto& of = nb::cast<PyRingWriter&>(writer);
     const auto info = record_info(time_ns, link, kind, verdict);

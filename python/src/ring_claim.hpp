@@ -13,8 +13,7 @@ namespace mavloom::python {
 void bind_ring_claim(nb::module_& module);
 
 // RingWriter.claim; `writer` is one.
-[[nodiscard]] nb::object claim_room(const nb::object& writer, const Integer& length,
-                                    const std::optional<Integer>& time_ns, const Integer& link, const Integer& kind,
-                                    const Integer& verdict);
+[[nodiscard]] nb::object claim_room(const nb::object& writer, const Integer& length, const OptionalInteger& time_ns,
+                                    const Integer& link, const Integer& kind, const Integer& verdict);
 
 }  // namespace mavloom::python

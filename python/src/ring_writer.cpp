@@ -39,7 +39,7 @@ void close_what_is_left() noexcept {
 
 }  // namespace
 
-shm::RecordInfo record_info(const std::optional<Integer>& time_ns, const Integer& link, const Integer& kind,
+shm::RecordInfo record_info(const OptionalInteger& time_ns, const Integer& link, const Integer& kind,
                             const Integer& verdict) {
     return {time_ns ? wall_time(*time_ns) : wall_now(), LinkId{link.in<std::uint32_t>("link")},
             kind.in<std::uint16_t>("kind"), verdict.in<std::uint8_t>("verdict")};
@@ -312,7 +312,7 @@ void bind_ring_writer(nb::module_& module) {
              "full; InputError for a file that is no ring of this version, which stays as it is.")
         .def(
             "write",
-            [](PyRingWriter& writer, const nb::object& data, const std::optional<Integer>& time_ns, const Integer& link,
+            [](PyRingWriter& writer, const nb::object& data, const OptionalInteger& time_ns, const Integer& link,
                const Integer& kind,
                const Integer& verdict) { return writer.write(data, record_info(time_ns, link, kind, verdict)); },
             "data"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0, "kind"_a = 0, "verdict"_a = 0,

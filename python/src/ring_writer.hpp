@@ -31,8 +31,8 @@ struct Claimed {
 };
 
 // As users give it: now unless a time is given; UsageError for what is out of range.
-[[nodiscard]] shm::RecordInfo record_info(const std::optional<Integer>& time_ns, const Integer& link,
-                                          const Integer& kind, const Integer& verdict);
+[[nodiscard]] shm::RecordInfo record_info(const OptionalInteger& time_ns, const Integer& link, const Integer& kind,
+                                          const Integer& verdict);
 [[nodiscard]] WallTime wall_time(const Integer& time_ns);
 
 class PyRingWriter {

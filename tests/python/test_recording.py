@@ -125,8 +125,9 @@ print(left, os.waitpid(pid, 0)[1])
 def test_counters_are_shown(flight):
     log, parser, dialect = mavloom.read(flight), mavloom.Parser(), mavloom.Dialect()
     assert (repr(log.stats), repr(parser)) == ("RecordingStats()", "Parser()")
-    messages = sum(1 for _ in log)
-    assert repr(log.stats) == f"RecordingStats(records={messages}, record_bytes={flight.stat().st_size})"
+    for _ in log:
+        pass
+    assert repr(log.stats) == f"RecordingStats(records={FRAMES}, record_bytes={flight.stat().st_size})"
     parser.feed(b"junk" + dialect.encode("HEARTBEAT"))
     assert repr(parser) == "Parser(frames=1, junk_bytes=4)"
     with mavloom.connect("udpin://127.0.0.1:0") as receiver, mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender:
