@@ -69,6 +69,7 @@ Exit check(const Common& common, const Options& options) {
         return fail(checked.error());
     if (const auto checked = runtime::check_key_files(*config, options.file); !checked) return fail(checked.error());
     for (const auto& note : config->notes) say(common, note);
+    for (const auto& warning : runtime::config_warnings(*config, options.file, *dialect)) say(common, warning);
     Output output;
     if (options.json) print_json(output.buffer(), *config, options.file);
     else print_text(output.buffer(), *config, options.file);

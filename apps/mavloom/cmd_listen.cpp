@@ -4,7 +4,7 @@
 
 #include "command.hpp"
 #include "counted.hpp"
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/format.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
@@ -142,7 +142,7 @@ Exit listen(const Common& common, Options& options) {
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     const dialect::Message* csv = nullptr;
     if (!options.csv.empty()) {
-        const auto message = edit::find_message(*dialect, options.csv);
+        const auto message = dialect::find_message(*dialect, options.csv);
         if (!message) return fail(SetupError(message.error()).within("--csv"));
         csv = *message;
     }

@@ -188,6 +188,7 @@ Exit relay(const Common& common, Options& options) {
     if (auto checked = check_words(options); !checked) return fail(checked.error());
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
+    for (const auto& warning : (*stage)->warnings()) say(common, warning);
     auto sources = runtime::Sources::create(*dialect, runtime::Copies::left_out);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
@@ -216,7 +217,9 @@ Run declare_relay(Arguments command, const Common& common) {
     command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")
         .delimiter(',')
         .type_name("NAMES");
-    command.add_option("--max-rate", edit.max_rate, "at most this many a second of each source: ATTITUDE:10,*:50")
+    command
+        .add_option("--max-rate", edit.max_rate,
+                    "at most this many a second of each source; * is telemetry: ATTITUDE:10,*:50")
         .delimiter(',')
         .type_name("MESSAGE:HZ");
     auto v1 = command.add_flag("--as-v1", options->as_v1,

@@ -182,7 +182,7 @@ private:
 
 SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& dialect, const std::string& text) {
     if (text == "*") return std::nullopt;
-    const auto id = edit::find_message_id(dialect, text);
+    const auto id = dialect::find_message_id(dialect, text);
     if (!id) return tl::unexpected(SetupError(id.error()).within("--explain"));
     return *id;
 }

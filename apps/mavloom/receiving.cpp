@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 
 namespace mavloom::app {
 
@@ -33,7 +33,7 @@ void Selection::declare(Arguments command) {
 
 SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
     for (const auto& word : only) {
-        auto id = edit::find_message_id(dialect, word);
+        auto id = dialect::find_message_id(dialect, word);
         if (!id) return tl::unexpected(std::move(id.error()).within("--only"));
         ids_.push_back(*id);
     }

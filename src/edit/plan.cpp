@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 #include "mavloom/message/builder.hpp"
 
 namespace mavloom::edit {
@@ -31,26 +31,8 @@ std::optional<T> number(std::string_view text) {
 template <class F>
 SetupResult<void> for_all_terms(const std::vector<std::string>& lists, std::string_view option, F&& each) {
     for (const std::string& list : lists)
-        if (auto done = for_each_term(list, each); !done) return tl::unexpected(std::move(done.error()).within(option));
-    return {};
-}
-
-SetupResult<void> add_rate(const dialect::Dialect& dialect, std::string_view text,
-                           std::vector<RateLimiter::Rate>& rates, std::optional<Nanoseconds>& others) {
-    const auto term = parse_rate_term(text);
-    if (!term) return tl::unexpected(term.error());
-    constexpr double ten_years_ns = 3653 * 86400e9;
-    const Nanoseconds interval{std::llround(std::min(1e9 / term->rate_hz, ten_years_ns))};
-    if (term->message == "*") {
-        if (others) return usage("'*' has two rates");
-        others = interval;
-        return {};
-    }
-    const auto id = find_message_id(dialect, term->message);
-    if (!id) return tl::unexpected(id.error());
-    const auto same = [&](const RateLimiter::Rate& rate) { return rate.id == id->value; };
-    if (std::any_of(rates.begin(), rates.end(), same)) return usage(fmt::format("'{}' has two rates", term->message));
-    rates.push_back({id->value, interval});
+        if (auto done = dialect::for_each_term(list, each); !done)
+            return tl::unexpected(std::move(done.error()).within(option));
     return {};
 }
 
@@ -102,6 +84,22 @@ SetupResult<Patch> make_patch(const dialect::Dialect& dialect, std::string_view 
     return patch;
 }
 
+SetupResult<void> add_rates(const dialect::Dialect& dialect, const std::vector<std::string>& lists, Plan& plan) {
+    std::vector<dialect::RateTerm> terms;
+    auto done = for_all_terms(lists, "--max-rate", [&](std::string_view text) -> SetupResult<void> {
+        auto term = dialect::parse_rate_term(text);
+        if (term) terms.push_back(std::move(*term));
+        return term ? SetupResult<void>{} : tl::unexpected(std::move(term.error()));
+    });
+    if (!done) return done;
+    auto rates = dialect::Rates::compile(dialect, terms);
+    if (!rates) return tl::unexpected(std::move(rates.error()).within("--max-rate"));
+    plan.limiter = dialect::RateLimiter<WallTime>(std::move(*rates));
+    for (const auto& warning : rate_warnings(dialect, terms))
+        plan.warnings.push_back(fmt::format("--max-rate {}", warning));
+    return {};
+}
+
 SetupResult<std::uint8_t> system_id(std::string_view text) {
     const auto id = number<unsigned>(text);
     if (!id || *id == 0 || *id > 255) return usage(fmt::format("'{}' is no system id (1 to 255)", text));
@@ -137,7 +135,7 @@ SystemMap identity_map() noexcept {
 SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& options) {
     Plan plan;
     auto done = for_all_terms(options.only, "--only", [&](std::string_view name) -> SetupResult<void> {
-        const auto id = find_message_id(dialect, name);
+        const auto id = dialect::find_message_id(dialect, name);
         if (!id) return tl::unexpected(id.error());
         plan.only.push_back(id->value);
         return {};
@@ -145,12 +143,7 @@ SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& opti
     if (!done) return tl::unexpected(std::move(done.error()));
     std::sort(plan.only.begin(), plan.only.end());
 
-    std::vector<RateLimiter::Rate> rates;
-    std::optional<Nanoseconds> others;
-    done = for_all_terms(options.max_rate, "--max-rate",
-                         [&](std::string_view term) { return add_rate(dialect, term, rates, others); });
-    if (!done) return tl::unexpected(std::move(done.error()));
-    plan.limiter = RateLimiter(std::move(rates), others);
+    if (done = add_rates(dialect, options.max_rate, plan); !done) return tl::unexpected(std::move(done.error()));
 
     done = for_all_terms(options.remap_system, "--remap-system",
                          [&](std::string_view term) { return add_remap(term, plan); });

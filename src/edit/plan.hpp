@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "edit/rate_limiter.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
+#include "mavloom/dialect/rate_limiter.hpp"
 #include "mavloom/edit/stage.hpp"
 
 namespace mavloom::edit {
@@ -28,9 +29,10 @@ using SystemMap = std::array<std::uint8_t, 256>;  // what each system id becomes
 struct Plan {
     std::vector<std::uint32_t> only;  // by rising id; empty: all
     std::vector<Patch> patches;       // by rising id
-    RateLimiter limiter;
+    dialect::RateLimiter<WallTime> limiter;
     SystemMap forward = identity_map(), backward = identity_map();
     bool remaps = false;
+    std::vector<std::string> warnings;  // rates that break protocols
 
     [[nodiscard]] bool admits(std::uint32_t id) const noexcept {
         return only.empty() || std::binary_search(only.begin(), only.end(), id);

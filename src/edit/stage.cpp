@@ -45,6 +45,7 @@ public:
     }
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    [[nodiscard]] std::span<const std::string> warnings() const noexcept { return plan_.warnings; }
 
 private:
     static Outcome dropped(Verdict verdict, Counter& counter) noexcept {
@@ -100,5 +101,6 @@ Outcome Stage::forward(const wire::FrameView& frame, WallTime received, WallTime
 }
 Outcome Stage::backward(const wire::FrameView& frame) noexcept { return impl_->backward(frame); }
 const Counters& Stage::counters() const noexcept { return impl_->counters(); }
+std::span<const std::string> Stage::warnings() const noexcept { return impl_->warnings(); }
 
 }  // namespace mavloom::edit

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mavloom/route/essential.hpp"
+#include "mavloom/dialect/message_class.hpp"
 #include "route/engine_impl.hpp"
 
 namespace mavloom::route {
@@ -357,7 +357,7 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
 }
 
 EgressLimiter::Answer Engine::Impl::limit(Link& link, const Passage& p) noexcept {
-    const auto answer = link.limiter.admit(p.frame, is_essential(p.id), p.now);
+    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.now);
     if (answer == EgressLimiter::Answer::rate_limited) link.counters.out_rate_limited.add();
     if (answer == EgressLimiter::Answer::bytes_limited) link.counters.out_bytes_limited.add();
     return answer;

@@ -4,38 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <chrono>
-#include <cmath>
 
-#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/dialect/terms.hpp"
 
 namespace mavloom::route {
 
 namespace {
 
-constexpr std::uint32_t max_message_id = 0xffffff;  // 24 bits on the wire
-
-SetupResult<std::uint32_t> message_id(const dialect::Dialect& dialect, std::string_view name_or_id) {
-    const bool digits = !name_or_id.empty() && name_or_id.find_first_not_of("0123456789") == std::string_view::npos;
-    if (!digits) {
-        const auto message = dialect.message(name_or_id);
-        if (!message) return tl::unexpected(message.error());
-        return (*message)->id().value;
-    }
-    std::uint32_t id = 0;
-    const auto [end, error] = std::from_chars(name_or_id.data(), name_or_id.data() + name_or_id.size(), id);
-    if (error != std::errc{} || id > max_message_id)
-        return setup_error(SetupCode::usage, fmt::format("'{}' is no message id (0 to {})", name_or_id, max_message_id));
-    return id;
-}
-
 SetupResult<std::vector<std::uint32_t>> message_ids(const dialect::Dialect& dialect, const FilterTerms& terms) {
     std::vector<std::uint32_t> ids;
     for (const std::string& name : terms.messages) {
-        auto id = message_id(dialect, name);
-        if (!id) return tl::unexpected(std::move(id.error()).within(terms.option));
-        ids.push_back(*id);
+        const auto id = dialect::find_message_id(dialect, name);
+        if (!id) return tl::unexpected(SetupError(id.error()).within(terms.option));
+        ids.push_back(id->value);
     }
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -92,35 +73,6 @@ SetupResult<Filter> Filter::compile(const dialect::Dialect& dialect, const Filte
 
 bool Filter::admits_far(std::uint32_t id) const noexcept {
     return far_passes_ != std::binary_search(far_.begin(), far_.end(), id);
-}
-
-static SetupResult<void> add_rate(const dialect::Dialect& dialect, const RateTerm& term, Rates& rates) {
-    const auto wrong = [&](std::string_view what) {
-        return setup_error(SetupCode::usage, fmt::format("'{}' {}", term.message, what));
-    };
-    if (!std::isfinite(term.rate_hz) || term.rate_hz <= 0) return wrong("needs a rate above 0, in Hz");
-    constexpr double ten_years_ns = 3653 * 86400e9;
-    const Nanoseconds interval{std::llround(std::min(1e9 / term.rate_hz, ten_years_ns))};
-    if (term.message == "*") {
-        if (rates.others) return wrong("has two rates");
-        rates.others = interval;
-        return {};
-    }
-    auto id = message_id(dialect, term.message);
-    if (!id) return tl::unexpected(std::move(id.error()));
-    const auto at = std::lower_bound(rates.named.begin(), rates.named.end(), *id,
-                                     [](const Rates::Named& n, std::uint32_t v) { return n.id < v; });
-    if (at != rates.named.end() && at->id == *id) return wrong("has two rates");
-    rates.named.insert(at, {*id, interval});
-    return {};
-}
-
-SetupResult<Rates> Rates::compile(const dialect::Dialect& dialect, std::span<const RateTerm> terms) {
-    Rates rates;
-    for (const RateTerm& term : terms)
-        if (auto done = add_rate(dialect, term, rates); !done)
-            return tl::unexpected(std::move(done.error()).within("max_rate"));
-    return rates;
 }
 
 }  // namespace mavloom::route

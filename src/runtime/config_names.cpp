@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/rates.hpp"
 #include "mavloom/runtime/config.hpp"
 
 namespace mavloom::runtime {
@@ -31,7 +31,7 @@ std::string unknown_in(const Endpoint& endpoint, std::string_view key, const dia
         for (const RateTerm& term : o.max_rate)
             if (term.message != "*") names.push_back(term.message);
     for (const auto name : names)
-        if (const auto id = edit::find_message_id(dialect, name); !id) return id.error().text;
+        if (const auto id = dialect::find_message_id(dialect, name); !id) return id.error().text;
     return {};
 }
 
@@ -48,6 +48,19 @@ SetupResult<void> check_message_names(const Config& config, std::string_view fil
         ++endpoint;
     }
     return {};
+}
+
+std::vector<std::string> config_warnings(const Config& config, std::string_view file_name,
+                                         const dialect::Dialect& dialect) {
+    std::vector<std::string> warnings;
+    auto endpoint = config.endpoints.begin();
+    for (const Section& section : config.sections) {
+        if (section.name != "endpoint") continue;
+        for (const auto& warning : dialect::rate_warnings(dialect, endpoint->options.max_rate))
+            warnings.push_back(fmt::format("{}:{}: max_rate={}", file_name, line_of(section, "max_rate"), warning));
+        ++endpoint;
+    }
+    return warnings;
 }
 
 }  // namespace mavloom::runtime

@@ -30,7 +30,7 @@ inline constexpr SchemeSet address_schemes = udp_schemes | tcp_schemes;
 
 [[nodiscard]] std::span<const std::string_view> scheme_names() noexcept;
 
-using edit::parse_positive;
+using dialect::parse_positive;
 using mavloom::in_quotes;
 using mavloom::shown;
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 #include "runtime/endpoint_parts.hpp"
 
 namespace mavloom::runtime {
@@ -68,7 +68,7 @@ const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
 SetupResult<void> add_filter_term(FilterTerms& terms, std::string_view text) {
     const auto colon = text.find(':');
     if (colon == std::string_view::npos) {
-        auto message = edit::parse_message_term(text);
+        auto message = dialect::parse_message_term(text);
         if (!message) return tl::unexpected(message.error());
         terms.messages.push_back(std::move(*message));
         return {};
@@ -133,15 +133,15 @@ bool is_ring_name(std::string_view text) noexcept {
 
 SetupResult<FilterTerms> parse_filter(std::string_view text) {
     FilterTerms terms;
-    const auto done = edit::for_each_term(text, [&](std::string_view term) { return add_filter_term(terms, term); });
+    const auto done = dialect::for_each_term(text, [&](std::string_view term) { return add_filter_term(terms, term); });
     if (!done) return tl::unexpected(done.error());
     return terms;
 }
 
 SetupResult<std::vector<RateTerm>> parse_rates(std::string_view text) {
     std::vector<RateTerm> terms;
-    const auto done = edit::for_each_term(text, [&](std::string_view part) -> SetupResult<void> {
-        auto term = edit::parse_rate_term(part);
+    const auto done = dialect::for_each_term(text, [&](std::string_view part) -> SetupResult<void> {
+        auto term = dialect::parse_rate_term(part);
         if (!term) return tl::unexpected(term.error());
         const auto same = [&](const RateTerm& other) { return other.message == term->message; };
         if (std::any_of(terms.begin(), terms.end(), same)) return usage(fmt::format("{} has two rates", term->message));

@@ -2,30 +2,10 @@
 #include "runtime/links_message_class.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <iterator>
 
-#include "mavloom/route/essential.hpp"
+#include "mavloom/dialect/message_class.hpp"
 
 namespace mavloom::runtime {
-
-// Telemetry of which each one counts: pieces of a whole, one of many, answers, or several things told apart by a field that the definition
-// does not mark `instance`. docs/guide/queues.md has the names.
-static constexpr std::uint32_t never_replaced[] = {
-    34,    35,    67,    100,   107,   112,   113,   114,   118,   120,   123,   126,   127,   128,
-    130,   131,   133,   134,   142,   148,   149,   169,   170,   171,   172,   180,   184,   217,
-    219,   225,   233,   244,   246,   247,   248,   249,   259,   260,   262,   263,   266,   267,
-    271,   275,   276,   283,   301,   311,   330,   331,   339,   340,   350,   385,   386,   387,
-    388,   396,   410,   411,   413,   414,   415,   435,   510,   515,   11001, 11003, 11005, 11034,
-    11036, 11037, 12900, 12901, 12902, 12903, 12904, 12905, 12915, 12918, 12919, 50002, 52601, 60040,
-};
-
-static_assert(std::is_sorted(std::begin(never_replaced), std::end(never_replaced)));
-
-template <class List>
-static bool has(const List& list, MessageId id) {
-    return std::binary_search(std::begin(list), std::end(list), id.value);
-}
 
 MessageClasses::MessageClasses(const wire::MessageTable& table) {
     for (const wire::MessageInfo& info : table.messages()) set(info, nullptr, false);
@@ -43,13 +23,10 @@ MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
 
 void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* instance, bool instances_known) {
     Rule rule;
-    if (route::is_essential(info.id)) {
-        rule.block_class = 0;
-    } else if (info.target_system_offset != wire::MessageInfo::no_target) {
-        rule.block_class = 1;
-    } else {
-        rule.replaceable = instances_known && !has(never_replaced, info.id);
-    }
+    const auto message_class = dialect::class_of(info.id, &info);
+    rule.block_class = static_cast<std::uint8_t>(message_class);
+    rule.replaceable = instances_known && message_class == dialect::MessageClass::telemetry &&
+                       dialect::meaning_of(info.id) == dialect::FrameMeaning::latest;
     if (instance != nullptr) {
         rule.instance_offset = instance->offset;
         rule.instance_size = static_cast<std::uint8_t>(instance->size());

@@ -156,11 +156,10 @@ SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
     if (!in) return tl::unexpected(std::move(in.error()));
     auto out = route::Filter::compile(dialect_, terms_of("out_allow", o.out_allow), terms_of("out_block", o.out_block));
     if (!out) return tl::unexpected(std::move(out.error()));
-    std::vector<route::RateTerm> terms;
-    terms.reserve(o.max_rate.size());
-    for (const auto& term : o.max_rate) terms.push_back({term.message, term.rate_hz});
-    auto rates = route::Rates::compile(dialect_, terms);
-    if (!rates) return tl::unexpected(std::move(rates.error()));
+    auto rates = dialect::Rates::compile(dialect_, o.max_rate);
+    if (!rates) return tl::unexpected(std::move(rates.error()).within("max_rate"));
+    for (const auto& warning : dialect::rate_warnings(dialect_, o.max_rate))
+        notice_(LogLevel::warning, fmt::format("{}: max_rate={}", endpoint.label(), warning));
     policy.in = std::move(*in);
     policy.out = std::move(*out);
     policy.max_rate = std::move(*rates);

@@ -43,7 +43,10 @@ route::LinkPolicy policy_from(Input& in) {
     policy.tap = (bits & 0x70) == 0x10;
     policy.is_private = (bits & 0x70) == 0x20;
     if ((bits & 0x70) == 0x30) policy.max_bytes_per_s = in.byte();
-    if ((bits & 0x70) == 0x40) policy.max_rate.others = std::chrono::milliseconds{in.byte()};
+    if ((bits & 0x70) == 0x40) {
+        const std::vector<dialect::RateTerm> terms{{"*", 1000.0 / (1 + in.byte())}};
+        policy.max_rate = *dialect::Rates::compile(dialect::default_dialect(), terms);
+    }
     if ((bits & 0x80) != 0) policy.route_timeout = std::chrono::milliseconds{in.byte() * 100};
     return policy;
 }

@@ -107,6 +107,17 @@ def test_messages_of_a_dialect_file_are_known(run, tmp_path):
     assert run("check", path, "--dialect", tmp_path / "mine.xml").status == 0
 
 
+def test_a_rate_that_breaks_a_protocol_is_warned_of(run, tmp_path, udp_port):
+    path = tmp_path / "router.toml"
+    path.write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\nmax_rate = {{COMMAND_ACK = 1, "*" = 10}}\n')
+    checked, routed = run("check", path), run("route", "--config", path, "--for", "0.1")
+
+    harm = "max_rate=COMMAND_ACK:1 drops COMMAND_ACK frames over that rate: commands and their answers may get lost"
+    assert (checked.status, routed.status) == (0, 0)
+    assert f"{path}:3: {harm}" in checked.stderr
+    assert f": {harm}" in routed.stderr
+
+
 def test_variables_that_set_nothing(run, tmp_path):
     path = tmp_path / "router.toml"
     path.write_text(GOOD)

@@ -9,6 +9,8 @@ import pytest
 
 import frames
 import harness
+from frames import mavlink
+from recorded_px4 import PARAMETERS, RecordedPx4, Station
 
 pytestmark = pytest.mark.short
 
@@ -355,3 +357,30 @@ def test_help_teaches(run):
     assert done.status == 0
     for word in ("--to", "--set", "--remap-system", "--only", "--max-rate", "--as-v1", "--sign", "--resequence", "Examples"):
         assert word in done.stdout
+
+
+def test_a_rate_for_all_leaves_protocols_whole(spawn, udp_port):
+    """`--max-rate '*:10'` thins telemetry: a ground station behind it gets every parameter, uploads a mission and arms."""
+    station = Station(f"udpin:127.0.0.1:{udp_port()}")
+    relay = spawn("relay", "udpin://127.0.0.1:0", "--to", f"udpout://127.0.0.1:{station.connection.port.getsockname()[1]}", "--max-rate", "*:10", "--json")
+    port = int(relay.wait_output(r"listening on port (\d+)", stream="err")[1])
+    with RecordedPx4(port) as vehicle:
+        station.wait_vehicle()
+        parameters = station.fetch_parameters()
+        mission, result = station.upload_mission(), station.arm()
+    station.close()
+    edit = json.loads(relay.stop().stdout)["stats"]["edit"]
+
+    assert len(parameters) == PARAMETERS + 1 and parameters[65535] == "_HASH_CHECK"
+    assert mission == (0, 6) and result == 0
+    assert vehicle.unanswered == []
+    assert edit["rate_limited"] > 0
+
+
+def test_a_rate_for_a_command_is_limited_with_a_warning(spawn):
+    path = Path(spawn, "--max-rate", "COMMAND_ACK:1")
+    acks = [mavlink.MAVLink_command_ack_message(400, result, 0, 0, 255, 190).pack(frames.sender()) for result in range(3)]
+    beat = next(frames.heartbeats(1))
+
+    assert path.through(*acks, beat, count=2) == [acks[0], beat]
+    assert "--max-rate COMMAND_ACK:1 drops COMMAND_ACK frames over that rate: commands and their answers may get lost" in path.relay.stderr

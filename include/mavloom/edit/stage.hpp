@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Options {
     std::vector<std::string> set{};           // "MESSAGE.field=value"; applied after remap_system
     std::vector<std::string> remap_system{};  // "A=B": source and target system; all at once, so "1=2" and "2=1" swap
     std::vector<std::string> only{};          // message names or ids
-    // "ATTITUDE:10", "*:50" for all others: of each source and message, counted in the frames' own time.
+    // "ATTITUDE:10", "*:50" for all other telemetry (dialect/rates.hpp): of each source and message, counted in the frames' own time.
     std::vector<std::string> max_rate{};
     std::optional<wire::Version> as_version{};
     std::optional<wire::SigningKey> sign_key{};
@@ -71,6 +72,8 @@ public:
     [[nodiscard]] Outcome backward(const wire::FrameView& frame) noexcept;
 
     [[nodiscard]] const Counters& counters() const noexcept;
+    // Options that will do harm, one line each: a rate on a message that a protocol waits for.
+    [[nodiscard]] std::span<const std::string> warnings() const noexcept;
 
 private:
     class Impl;

@@ -17,6 +17,7 @@
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/dialect/rates.hpp"
 #include "mavloom/route/choices.hpp"
 #include "mavloom/route/filter.hpp"
 #include "mavloom/wire/frame.hpp"
@@ -44,7 +45,7 @@ struct LinkPolicy {
     std::uint32_t group_order = 0;          // `primary`: the lowest first; equal ones in the order of adding
     bool tap = false;                       // gets every good frame, whatever its verdict; contributes nothing
     bool is_private = false;  // nothing from it is forwarded; gets only what is targeted at exactly a pair heard on it
-    Rates max_rate{};
+    dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
     std::optional<Nanoseconds> route_timeout{};  // instead of the router's: for links of high latency
 };

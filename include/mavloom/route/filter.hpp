@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Which frames a link takes in or gives out, and how often: filter terms and rates as users type them, looked up once against a dialect.
-// A frame must match every kind of term (message, system, component) that the allow list names, and none that the block list names.
-// Immutable values, safe from any thread; compiling allocates, asking does not. DESIGN.md section 4.
+// Which frames a link takes in or gives out: filter terms as users type them, looked up once against a dialect. A frame must match every kind of term (message, system, component) that the allow list names, and none that the block list names.
+// Immutable values, safe from any thread; compiling allocates, asking does not. docs/guide/routing.md,
+// "Filters and limits".
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/base/result.hpp"
 
@@ -60,25 +58,6 @@ private:
     std::array<std::uint64_t, near_size / 64> near_;
     bool far_passes_ = true;            // ids beyond that are not among far_
     std::vector<std::uint32_t> far_{};  // rising; those of which the opposite holds
-};
-
-// "ATTITUDE:10" or "*:50": at most so many a second of each source and message.
-struct RateTerm {
-    std::string_view message;  // a name, an id, or "*" for all that are not named
-    double rate_hz = 0;
-};
-
-struct Rates {
-    struct Named {
-        std::uint32_t id = 0;
-        Nanoseconds interval{};
-    };
-    std::vector<Named> named{};  // by rising id
-    std::optional<Nanoseconds> others{};
-    [[nodiscard]] bool empty() const noexcept { return named.empty() && !others; }
-
-    // The error is `usage` and begins with "max_rate".
-    [[nodiscard]] static SetupResult<Rates> compile(const dialect::Dialect& dialect, std::span<const RateTerm> terms);
 };
 
 }  // namespace mavloom::route

@@ -91,6 +91,10 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] SetupResult<void> check_message_names(const Config& config, std::string_view file_name,
                                                     const dialect::Dialect& dialect);
 
+// What the configuration will do that somebody may not want, one line each with file and line: a rate on a message that a protocol waits for.
+[[nodiscard]] std::vector<std::string> config_warnings(const Config& config, std::string_view file_name,
+                                                       const dialect::Dialect& dialect);
+
 // Reads the key files that the endpoints name. An error is `bad_input`, with file and line.
 [[nodiscard]] SetupResult<void> check_key_files(const Config& config, std::string_view file_name);
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 #include "mavloom/route/choices.hpp"
 
 namespace mavloom::runtime {
@@ -38,7 +38,7 @@ struct FilterTerms {
     friend bool operator==(const FilterTerms&, const FilterTerms&) = default;
 };
 
-using edit::RateTerm;
+using dialect::RateTerm;
 
 using route::GroupMode;
 

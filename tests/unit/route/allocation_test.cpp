@@ -13,7 +13,7 @@ TEST(Engine, AllocatesNothingForAFrame) {
     test::Network network({.dedup = std::chrono::milliseconds{250}});
     network.links(2, {.group = GroupId{1}, .group_mode = GroupMode::best});
     network.link({.out = test::make_filter({}, {.messages = {"ATTITUDE"}}), .max_bytes_per_s = 5000});
-    network.link({.tap = true, .max_rate = {.named = {}, .others = std::chrono::milliseconds{20}}});
+    network.link({.tap = true, .max_rate = test::make_rates({{"*", 50}})});
     network.link();
     std::vector<test::Bytes> frames;
     for (std::uint32_t i = 0; i < 5000; ++i) {

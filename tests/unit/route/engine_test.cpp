@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mavloom/route/essential.hpp"
 #include "unit/route/route_frames.hpp"
 
 namespace mavloom::route {
@@ -23,12 +22,6 @@ using testing::UnorderedElementsAre;
 
 constexpr Id gcs{255, 190};
 constexpr Id vehicle{1, 1};
-
-TEST(Essential, KnowsWhatSomebodyWaitsFor) {
-    EXPECT_TRUE(is_essential(MessageId{0}));
-    EXPECT_TRUE(is_essential(MessageId{77}));
-    EXPECT_FALSE(is_essential(MessageId{30}));
-}
 
 TEST(Engine, TakesEachLinkOnce) {
     Engine sut(dialect::default_dialect().wire_table(), {});
@@ -560,9 +553,7 @@ TEST(Engine, GroupTakesAnotherMemberWhereOneFilters) {
     EXPECT_THAT(sut.send(3, "SYS_STATUS", gcs), ElementsAre(1));
 }
 
-LinkPolicy limited(std::vector<RateTerm> terms) {
-    return {.max_rate = *Rates::compile(dialect::default_dialect(), terms)};
-}
+LinkPolicy limited(const std::vector<dialect::RateTerm>& terms) { return {.max_rate = test::make_rates(terms)}; }
 
 TEST(Engine, MaxRateHoldsForEachSourceAndMessage) {
     Network sut;
@@ -588,9 +579,20 @@ TEST(Engine, MaxRateOfAllOthersSparesWhatSomebodyWaitsFor) {
     sut.link();
     sut.link(limited({{"*", 1}}));
 
-    for (int i = 0; i < 5; ++i) EXPECT_THAT(sut.hears(1, vehicle), ElementsAre(2));
-    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), ElementsAre(2));
-    EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), IsEmpty());
+    sut.hears(2, {9, 9});
+    const auto for_it = test::Fields{{"target_system", 9}, {"target_component", 9}};
+    for (std::uint32_t i = 0; i < 5; ++i) {
+        EXPECT_THAT(sut.hears(1, vehicle), ElementsAre(2));
+        EXPECT_THAT(sut.send(1, "PARAM_VALUE", vehicle, {{"param_index", i}}), ElementsAre(2));     // class 0
+        EXPECT_THAT(sut.send(1, "FILE_TRANSFER_PROTOCOL", vehicle, for_it), ElementsAre(2));        // class 1
+        EXPECT_THAT(sut.send(1, "ENCAPSULATED_DATA", vehicle, {{"seqnr", i}}), ElementsAre(2));     // a piece
+        EXPECT_THAT(sut.send(1, "EVENT", vehicle, {{"sequence", i}}), ElementsAre(2));              // an event
+        EXPECT_THAT(sut.send(1, "AVAILABLE_MODES", vehicle, {{"mode_index", i}}), ElementsAre(2));  // an answer
+    }
+    for (const auto* thinned : {"ATTITUDE", "ADSB_VEHICLE", "CAMERA_SETTINGS"}) {
+        EXPECT_THAT(sut.send(1, thinned, vehicle), ElementsAre(2)) << thinned;
+        EXPECT_THAT(sut.send(1, thinned, vehicle), IsEmpty()) << thinned;
+    }
 }
 
 TEST(Engine, MaxRateThatNamesAMessageHoldsForIt) {

@@ -80,31 +80,5 @@ TEST(Filter, RefusesAnIdBeyond24Bits) {
     EXPECT_FALSE(Filter::compile(definitions(), {"in_allow", messages, {}, {}}, {}).has_value());
 }
 
-TEST(Rates, AreIntervalsByRisingId) {
-    const RateTerm terms[] = {{"ATTITUDE", 10}, {"0", 0.5}, {"*", 50}};
-    const auto sut = Rates::compile(definitions(), terms);
-
-    ASSERT_TRUE(sut.has_value());
-    ASSERT_EQ(sut->named.size(), 2u);
-    EXPECT_EQ(sut->named[0].id, 0u);
-    EXPECT_EQ(sut->named[0].interval, std::chrono::seconds{2});
-    EXPECT_EQ(sut->named[1].id, 30u);
-    EXPECT_EQ(sut->named[1].interval, std::chrono::milliseconds{100});
-    EXPECT_EQ(sut->others, std::chrono::milliseconds{20});
-}
-
-TEST(Rates, RefuseWhatIsNoRate) {
-    const auto error_of = [](std::vector<RateTerm> terms) {
-        const auto rates = Rates::compile(definitions(), terms);
-        return rates ? std::string("accepted") : rates.error().text;
-    };
-
-    EXPECT_EQ(error_of({{"ATTITUDE", 0}}), "max_rate: 'ATTITUDE' needs a rate above 0, in Hz");
-    EXPECT_EQ(error_of({{"*", std::numeric_limits<double>::infinity()}}), "max_rate: '*' needs a rate above 0, in Hz");
-    EXPECT_EQ(error_of({{"ATTITUDE", 1}, {"30", 2}}), "max_rate: '30' has two rates");
-    EXPECT_EQ(error_of({{"*", 1}, {"*", 2}}), "max_rate: '*' has two rates");
-    EXPECT_THAT(error_of({{"ATITUDE", 1}}), HasSubstr("ATTITUDE"));
-}
-
 }  // namespace
 }  // namespace mavloom::route

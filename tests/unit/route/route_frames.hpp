@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mavloom/dialect/dialect.hpp"
+#include "mavloom/dialect/rates.hpp"
 #include "mavloom/route/engine.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 #include "support/bytes.hpp"
@@ -125,6 +126,12 @@ inline Filter make_filter(const Terms& allow, const Terms& block) {
                                   {"block", block.messages, block.systems, block.components});
     if (!filter) throw std::invalid_argument(filter.error().text);
     return *filter;
+}
+
+inline dialect::Rates make_rates(const std::vector<dialect::RateTerm>& terms) {
+    auto rates = dialect::Rates::compile(dialect::default_dialect(), terms);
+    if (!rates) throw std::invalid_argument(rates.error().text);
+    return *rates;
 }
 
 }  // namespace mavloom::route::test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 
 #include <gmock/gmock.h>
 
-namespace mavloom::edit {
+namespace mavloom::dialect {
 namespace {
 
 using testing::ElementsAre;
@@ -45,7 +45,7 @@ TEST(Terms, AreSeparatedByCommas) {
 }
 
 TEST(Terms, AreLookedUpByNameOrId) {
-    const auto& dialect = dialect::default_dialect();
+    const auto& dialect = default_dialect();
 
     EXPECT_EQ(find_message_id(dialect, "ATTITUDE")->value, 30u);
     EXPECT_EQ(find_message_id(dialect, "16777215")->value, 16777215u);
@@ -55,4 +55,4 @@ TEST(Terms, AreLookedUpByNameOrId) {
 }
 
 }  // namespace
-}  // namespace mavloom::edit
+}  // namespace mavloom::dialect

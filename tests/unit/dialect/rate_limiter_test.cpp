@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "edit/rate_limiter.hpp"
+#include "mavloom/dialect/rate_limiter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,12 @@
 
 #include "mavloom/wire/frame_writer.hpp"
 
-namespace mavloom::edit {
+namespace mavloom::dialect {
 namespace {
 
 using namespace std::chrono_literals;
+
+using Limiter = RateLimiter<WallTime>;
 
 constexpr WallTime t0{1'700'000'000s};
 
@@ -23,26 +25,28 @@ struct Heartbeat {
     wire::FrameView frame;
 };
 
-int admitted(RateLimiter& limiter, const Heartbeat& heartbeat, Nanoseconds period, int frames) {
+Limiter limiter_of(const std::vector<RateTerm>& terms) { return Limiter(*Rates::compile(default_dialect(), terms)); }
+
+int admitted(Limiter& limiter, const Heartbeat& heartbeat, Nanoseconds period, int frames) {
     int count = 0;
     for (int i = 0; i < frames; ++i) count += limiter.admit(heartbeat.frame, t0 + i * period);
     return count;
 }
 
 TEST(RateLimiter, WithoutRatesAdmitsEverything) {
-    RateLimiter sut;
+    Limiter sut;
 
     EXPECT_EQ(admitted(sut, Heartbeat(), 0ns, 100), 100);
 }
 
 TEST(RateLimiter, KeepsTheRateOfAStreamThatIsALittleFaster) {
-    RateLimiter sut({{0, 100ms}}, {});
+    Limiter sut = limiter_of({{"HEARTBEAT", 10}});
 
     EXPECT_NEAR(admitted(sut, Heartbeat(), 83333333ns, 1200), 1000, 1);  // 12 Hz for 100 s, limited to 10 Hz
 }
 
 TEST(RateLimiter, LeavesSlowerStreamsAlone) {
-    RateLimiter sut({{0, 100ms}}, {});
+    Limiter sut = limiter_of({{"HEARTBEAT", 10}});
 
     EXPECT_EQ(admitted(sut, Heartbeat(), 100ms, 100), 100);
     EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 + 1h));
@@ -51,7 +55,7 @@ TEST(RateLimiter, LeavesSlowerStreamsAlone) {
 }
 
 TEST(RateLimiter, CountsSourcesAndMessagesApart) {
-    RateLimiter sut({{0, 1s}}, {});
+    Limiter sut = limiter_of({{"HEARTBEAT", 1}});
 
     EXPECT_TRUE(sut.admit(Heartbeat(1).frame, t0));
     EXPECT_TRUE(sut.admit(Heartbeat(2).frame, t0));
@@ -61,7 +65,7 @@ TEST(RateLimiter, CountsSourcesAndMessagesApart) {
 }
 
 TEST(RateLimiter, TheRateForOthersIsForEachOfThem) {
-    RateLimiter sut({{0, 1s}}, 2s);
+    Limiter sut = limiter_of({{"HEARTBEAT", 1}, {"*", 0.5}});
 
     EXPECT_TRUE(sut.admit(Heartbeat(1, 30).frame, t0));
     EXPECT_TRUE(sut.admit(Heartbeat(1, 31).frame, t0));
@@ -71,7 +75,7 @@ TEST(RateLimiter, TheRateForOthersIsForEachOfThem) {
 }
 
 TEST(RateLimiter, AClockSetBackDoesNotSilenceAStream) {
-    RateLimiter sut({{0, 1s}}, {});
+    Limiter sut = limiter_of({{"HEARTBEAT", 1}});
     EXPECT_TRUE(sut.admit(Heartbeat().frame, t0));
 
     EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 - 1h));
@@ -79,13 +83,23 @@ TEST(RateLimiter, AClockSetBackDoesNotSilenceAStream) {
     EXPECT_TRUE(sut.admit(Heartbeat().frame, t0 - 1h + 1s));
 }
 
+TEST(RateLimiter, AFrameThatWasAskedForOnlyIsNotCounted) {
+    Limiter sut = limiter_of({{"HEARTBEAT", 1}});
+    const Heartbeat heartbeat;
+
+    EXPECT_TRUE(sut.ask(heartbeat.frame, t0).admitted);
+    EXPECT_TRUE(sut.admit(heartbeat.frame, t0));
+    EXPECT_FALSE(sut.ask(heartbeat.frame, t0).admitted);
+}
+
 TEST(RateLimiter, MoreStreamsThanItRemembersStillPass) {
-    RateLimiter sut({}, 1s);
+    Limiter sut = limiter_of({{"*", 1}});
     int count = 0;
-    for (std::uint32_t id = 0; id < 100'000; ++id) count += sut.admit(Heartbeat(1, id).frame, t0);
+    for (std::uint32_t id = 100'000; id < 200'000; ++id)
+        count += sut.admit(Heartbeat(1, id).frame, t0);  // no definition
 
     EXPECT_EQ(count, 100'000);
 }
 
 }  // namespace
-}  // namespace mavloom::edit
+}  // namespace mavloom::dialect

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mavloom/edit/terms.hpp"
+#include "mavloom/dialect/terms.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "mavloom/base/shown.hpp"
 
-namespace mavloom::edit {
+namespace mavloom::dialect {
 
 namespace {
 
@@ -75,18 +75,18 @@ SetupResult<RateTerm> parse_rate_term(std::string_view text) {
     return term;
 }
 
-SetupResult<MessageId> find_message_id(const dialect::Dialect& dialect, std::string_view name_or_id) {
+SetupResult<MessageId> find_message_id(const Dialect& dialect, std::string_view name_or_id) {
     if (is_number(name_or_id)) return parse_id(name_or_id);
     const auto message = dialect.message(name_or_id);
     if (!message) return tl::unexpected(message.error());
     return (*message)->id();
 }
 
-SetupResult<const dialect::Message*> find_message(const dialect::Dialect& dialect, std::string_view name_or_id) {
+SetupResult<const Message*> find_message(const Dialect& dialect, std::string_view name_or_id) {
     const auto id = find_message_id(dialect, name_or_id);
     if (!id) return tl::unexpected(id.error());
     if (const auto* message = dialect.find(*id)) return message;
     return usage(fmt::format("message {} has no definition (--dialect FILE adds some)", id->value));
 }
 
-}  // namespace mavloom::edit
+}  // namespace mavloom::dialect

@@ -11,7 +11,7 @@
 #include "mavloom/base/result.hpp"
 #include "mavloom/dialect/dialect.hpp"
 
-namespace mavloom::edit {
+namespace mavloom::dialect {
 
 struct RateTerm {
     std::string message;  // a name, an id, or "*"
@@ -40,9 +40,8 @@ SetupResult<void> for_each_term(std::string_view text, F&& each) {
 }
 
 // The id of a message by its name in `dialect`, or as the number itself, which needs no definition. The error has the nearest name.
-[[nodiscard]] SetupResult<MessageId> find_message_id(const dialect::Dialect& dialect, std::string_view name_or_id);
+[[nodiscard]] SetupResult<MessageId> find_message_id(const Dialect& dialect, std::string_view name_or_id);
 // The definition by name or id.
-[[nodiscard]] SetupResult<const dialect::Message*> find_message(const dialect::Dialect& dialect,
-                                                                std::string_view name_or_id);
+[[nodiscard]] SetupResult<const Message*> find_message(const Dialect& dialect, std::string_view name_or_id);
 
-}  // namespace mavloom::edit
+}  // namespace mavloom::dialect

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Holds frames to their Rates by deadlines: 12 Hz limited to 10 comes out at 10, not at 6. One owner thread; allocates at construction only.
+// `Time` is MonoTime for links and WallTime for recordings, whose frames carry their own time.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mavloom/dialect/rates.hpp"
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::dialect {
+
+template <class Time>
+class RateLimiter {
+    struct Stream {
+        std::uint64_t key = no_stream;
+        Time due = Time::min();
+    };
+
+public:
+    // Whether a frame is within its rate. `count` takes the answer back when the frame is really sent.
+    struct Answer {
+        bool admitted = true;
+        Stream* stream = nullptr;  // null: this message has no limit
+        Nanoseconds interval{};
+    };
+
+    RateLimiter() = default;
+    explicit RateLimiter(Rates rates) : rates_(std::move(rates)), streams_(rates_.empty() ? 0 : sets * ways) {}
+
+    [[nodiscard]] bool limits() const noexcept { return !rates_.empty(); }
+
+    [[nodiscard]] Answer ask(const wire::FrameView& frame, Time now) noexcept {
+        const Nanoseconds* const interval = limits() ? rates_.interval_of(frame.id()) : nullptr;
+        if (interval == nullptr) return {};
+        const auto source = std::uint64_t{frame.system().value} << 8 | frame.component().value;
+        Stream& stream = stream_of(source << 24 | frame.id().value);
+        // A deadline more than an interval away is from before the clock was set back.
+        const bool is_early = now < stream.due && stream.due - now <= *interval;
+        return {!is_early, &stream, *interval};
+    }
+    // Before the next `ask`.
+    static void count(const Answer& answer, Time now) noexcept {
+        if (answer.stream == nullptr) return;
+        Time& due = answer.stream->due;
+        const bool in_step = due != Time::min() && now >= due && now - due < answer.interval;
+        due = (in_step ? due : now) + answer.interval;
+    }
+    // Both at once.
+    [[nodiscard]] bool admit(const wire::FrameView& frame, Time now) noexcept {
+        const Answer answer = ask(frame, now);
+        if (answer.admitted) count(answer, now);
+        return answer.admitted;
+    }
+
+private:
+    // Streams are remembered in sets. A full set forgets the stream that has been silent longest, which lets one frame through early.
+    static constexpr std::size_t ways = 8, set_bits = 10, sets = std::size_t{1} << set_bits;
+    static constexpr std::uint64_t no_stream = ~std::uint64_t{0};
+
+    [[nodiscard]] Stream& stream_of(std::uint64_t key) noexcept {
+        Stream* const first = &streams_[(key * 0x9e3779b97f4a7c15u >> (64 - set_bits)) * ways];
+        Stream* oldest = first;
+        for (Stream* stream = first; stream != first + ways; ++stream) {
+            if (stream->key == key) return *stream;
+            if (stream->due < oldest->due) oldest = stream;
+        }
+        *oldest = {key, Time::min()};
+        return *oldest;
+    }
+
+    Rates rates_;
+    std::vector<Stream> streams_;
+};
+
+}  // namespace mavloom::dialect
