@@ -198,6 +198,11 @@ private:
         return setup_error(SetupCode::bad_input, fmt::format("environment: {}", what));
     }
 
+    SetupResult<void> check_heartbeat(const Endpoint& endpoint, const std::vector<Setting>& given) const {
+        if (!endpoint.options.heartbeat.value_or(false) || config_.router.heartbeat) return {};
+        return bad(find(given, "heartbeat")->line, heartbeat_needs_id);
+    }
+
     SetupResult<Setting> read_key(const ConfigKey& key, const toml::node* node) {
         Setting setting{std::string(key.name), std::string(key.default_text), Origin::by_default, 0, {}};
         if (!key.default_text.empty()) (void)key.set(config_, key.default_text);
@@ -234,6 +239,8 @@ private:
             if (auto done = set_endpoint_option(*endpoint, setting.key, setting.value); !done)
                 return bad(setting.line, done.error().text);
         }
+        if (auto good = check_options(*endpoint); !good) return bad(line_of(table), good.error().text);
+        if (auto good = check_heartbeat(*endpoint, given); !good) return good;
         if ((set_of(endpoint->scheme) & address_schemes) != 0 && endpoint->address.port == 0)
             return bad(line_of(table), "port 0 is no port that others could know; choose one from 1 to 65535");
         return add_endpoint(std::move(*endpoint), given, line_of(table));

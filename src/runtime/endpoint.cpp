@@ -203,6 +203,7 @@ SetupResult<Endpoint> parse(std::string_view text) {
     endpoint.scheme = parts->scheme;
     if (auto done = set_place(endpoint, *parts); !done) return tl::unexpected(std::move(done.error()));
     if (auto done = set_options(endpoint, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto good = check_options(endpoint); !good) return tl::unexpected(std::move(good.error()));
     return endpoint;
 }
 

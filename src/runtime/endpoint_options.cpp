@@ -116,6 +116,15 @@ SetupResult<void> set_group(EndpointOptions& options, std::string_view text) {
     return {};
 }
 
+SetupResult<void> set_heartbeat(EndpointOptions& options, std::string_view text) {
+    if (text.find('/') != std::string_view::npos)
+        return usage(
+            fmt::format("{} is neither true nor false; the id that a router sends by is heartbeat = \"SYS/COMP\" "
+                        "in [router] of a configuration file",
+                        in_quotes(text)));
+    return put(parse_bool(text), options.heartbeat);
+}
+
 SetupResult<void> set_bind(EndpointOptions& options, std::string_view text) {
     return put(parse_host_port(text, {}), options.bind);
 }
@@ -159,6 +168,7 @@ constexpr std::array options_table{
     Option{"out_block", links, "", set_filter<&O::out_block>},
     Option{"tap", links, "false", set_flag<&O::tap>},
     Option{"private", links, "false", set_flag<&O::is_private>},
+    Option{"heartbeat", links, "", set_heartbeat},
     Option{"sign", links, "", set_text<&O::sign_key_file>},
     Option{"verify", links, "", set_text<&O::verify_key_file>},
     Option{"rcvbuf", udp_schemes, "32MiB",
@@ -259,6 +269,15 @@ SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, 
                                  "it belongs to " + schemes_text(option->schemes)));
     auto done = option->set(endpoint.options, value);
     if (!done) return tl::unexpected(std::move(done.error()).within(fmt::format("option '{}'", key)));
+    return {};
+}
+
+SetupResult<void> check_options(const Endpoint& endpoint) {
+    const EndpointOptions& o = endpoint.options;
+    if (o.tap && o.heartbeat)
+        return usage(
+            "heartbeat= does not go with tap=true: a tap gets what others send, and the router sends it nothing of its "
+            "own");
     return {};
 }
 

@@ -42,6 +42,7 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
         {"out_block", !o.out_block.empty()},
         {"tap", o.tap},
         {"private", o.is_private},
+        {"heartbeat", o.heartbeat.has_value()},
     };
     for (const auto& [name, set] : routed) {
         if (set && routing == RoutingOptions::refused)

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "mavloom/msg/heartbeat.hpp"
-#include "mavloom/msg/request_data_stream.hpp"
-#include "mavloom/wire/frame_writer.hpp"
+#include "runtime/own_messages.hpp"
 #include "runtime/ring_tap.hpp"
-#include "runtime/stream_requests.hpp"
 
 namespace mavloom::runtime {
 
@@ -20,18 +18,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr Nanoseconds fast_beat = 100ms;  // until the far side answers
-constexpr Nanoseconds beat_interval = 1s;
 constexpr std::size_t told_each_look = 2;
 constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: duplicate ids, rows of links that went
-
-constexpr std::uint8_t ardupilot = 3;                   // MAV_AUTOPILOT_ARDUPILOTMEGA
-constexpr msg::Heartbeat own_heartbeat{.type = 18,      // MAV_TYPE_ONBOARD_CONTROLLER
-                                       .autopilot = 8,  // MAV_AUTOPILOT_INVALID
-                                       .base_mode = 0,
-                                       .custom_mode = 0,
-                                       .system_status = 4,  // MAV_STATE_ACTIVE
-                                       .mavlink_version = 3};
 
 route::Options engine_options(const RouterConfig& config) {
     route::Options options;
@@ -57,7 +45,10 @@ Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Noti
       notice_(std::move(notice)),
       links_(std::move(links)),
       engine_(dialect.wire_table(), engine_options(config)),
-      stream_requests_(std::make_unique<StreamRequests>()) {}
+      own_messages_(std::make_unique<OwnMessages>(
+          dialect.wire_table(), config,
+          OwnMessages::Ways{[this](LinkId link, const wire::FrameView& frame) { return send_own(link, frame); },
+                            [this](LinkId link) { return is_answered(link); }})) {}
 
 Router::~Router() {
     // Their threads post.
@@ -85,6 +76,8 @@ std::string ring_is_no_endpoint(const Endpoint& endpoint) {
 SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (endpoint.scheme == Scheme::tlog) return add_recording(endpoint);
     if (endpoint.scheme == Scheme::shm) return setup_error(SetupCode::usage, ring_is_no_endpoint(endpoint));
+    if (endpoint.options.heartbeat.value_or(false) && !config_.heartbeat)
+        return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), heartbeat_needs_id));
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
     const auto id = links_->add(endpoint);
@@ -200,14 +193,9 @@ bool Router::remove(std::string_view label) {
 }
 
 void Router::configure(const RouterConfig& config) {
-    const bool other_beats = config_.heartbeat != config.heartbeat;
     config_ = config;
     engine_.set_options(engine_options(config));
-    stream_requests_->clear();
-    if (!other_beats) return;
-    heartbeats_.clear();
-    for (const auto& link : links_->links())
-        if (link.up && engine_.counters(link.id) != nullptr) begin_to_beat(link.id, link.endpoint);
+    own_messages_->configure(config);
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
@@ -261,7 +249,7 @@ void Router::on_frame(const RxFrame& rx) {
     const std::uint64_t mark = engine_.mark_of(rx.frame);
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
     traffic_.add(rx.link, rx.frame, rx.time);
-    if (config_.request_streams_hz != 0 && rx.frame.id() == msg::Heartbeat::id) ask_for_streams(rx);
+    if (rx.frame.id() == msg::Heartbeat::id) own_messages_->on_heartbeat(rx.link, rx.frame, links_->now());
     const auto decision = decide(rx, mark);
     if (ring_) ring_->write(rx, decision.verdict, by_id_[rx.endpoint.value]->verifies);
     send(rx, decision.links);
@@ -292,15 +280,15 @@ void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name)
     if (!engine_.add_link(link, by_id_[endpoint.value]->policy))
         return notice_(LogLevel::warning,
                        fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
-    begin_to_beat(link, endpoint);
+    speak_on(link, endpoint);
     if (may_tell_of_link(endpoint)) notice_(LogLevel::info, fmt::format("{}: up", name));
 }
 
-// What the router itself sends is in no ring: those who would find it there get none.
-void Router::begin_to_beat(LinkId link, EndpointId endpoint) {
-    const OpenedEndpoint* const opened = by_id_[endpoint.value];
-    if (config_.heartbeat && !opened->policy.tap && opened != inlet_.get())
-        heartbeats_.push_back({link, links_->now()});
+// Programs that send by the inlet would find the router's own messages in the ring, which does not hold them.
+void Router::speak_on(LinkId link, EndpointId endpoint) {
+    const OpenedEndpoint& opened = *by_id_[endpoint.value];
+    if (opened.policy.tap || &opened == inlet_.get()) return;
+    own_messages_->add(link, wants_heartbeat(opened.endpoint), links_->now());
 }
 
 bool Router::may_tell_of_link(EndpointId endpoint) noexcept {
@@ -322,8 +310,7 @@ void Router::on_link_down(LinkId link, EndpointId endpoint, std::string_view why
 void Router::forget_link(LinkId link) {
     if (ring_) ring_->on_link_down(link);
     engine_.remove_link(link);
-    std::erase_if(heartbeats_, [&](const HeartbeatLink& h) { return h.link == link; });
-    stream_requests_->forget(link);
+    own_messages_->remove(link);
 }
 
 void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::info, text); }
@@ -341,15 +328,13 @@ void Router::turn(MonoTime deadline) {
         if (now >= ring_->page_due()) refresh_page();
     }
     if (has_posted_.load(std::memory_order_acquire)) run_posted();
-    for (auto& link : heartbeats_)
-        if (now >= link.due) beat(link, now);
+    own_messages_->send_due(now);
     if (now >= look_due_) look_after(now);
 }
 
 MonoTime Router::next_due() const noexcept {
-    MonoTime due = ring_ ? std::min(look_due_, ring_->page_due()) : look_due_;
-    for (const auto& link : heartbeats_) due = std::min(due, link.due);
-    return due;
+    const MonoTime due = std::min(look_due_, own_messages_->next_due());
+    return ring_ ? std::min(due, ring_->page_due()) : due;
 }
 
 void Router::finish(Nanoseconds limit) {
@@ -397,40 +382,18 @@ void Router::drop_posted() {
     has_posted_.store(false, std::memory_order_relaxed);
 }
 
-bool Router::send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now) {
-    const auto [system, component] = *config_.heartbeat;
-    wire::FrameBuffer buffer;
-    const auto frame = wire::write_frame(
-        buffer, {.sequence = link.sequence++, .source = {SystemId{system}, ComponentId{component}}},
-        *dialect_.wire_table().find(id), payload);
-    if (links_->send(link.link, frame) == 0) return false;
-    engine_.note_sent(frame, link.link, now);
+bool Router::send_own(LinkId link, const wire::FrameView& frame) {
+    if (links_->send(link, frame) == 0) return false;
+    engine_.note_sent(frame, link, links_->now());
     return true;
 }
 
-void Router::beat(HeartbeatLink& link, MonoTime now) {
-    std::array<std::uint8_t, msg::Heartbeat::max_length> payload;
-    (void)own_heartbeat.encode(payload);
-    if (send_own(link, msg::Heartbeat::id, payload, now)) heartbeats_sent_.add();
-    const auto* counters = links_->counters(link.link);
-    const bool answered = counters != nullptr && counters->frames_in.value() != 0;
-    link.due = std::max(link.due + (answered ? beat_interval : fast_beat), now);
+bool Router::is_answered(LinkId link) const {
+    const auto* const counters = links_->counters(link);
+    return counters != nullptr && counters->frames_in.value() != 0;
 }
 
-void Router::ask_for_streams(const RxFrame& rx) {
-    if (msg::Heartbeat::decode(rx.frame.payload()).autopilot != ardupilot) return;
-    const auto link = std::ranges::find(heartbeats_, rx.link, &HeartbeatLink::link);
-    const Source source = rx.frame.source();
-    if (link == heartbeats_.end() || !stream_requests_->heard(rx.link, source, links_->now())) return;
-    const msg::RequestDataStream request{.target_system = source.system.value,
-                                         .target_component = source.component.value,
-                                         .req_stream_id = 0,  // MAV_DATA_STREAM_ALL
-                                         .req_message_rate = config_.request_streams_hz,
-                                         .start_stop = 1};
-    std::array<std::uint8_t, msg::RequestDataStream::max_length> payload;
-    (void)request.encode(payload);
-    (void)send_own(*link, msg::RequestDataStream::id, payload, links_->now());
-}
+std::uint64_t Router::heartbeats_sent() const noexcept { return own_messages_->heartbeats_sent(); }
 
 void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;

@@ -99,6 +99,12 @@ class End:
                 self._take(self._read())
         return self.got.popleft()
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
     def until(self, last: bytes) -> list[bytes]:
         """What came before this frame."""
         before = []
@@ -150,7 +156,7 @@ class UdpEnd(End):
         self.sock.sendto(data, self.target)
 
     def _read(self):
-        data = self.sock.recv(65536)
+        data, self.source = self.sock.recvfrom(65536)
         assert b"".join(frames.split_frames(data)) == data, "a datagram holds whole frames"
         return data
 

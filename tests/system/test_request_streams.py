@@ -26,7 +26,7 @@ def heard(sock, until):
 def route(spawn, tmp_path, udp_port):
     def start(router):
         port = udp_port()
-        (tmp_path / "router.toml").write_text(f'[router]\n{router}\n[[endpoint]]\nurl = "udpin://127.0.0.1:{port}"\nname = "air"\n')
+        (tmp_path / "router.toml").write_text(f'[router]\n{router}\n[[endpoint]]\nurl = "udpin://127.0.0.1:{port}"\nname = "air"\nheartbeat = true\n')
         running = spawn("route", "--config", tmp_path / "router.toml", "--name", f"streams-{port}")
         running.wait_output("receive buffer")
         return ("127.0.0.1", port)

@@ -114,6 +114,26 @@ def vehicle():
 
 
 @pytest.mark.short
+@pytest.mark.parametrize("heard", ["vehicle", "router"])
+def test_a_client_hears_the_routers_heartbeat_only_where_it_is_asked_for(spawn, heard):
+    """`wait_heartbeat` takes the first heartbeat for the vehicle's."""
+    air, ground = Side("udpout"), Side("tcpin")
+    option = "?heartbeat=true" if heard == "router" else ""
+    with routers.UdpEnd(port=air.port) as craft:
+        router = Router(spawn, air.url, ground.url + option, rules={"heartbeat": "255/191"})
+        station = Station(ground)
+        router.wait_links(2)
+        craft.now()
+        craft.count(3)  # the router is at work
+        craft.target = craft.source
+        craft.send(routers.heartbeat())
+        got = station.connection.wait_heartbeat(timeout=harness.DEFAULT_TIMEOUT_S)
+        station.connection.close()
+
+    assert (got.get_srcSystem(), got.get_srcComponent()) == ((1, 1) if heard == "vehicle" else (255, 191))
+
+
+@pytest.mark.short
 @pytest.mark.parametrize("air, ground", [("udpin", "udpin"), ("udpin", "tcpin"), ("tcpin", "udpin"), ("udpout", "tcpin"), ("tcpout", "udpin"), ("udpin", "udpout")])
 def test_pymavlink_parameters_and_a_mission(spawn, vehicle, air, ground):
     air, ground = Side(air), Side(ground)

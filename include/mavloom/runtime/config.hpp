@@ -35,6 +35,10 @@ struct RouterConfig {
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
 
+// An endpoint asks for the router's heartbeat, which has no id to be sent by.
+inline constexpr std::string_view heartbeat_needs_id =
+    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends by";
+
 struct RingConfig {
     std::string name;  // empty: no ring
     std::uint64_t capacity_bytes = 0;

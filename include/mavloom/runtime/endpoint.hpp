@@ -55,6 +55,7 @@ struct EndpointOptions {
     FilterTerms in_allow, in_block, out_allow, out_block;
     bool tap = false;
     bool is_private = false;
+    std::optional<bool> heartbeat;  // of the router; default: where the endpoint calls somebody
     std::string sign_key_file, verify_key_file;
     std::uint64_t rcvbuf_bytes = 32u << 20;
     std::uint32_t max_peers = 256;
@@ -96,6 +97,8 @@ struct Endpoint {
 [[nodiscard]] SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value);
 // The options of all schemes, in the order of the guide's table; `set_endpoint_option` says which scheme takes which.
 [[nodiscard]] std::span<const std::string_view> endpoint_option_names() noexcept;
+// Refuses (`usage`) options that contradict each other.
+[[nodiscard]] SetupResult<void> check_options(const Endpoint& endpoint);
 // Refuses (`usage`) what makes sense only where the endpoint is written to, for commands that read it.
 [[nodiscard]] SetupResult<void> check_source_options(const Endpoint& endpoint);
 

@@ -26,7 +26,7 @@
 namespace mavloom::runtime {
 
 class RingTap;
-class StreamRequests;
+class OwnMessages;
 
 // Why a router refuses shm://NAME, for who types it.
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
@@ -84,7 +84,7 @@ public:
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
     [[nodiscard]] const std::vector<std::unique_ptr<Recorder>>& recorders() const noexcept { return recorders_; }
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
-    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return heartbeats_sent_.value(); }
+    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
     // Frames that left without our signature on a link with `sign=`, because they came from a link without `verify=`.
     [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
     [[nodiscard]] MonoTime started() const noexcept { return started_; }
@@ -97,11 +97,6 @@ private:
         route::LinkPolicy policy;
         bool verifies = false;
         std::size_t may_tell = most_told, not_told = 0;  // lines about its links
-    };
-    struct HeartbeatLink {
-        LinkId link;
-        MonoTime due{};
-        std::uint8_t sequence = 0;
     };
 
     Router(const dialect::Dialect& dialect, const RouterConfig& config, Notice notice, std::unique_ptr<Links> links);
@@ -119,16 +114,14 @@ private:
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
     void order_as(const std::vector<Endpoint>& endpoints);
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
-    void begin_to_beat(LinkId link, EndpointId endpoint);
+    void speak_on(LinkId link, EndpointId endpoint);
     void forget_link(LinkId link);
     // Of a crowd of links of an endpoint that come and go a few are told, and how many there were.
     [[nodiscard]] bool may_tell_of_link(EndpointId endpoint) noexcept;
     void send(const RxFrame& rx, std::span<const LinkId> links);
     void run_posted();
-    void beat(HeartbeatLink& link, MonoTime now);
-    // A message of the router itself. False: the link did not take it.
-    bool send_own(HeartbeatLink& link, MessageId id, ByteView payload, MonoTime now);
-    void ask_for_streams(const RxFrame& rx);
+    bool send_own(LinkId link, const wire::FrameView& frame);
+    [[nodiscard]] bool is_answered(LinkId link) const;
     void look_after(MonoTime now);
     void look_after_ring();
     void refresh_page();
@@ -151,11 +144,10 @@ private:
     std::vector<Endpoint> recordings_;                         // what each recorder was made from
     std::unique_ptr<OpenedEndpoint> inlet_;                    // null: none
     std::unique_ptr<RingTap> ring_;                            // null: none
-    std::vector<HeartbeatLink> heartbeats_;
-    std::unique_ptr<StreamRequests> stream_requests_;  // never null
+    std::unique_ptr<OwnMessages> own_messages_;                // never null
     bool any_signs_ = false;
     bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
-    Counter heartbeats_sent_, not_signed_;
+    Counter not_signed_;
     std::size_t duplicate_ids_told_ = 0;
     MonoTime started_ = mono_now();
     MonoTime look_due_{};

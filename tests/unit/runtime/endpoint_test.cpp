@@ -195,7 +195,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"tcpin://127.0.0.1:1?unknown_component=drop", "'unknown_component' is a key of [router]"},
         Bad{"udpout://127.0.0.1:1?unknown_target=flood", "'unknown_target' is a key of [router]"},
         Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a key of [router]"},
-        Bad{"tlog://a.tlog?heartbeat=255/191", "'heartbeat' is a key of [router]"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=255/191", "is heartbeat = \"SYS/COMP\" in [router]"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=1", "neither true nor false"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= does not go with tap=true"},
+        Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= does not go with tap=true"},
         Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a key of [router]"},
         Bad{"udpin://127.0.0.1:1?un=drop", "udpin takes name, group"},
         Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' stands there twice"},
@@ -380,7 +383,7 @@ TEST(SetEndpointOption, TakesTheTextOfAFilesKey) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(32));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(33));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }

@@ -33,6 +33,7 @@ TEST(LinksOptions, NothingIsSilentlyIgnored) {
              Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is for mavloom route"},
              Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is for mavloom route"},
              Refusal{"udpin://127.0.0.1:1?private=true", "private= is for mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?heartbeat=true", "heartbeat= is for mavloom route"},
              Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps the datagrams of a group"},
              Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no meaning"},
              Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no meaning"},
