@@ -129,16 +129,19 @@ Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) cons
     runtime::LinkCounters all = info.counters->gone;
     for (const auto& link : links_->links())
         if (link.endpoint == info.id) all.add(*link.counters);
-    return {all.frames_out.value(), all.bytes_out.value(),
+    return {all.frames_out.value(),
+            all.bytes_out.value(),
             all.queue_bytes.value() + all.queue_age.value() + info.counters->gone_queued.value(),
-            info.counters->send_errors.value(), all.frames_not_sent.value()};
+            all.refused.value(),
+            all.frames_not_sent.value(),
+            info.counters->send_errors.value()};
 }
 
 bool Destinations::lost_any() const {
     const auto endpoints = links_->endpoints();
     return std::ranges::any_of(endpoints,
                                [&](const auto& info) {
-                                   return has(info.id) && (sums_of(info).dropped != 0 || sums_of(info).refused != 0 ||
+                                   return has(info.id) && (sums_of(info).dropped != 0 || sums_of(info).came_back != 0 ||
                                                            links_->queued_bytes(info.id) != 0);
                                }) ||
            std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
@@ -154,10 +157,9 @@ void Destinations::say_sums(const Common& common) const {
         if (sums.dropped != 0)
             say(common,
                 fmt::format("{}: {} dropped, the far side was too slow or went", name, counted(sums.dropped, "frame")));
-        if (sums.refused != 0)
-            say(common,
-                fmt::format("{}: {} refused, nobody listens there or it cannot be reached; what they held is lost",
-                            name, counted(sums.refused, "datagram")));
+        if (sums.came_back != 0)
+            say(common, fmt::format("{}: {} refused: nobody listens there, or it cannot be reached ({} came back)",
+                                    name, counted(sums.refused, "frame"), counted(sums.came_back, "datagram")));
         if (sums.not_sent != 0)
             say(common, fmt::format("{}: {} not sent, the system refused them", name, counted(sums.not_sent, "frame")));
         if (nobody_there_[i] != 0)

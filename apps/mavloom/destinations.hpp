@@ -51,7 +51,7 @@ public:
 private:
     explicit Destinations(runtime::Links& links) : links_(&links) {}
     struct Sums {
-        std::uint64_t frames = 0, bytes = 0, dropped = 0, refused = 0, not_sent = 0;
+        std::uint64_t frames = 0, bytes = 0, dropped = 0, refused = 0, not_sent = 0, came_back = 0;
     };
     [[nodiscard]] Sums sums_of(const runtime::EndpointInfo& info) const;
     [[nodiscard]] SetupResult<void> add(const Common& common, const runtime::Endpoint& endpoint);

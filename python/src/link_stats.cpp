@@ -127,6 +127,7 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(), "Frames dropped on the way out: the queue was full.")
         .def_prop_ro("queue_age", of_links<&L::queue_age>(), "Frames dropped on the way out: too old.")
         .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Frames that the kernel refused.")
+        .def_prop_ro("refused", of_links<&L::refused>(), "Frames sent to a closed port: nobody listens there.")
         .def_prop_ro("reconnects", of_endpoint<&E::reconnects>())
         .def("__repr__", &counters_repr);
 }

@@ -197,16 +197,30 @@ IoResult<std::size_t> UdpSocket::send(SendBatch& batch, std::size_t first) noexc
     return static_cast<std::size_t>(count);
 }
 
-std::size_t UdpSocket::drain_errors() noexcept {
-    std::size_t count = 0;
-    for (;;) {
-        std::array<std::uint8_t, 512> control;
-        msghdr header{};
-        header.msg_control = control.data();
-        header.msg_controllen = control.size();
-        if (recvmsg(fd_.get(), &header, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) return count;
-        ++count;
+static IoError error_in(msghdr& header) noexcept {
+    for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr; control = CMSG_NXTHDR(&header, control)) {
+        const bool is_error = (control->cmsg_level == IPPROTO_IP && control->cmsg_type == IP_RECVERR) ||
+                              (control->cmsg_level == IPPROTO_IPV6 && control->cmsg_type == IPV6_RECVERR);
+        if (!is_error) continue;
+        sock_extended_err error;
+        std::memcpy(&error, CMSG_DATA(control), sizeof error);
+        return io_error_of(static_cast<int>(error.ee_errno));
     }
+    return IoError::other;
+}
+
+std::optional<UdpSocket::Failure> UdpSocket::take_failure() noexcept {
+    Failure failure;
+    alignas(cmsghdr) std::array<std::uint8_t, 512> control;
+    msghdr header{};
+    header.msg_name = failure.to.writable();
+    header.msg_namelen = Address::capacity;
+    header.msg_control = control.data();
+    header.msg_controllen = control.size();
+    if (recvmsg(fd_.get(), &header, MSG_ERRQUEUE | MSG_DONTWAIT) < 0) return std::nullopt;
+    failure.to.normalize();
+    failure.error = error_in(header);
+    return failure;
 }
 
 std::uint32_t UdpSocket::kernel_drops() const noexcept {

@@ -24,7 +24,7 @@ void LinkCounters::add(const LinkCounters& other) noexcept {
           &LinkCounters::crc_error, &LinkCounters::junk_bytes, &LinkCounters::unknown_flags,
           &LinkCounters::implausible_unknown, &LinkCounters::unknown_ids, &LinkCounters::bad_signature,
           &LinkCounters::queue_bytes, &LinkCounters::queue_age, &LinkCounters::lost, &LinkCounters::late,
-          &LinkCounters::duplicate, &LinkCounters::resync, &LinkCounters::frames_not_sent})
+          &LinkCounters::duplicate, &LinkCounters::resync, &LinkCounters::frames_not_sent, &LinkCounters::refused})
         (this->*counter).add((other.*counter).value());
 }
 
@@ -212,6 +212,8 @@ void Links::refresh_kernel_drops() {
 }
 
 std::vector<LinkInfo> Links::links() const {
+    for (const auto& endpoint : impl_->endpoints)
+        if (endpoint) endpoint->settle_sent();
     std::vector<LinkInfo> infos;
     impl_->core.links().each([&](const Link& l) { infos.push_back({l.id, l.endpoint, l.name, l.up, &l.counters}); });
     std::sort(infos.begin(), infos.end(), [](const LinkInfo& a, const LinkInfo& b) { return a.id < b.id; });

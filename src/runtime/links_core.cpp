@@ -54,7 +54,6 @@ Core::Core(Language language, std::unique_ptr<net::EventLoop> loop, net::Receive
 std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     assert(handler_ == nullptr && "turn must not be called inside a callback");
     handler_ = &handler;
-    running_ = true;
     now_ = mono_now();
     coalescing_.count(turn_began_, now_, std::exchange(frames_this_turn_, 0), std::exchange(more_waits_, false));
     tell_backlog();
@@ -63,6 +62,7 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
         net::EventLoop::sleep_until(std::min(*until, deadline));
     loop_->wait(wait_limit(deadline));
     now_ = turn_began_ = mono_now();
+    ++turns_;
     if (loop_->dispatch(now_)) collect_answers();
     run_tickers();
     expire_blocked();
@@ -248,7 +248,7 @@ std::optional<net::Resolver::Answer> Core::resolve_now(const HostPort& host, std
                                                        OpenEndpoint& endpoint) {
     if (const auto numeric = net::Address::parse(host.host, host.port)) return std::vector<net::Address>{*numeric};
     const std::uint64_t ticket = resolver_.ask(host.host, host.port);
-    auto answer = running_ ? std::nullopt : resolver_.wait(ticket, limit);
+    auto answer = running() ? std::nullopt : resolver_.wait(ticket, limit);
     if (!answer) questions_.emplace_back(ticket, &endpoint);
     return answer;
 }

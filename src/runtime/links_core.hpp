@@ -169,6 +169,8 @@ public:
     virtual std::size_t send(const wire::FrameView& frame) = 0;
     [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
     virtual void refresh_kernel_drops() {}
+    // Counts what was sent and not yet known to have been refused.
+    virtual void settle_sent() {}
     // The answer to a look-up that this endpoint asked for.
     virtual void on_resolved(net::Resolver::Answer&&) {}
     // Keeps the sums of a link that has been removed.
@@ -204,6 +206,8 @@ public:
     // The instant of this turn.
     [[nodiscard]] MonoTime now() const noexcept { return now_; }
     void count_links_from(LinkId last) noexcept { links_.count_from(last); }
+    // How often events were looked at.
+    [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
     // For what is done between turns.
     void refresh_now() { now_ = mono_now(); }
 
@@ -243,7 +247,7 @@ public:
     // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for: but when the turns have begun there are
     // frames to be passed on, and nobody waits.
     void resolve(OpenEndpoint& endpoint, const HostPort& host);
-    [[nodiscard]] bool running() const noexcept { return running_; }
+    [[nodiscard]] bool running() const noexcept { return turns_ != 0; }
     [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const HostPort& host, std::chrono::milliseconds limit,
                                                                    OpenEndpoint& endpoint);
     void forget(const OpenEndpoint& endpoint) noexcept;
@@ -290,7 +294,7 @@ private:
     LinkTable links_;
     LinkHandler* handler_ = nullptr;  // inside a turn only
     MonoTime now_ = mono_now();
-    bool running_ = false;  // a turn was made
+    std::uint64_t turns_ = 0;
     std::size_t frames_this_turn_ = 0;
     bool more_waits_ = false;
     MonoTime turn_began_{};

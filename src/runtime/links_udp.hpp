@@ -28,6 +28,21 @@ struct UdpPeer final : Link {
     MonoTime last_heard{};
     std::uint64_t datagrams = 0;
     bool held = false;  // the device's queue had no room for it: waits for its port's retry
+
+    void note_heard(MonoTime now) noexcept;
+    // The far side's port is closed. Not every datagram that meets it is reported: what is sent in the next second counts as refused.
+    void note_refusal(MonoTime now) noexcept;
+    // What goes to a peer that was not heard since it was refused, or never, waits for `settle`.
+    void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
+    // No refusal has come of what was sent: it counts as sent.
+    void settle() noexcept;
+    [[nodiscard]] bool is_settled() const noexcept { return unsettled_frames_ == 0; }
+
+private:
+    static constexpr std::chrono::seconds refusal_holds{1};
+    bool listens_ = false;  // heard, and not refused since
+    MonoTime refuses_until_{};
+    std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
 
 // The kernel's time stamp; where it gave none, now.
@@ -41,6 +56,8 @@ public:
     virtual ~UdpOwner() = default;
     // Whose datagram this is; null: nobody's, and it is counted.
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
+    // The peer at this address; null where there is none.
+    [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
     // The kernel or the network refused a datagram.
     virtual void on_send_error(net::IoError error) = 0;
 };
@@ -63,6 +80,8 @@ public:
     // The peer is about to go.
     void forget(UdpPeer& peer) noexcept;
     void refresh_kernel_drops() noexcept;
+    // Counts what was sent, after a look at the refusals that have come until now.
+    void settle();
 
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
@@ -80,7 +99,9 @@ private:
     void receive();
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);
-    static void account(const Part& part) noexcept;
+    void account(const Part& part) noexcept;
+    void take_failures();
+    void settle_sent() noexcept;
     void block();
     void hold(std::size_t& index);
 
@@ -95,6 +116,8 @@ private:
     std::vector<UdpPeer*> waiting_;  // with something queued
     std::vector<Part> parts_;
     bool blocked_ = false;  // the socket's own buffer is full
+    std::vector<UdpPeer*> unsettled_;
+    std::uint64_t unsettled_turn_ = 0;  // Core::turns() when they were sent to
     std::uint32_t last_drops_ = 0;
 };
 

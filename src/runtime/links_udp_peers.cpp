@@ -57,7 +57,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
                                           *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->signature = endpoint_.signature.get();
-    peer->last_heard = core_.now();
+    peer->last_heard = core_.now();  // until its first frame is found
     core_.add_link(*peer);
     port.peers().add(*datagram.from, *peer);
     peers_.push_back(std::move(peer));
@@ -78,6 +78,7 @@ bool UdpPeers::make_room() {
 
 void UdpPeers::drop(std::size_t index, std::string_view why) {
     UdpPeer& peer = *peers_[index];
+    peer.settle();
     core_.remove_link(peer, why);
     endpoint_.count_gone(peer);
     peer.port->forget(peer);

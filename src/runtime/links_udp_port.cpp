@@ -15,6 +15,34 @@ static constexpr std::chrono::milliseconds retry_after{1};
 
 void UdpPeer::schedule() { port->schedule(*this); }
 
+void UdpPeer::note_heard(MonoTime now) noexcept {
+    last_heard = now;
+    ++datagrams;
+    listens_ = true;
+    refuses_until_ = {};
+}
+
+void UdpPeer::note_refusal(MonoTime now) noexcept {
+    listens_ = false;
+    refuses_until_ = now + refusal_holds;
+    counters.refused.add(std::exchange(unsettled_frames_, 0));
+    unsettled_bytes_ = 0;
+}
+
+void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
+    if (now < refuses_until_) return counters.refused.add(frames);
+    unsettled_frames_ += frames;
+    unsettled_bytes_ += bytes;
+    if (listens_) settle();
+}
+
+void UdpPeer::settle() noexcept {
+    counters.frames_out.add(std::exchange(unsettled_frames_, 0));
+    counters.bytes_out.add(std::exchange(unsettled_bytes_, 0));
+}
+
+UdpPeer* UdpOwner::find_peer(UdpPort& port, const net::Address& address) const { return port.peers().find(address); }
+
 UdpPort::~UdpPort() {
     core_.forget(*this);
     core_.loop().cancel_timer(retry_);
@@ -38,6 +66,7 @@ SetupResult<void> UdpPort::open(const net::Address& local, const net::UdpOptions
 void UdpPort::forget(UdpPeer& peer) noexcept {
     peers_.remove(peer.address);
     std::erase(waiting_, &peer);
+    std::erase(unsettled_, &peer);
     for (Part& part : parts_)
         if (part.peer == &peer) part.peer = nullptr;
 }
@@ -50,17 +79,36 @@ void UdpPort::refresh_kernel_drops() noexcept {
 }
 
 void UdpPort::on_io(net::IoEvents events) {
-    if (events.failed) {
-        const std::size_t errors = socket_.drain_errors();
-        counters_.send_errors.add(errors);
-        if (errors != 0) owner_.on_send_error(net::IoError::refused);
-    }
+    if (events.failed) take_failures();
     if (events.writable && blocked_) {
         blocked_ = false;
         core_.loop().change(watch_, true, false);
         core_.schedule(*this);
     }
     if (events.readable) receive();
+}
+
+void UdpPort::take_failures() {
+    while (const auto failure = socket_.take_failure()) {
+        counters_.send_errors.add();
+        const bool nobody_there = failure->error == net::IoError::refused || failure->error == net::IoError::unreachable;
+        UdpPeer* const peer = nobody_there ? owner_.find_peer(*this, failure->to) : nullptr;
+        if (peer != nullptr) peer->note_refusal(core_.now());
+        owner_.on_send_error(failure->error);
+    }
+}
+
+// A refusal of what was sent in one turn is read in the next.
+void UdpPort::settle_sent() noexcept {
+    for (UdpPeer* const peer : unsettled_) peer->settle();
+    unsettled_.clear();
+    unsettled_turn_ = core_.turns();
+}
+
+void UdpPort::settle() {
+    if (unsettled_.empty()) return;
+    take_failures();
+    settle_sent();
 }
 
 void UdpPort::on_timer(MonoTime) {
@@ -83,8 +131,7 @@ void UdpPort::receive() {
         peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
         peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
         if (peer->counters.frames_in.value() == frames_before) continue;
-        peer->last_heard = core_.now();
-        ++peer->datagrams;
+        peer->note_heard(core_.now());
     }
 }
 
@@ -139,15 +186,19 @@ bool UdpPort::submit() {
 
 void UdpPort::account(const Part& part) noexcept {
     if (part.peer == nullptr) return;
-    part.peer->counters.frames_out.add(part.frames);
-    part.peer->counters.bytes_out.add(part.bytes);
-    part.peer->queue.pop(part.until);
+    UdpPeer& peer = *part.peer;
+    peer.queue.pop(part.until);
+    if (unsettled_turn_ != core_.turns()) settle_sent();
+    const bool was_settled = peer.is_settled();
+    peer.count_sent(part.frames, part.bytes, core_.now());
+    if (was_settled && !peer.is_settled()) unsettled_.push_back(&peer);
 }
 
 // Leaves in `index` the datagram to go on with.
 void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (error == net::IoError::would_block) return block();
     if (error == net::IoError::no_buffers) return hold(index);
+    if (error == net::IoError::refused) take_failures();
     if (error == net::IoError::refused && ++refusals < most_refusals) return;
     refusals = 0;
     counters_.send_errors.add();

@@ -37,6 +37,7 @@ public:
 
     std::size_t send(const wire::FrameView& frame) override { return group_.up && core_.send(group_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return group_.queue.bytes(); }
+    void settle_sent() override { sending_.settle(); }
     void refresh_kernel_drops() override {
         hearing_.refresh_kernel_drops();
         sending_.refresh_kernel_drops();

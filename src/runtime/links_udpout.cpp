@@ -32,6 +32,9 @@ public:
 
     std::size_t send(const wire::FrameView& frame) override { return peer_ && core_.send(*peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_ ? peer_->queue.bytes() : 0; }
+    void settle_sent() override {
+        if (port_) port_->settle();
+    }
     void refresh_kernel_drops() override {
         if (port_) port_->refresh_kernel_drops();
     }
@@ -41,6 +44,9 @@ public:
         if (peer_ && *datagram.from == peer_->address) return peer_.get();
         counters.wrong_peer.add();
         return nullptr;
+    }
+    UdpPeer* find_peer(UdpPort&, const net::Address& address) const override {
+        return peer_ && address == peer_->address ? peer_.get() : nullptr;
     }
     void on_send_error(net::IoError error) override;
     void on_timer(MonoTime now) override;

@@ -20,7 +20,7 @@ struct PagedCounter {
     std::string_view label;
     Counter LinkCounters::*word;
 };
-inline constexpr std::array<PagedCounter, 11> paged_counters{{{"frames_in", &LinkCounters::frames_in},
+inline constexpr std::array<PagedCounter, 12> paged_counters{{{"frames_in", &LinkCounters::frames_in},
                                                               {"bytes_in", &LinkCounters::bytes_in},
                                                               {"frames_out", &LinkCounters::frames_out},
                                                               {"bytes_out", &LinkCounters::bytes_out},
@@ -30,7 +30,8 @@ inline constexpr std::array<PagedCounter, 11> paged_counters{{{"frames_in", &Lin
                                                               {"bad_signature", &LinkCounters::bad_signature},
                                                               {"queue_bytes", &LinkCounters::queue_bytes},
                                                               {"queue_age", &LinkCounters::queue_age},
-                                                              {"frames_not_sent", &LinkCounters::frames_not_sent}}};
+                                                              {"frames_not_sent", &LinkCounters::frames_not_sent},
+                                                              {"refused", &LinkCounters::refused}}};
 
 class RingPage {
 public:

@@ -36,7 +36,8 @@ std::vector<NamedCount> counts_of(const LinkCounters& c, const route::LinkCounte
                                 {"bad_signature", c.bad_signature.value()},
                                 {"queue_bytes", c.queue_bytes.value()},
                                 {"queue_age", c.queue_age.value()},
-                                {"frames_not_sent", c.frames_not_sent.value()}};
+                                {"frames_not_sent", c.frames_not_sent.value()},
+                                {"refused", c.refused.value()}};
     if (routed == nullptr) return all;
     const route::LinkCounters& r = *routed;
     all.insert(all.end(), {{"forwarded", r.forwarded.value()},

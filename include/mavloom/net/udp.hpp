@@ -108,8 +108,12 @@ public:
     // datagram, whose port was closed (ICMP), and is told once.
     [[nodiscard]] IoResult<std::size_t> send(SendBatch& batch, std::size_t first) noexcept;
 
-    // Empties the queue of ICMP errors; returns how many there were.
-    [[nodiscard]] std::size_t drain_errors() noexcept;
+    // Takes the oldest ICMP error about an earlier datagram off its queue; nothing where there is none.
+    struct Failure {
+        Address to;  // where the datagram was sent
+        IoError error = IoError::other;
+    };
+    [[nodiscard]] std::optional<Failure> take_failure() noexcept;
     // Datagrams that the kernel dropped on this socket for lack of room, ever (SO_MEMINFO; wraps at 2^32).
     [[nodiscard]] std::uint32_t kernel_drops() const noexcept;
 

@@ -41,6 +41,7 @@ struct LinkCounters {
     Counter queue_bytes, queue_age;         // whole frames dropped on the way out
     Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
     Counter frames_not_sent;                // in datagrams that the kernel refused
+    Counter refused;  // sent to a closed port: within 1 s after a refusal (ICMP) and before the peer is heard
     void add(const LinkCounters& other) noexcept;
     // What a frame's number says of the loss.
     void add(wire::SequenceTracker::Update update) noexcept;
@@ -53,7 +54,7 @@ struct EndpointCounters {
     Counter stray_bytes;  // bytes of strangers whose datagrams held no valid frame, or with verify= none that is well signed
     Counter peers_refused;  // over max_peers, and none of the others may go (docs/guide/queues.md)
     Counter peers_evicted;  // the longest idle, gone for a newcomer
-    Counter send_errors;    // datagrams that met a closed port (ICMP said so) or that the kernel refused
+    Counter send_errors;    // datagrams that met a closed port (as far as ICMP reports it) or that the kernel refused
     Counter reconnects;
     // Sums over the peers and clients that are gone, and the bad signatures of strangers, who never were peers: with the counters of the
     // links that are there they make the endpoint's whole. A link is added when its on_link_down has returned.

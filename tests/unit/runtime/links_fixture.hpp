@@ -132,8 +132,8 @@ template <class Condition, class... Nodes>
 // A socket that knows nothing of ours.
 class PlainSocket {
 public:
-    explicit PlainSocket(int type) : fd_(::socket(AF_INET, type, 0)) { bind_to(0); }
-    static PlainSocket udp() { return PlainSocket(SOCK_DGRAM); }
+    explicit PlainSocket(int type, std::uint16_t port = 0) : fd_(::socket(AF_INET, type, 0)) { bind_to(port); }
+    static PlainSocket udp(std::uint16_t port = 0) { return PlainSocket(SOCK_DGRAM, port); }
     static PlainSocket connected_tcp(std::uint16_t port, int receive_buffer = 0) {
         PlainSocket s(SOCK_STREAM);
         if (receive_buffer != 0) setsockopt(s.fd(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);

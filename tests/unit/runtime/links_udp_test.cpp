@@ -309,6 +309,66 @@ TEST(LinksUdp, AClosedFarSideIsNotFatal) {
     ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node, late));
 }
 
+TEST(LinksUdp, FramesToAClosedPortAreRefusedUntilThePeerIsHeard) {
+    Node node;
+    std::uint16_t port;
+    { port = PlainSocket::udp().port(); }
+    const auto out = node.add(to("udpout", port));
+    const auto counters = [&] { return node.links->links().at(0).counters; };
+    ASSERT_EQ(node.links->send(out, view(heartbeat(0))), 1u);
+    ASSERT_TRUE(until([&] { return node.info(out).counters->send_errors.value() == 1; }, node));
+    EXPECT_EQ(counters()->frames_out.value(), 0u);
+    EXPECT_EQ(counters()->refused.value(), 1u);
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+    node.poll();
+    EXPECT_EQ(counters()->frames_out.value(), 0u);
+    EXPECT_EQ(counters()->refused.value(), 4u);
+
+    const auto far_side = PlainSocket::udp(port);
+    far_side.send_to(node.info(out).local_port, heartbeat(0));
+    ASSERT_TRUE(until([&] { return !node.recorder.frames.empty(); }, node));
+    EXPECT_EQ(node.links->send(out, view(attitude(9))), 1u);
+    node.poll();
+    EXPECT_EQ(counters()->frames_out.value(), 1u);
+    EXPECT_EQ(counters()->refused.value(), 4u);
+}
+
+TEST(LinksUdp, ARefusalIsForgottenAfterASecond) {
+    Node node;
+    std::uint16_t port;
+    { port = PlainSocket::udp().port(); }
+    const auto out = node.add(to("udpout", port));
+    ASSERT_EQ(node.links->send(out, view(heartbeat(0))), 1u);
+    ASSERT_TRUE(until([&] { return node.info(out).counters->send_errors.value() == 1; }, node));
+    const auto far_side = PlainSocket::udp(port);  // listens, and says nothing
+    ASSERT_TRUE(until([&, last = mono_now()] { return mono_now() - last > std::chrono::seconds(1); }, node));
+    EXPECT_EQ(node.links->send(out, view(attitude(0))), 1u);
+    node.poll();
+    EXPECT_EQ(node.links->links().at(0).counters->refused.value(), 1u);
+    EXPECT_EQ(node.links->links().at(0).counters->frames_out.value(), 1u);
+}
+
+TEST(LinksUdp, ARefusalIsThatOfItsPeerOnly) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto stays = PlainSocket::udp();
+    stays.send_to(node.port(in), heartbeat(0));
+    {
+        const auto goes = PlainSocket::udp();
+        goes.send_to(node.port(in), heartbeat(0));
+        ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+    }
+    ASSERT_EQ(node.links->send(in, view(attitude(0))), 2u);
+    ASSERT_TRUE(until([&] { return node.info(in).counters->send_errors.value() == 1; }, node));
+    ASSERT_EQ(node.links->send(in, view(attitude(1))), 2u);
+    node.poll();
+    const auto links = node.links->links();
+    EXPECT_EQ(links.at(0).counters->frames_out.value(), 2u);
+    EXPECT_EQ(links.at(0).counters->refused.value(), 0u);
+    EXPECT_EQ(links.at(1).counters->frames_out.value(), 1u);  // it was there a moment before
+    EXPECT_EQ(links.at(1).counters->refused.value(), 1u);
+}
+
 // A name with two addresses, of which the first has nobody: the next one gets its turn.
 TEST(LinksUdp, CallingANameTriesItsNextAddress) {
     const auto addresses = net::look_up("localhost", 1);

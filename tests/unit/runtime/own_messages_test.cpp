@@ -33,8 +33,8 @@ struct Router {
     explicit Router(const RouterConfig& config)
         : sut(dialect::default_dialect().wire_table(), config,
               {[this](LinkId link, const wire::FrameView& frame) {
-                   sent.push_back({link.value, frame.id().value, frame.system().value, frame.component().value,
-                                   frame.sequence()});
+                   sent.push_back(
+                       {link.value, frame.id().value, frame.system().value, frame.component().value, frame.sequence()});
                    return takes;
                },
                [this](LinkId) { return answered; }}) {}
