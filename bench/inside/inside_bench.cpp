@@ -89,7 +89,7 @@ private:
     void on_event(const wire::ParseEvent& event, MonoTime now) {
         if (event.kind != wire::ParseEvent::Kind::frame) return;
         ++frames_;
-        if constexpr (until >= Until::sequence) tracker_.update(event.frame);
+        if constexpr (until >= Until::sequence) tracker_.update(event.frame, event.info);
         const std::uint64_t mark = until >= Until::route ? engine_.mark_of(event.frame) : 0;
         if constexpr (until >= Until::count) traffic_.add(vehicle, event.frame, WallTime{now.time_since_epoch()});
         if constexpr (until >= Until::route)

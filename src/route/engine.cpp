@@ -9,8 +9,6 @@
 namespace mavloom::route {
 
 static constexpr MessageId heartbeat_id{0};
-static constexpr MessageId system_time_id{2};
-static constexpr std::size_t boot_time_offset = 8;  // of SYSTEM_TIME.time_boot_ms, behind time_unix_usec
 
 Engine::Engine(const wire::MessageTable& table, const Options& options)
     : impl_(std::make_unique<Impl>(table, options)) {}
@@ -38,6 +36,7 @@ Decision Engine::explain(const wire::FrameView& frame, const wire::MessageInfo* 
 void Engine::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept {
     impl_->note_sent(frame, link, now);
 }
+void Engine::note_reboot(LinkId link, Source source, MonoTime now) noexcept { impl_->note_reboot(link, source, now); }
 std::vector<RouteInfo> Engine::routes(MonoTime now) const { return impl_->routes(now); }
 std::span<const DuplicateId> Engine::duplicate_ids() const noexcept { return impl_->duplicates; }
 std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(); }
@@ -156,13 +155,6 @@ void Engine::Impl::remember(Passage& p, bool found) noexcept {
     p.is_remembered = true;
 }
 
-static std::uint32_t boot_ms_of(ByteView payload) noexcept {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4 && boot_time_offset + i < payload.size(); ++i)
-        value |= std::uint32_t{payload[boot_time_offset + i]} << (8 * i);
-    return value;
-}
-
 bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
     const ConstWords where = routes_.links_of(p.source), members = groups_[p.link.group].members.data();
     int count = 0;
@@ -203,20 +195,21 @@ void Engine::Impl::learn(Passage& p) noexcept {
     p.link.last_heard = p.now;
     if (p.info == nullptr || p.frame.system().value == 0) return;
     RouteTable::Change change;
-    Route* route = &routes_.learn(p.slot, p.source, p.now, change);
-    if (p.id == system_time_id) [[unlikely]] {
-        const std::uint32_t boot_ms = boot_ms_of(p.frame.payload());
-        if (route->has_boot && route->boot_ms > boot_ms && route->boot_ms - boot_ms > reboot_tolerance_ms) {
-            counters.reboots.add();
-            routes_.forget_system(p.frame.system());
-            route = &routes_.learn(p.slot, p.source, p.now, change);
-            --route->frames;  // the same frame
-        }
-        route->has_boot = true;
-        route->boot_ms = boot_ms;
-    }
+    routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
     watch_for_duplicate_ids(p);
+}
+
+// The frame that told of it has been learnt from already: that stays.
+void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcept {
+    const Slot slot = slot_of(link);
+    if (slot == no_slot || source.system.value == 0) return;
+    counters.reboots.add();
+    routes_.forget_system(source.system);
+    RouteTable::Change change;
+    Route& route = routes_.learn(slot, pair_of(source), now, change);
+    --route.frames;  // counted when it came
+    count_routes(change);
 }
 
 void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {

@@ -28,6 +28,7 @@ public:
                                  LinkId ingress, MonoTime now) noexcept;
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
                      std::vector<Explanation>& why);
+    void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
     [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;

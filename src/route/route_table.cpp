@@ -88,15 +88,8 @@ Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& chang
     } else {
         index = static_cast<std::uint32_t>(used_++);
     }
-    routes_[index] = Route{.heard_ns = 0,
-                           .frames = 0,
-                           .older = none,
-                           .newer = none,
-                           .boot_ms = 0,
-                           .slot = slot,
-                           .pair = pair,
-                           .known = false,
-                           .has_boot = false};
+    routes_[index] = Route{
+        .heard_ns = 0, .frames = 0, .older = none, .newer = none, .slot = slot, .pair = pair, .known = false};
     index_[place] = index + 1;
     append(index);
     ++links_[slot].count;

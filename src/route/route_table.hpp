@@ -28,11 +28,9 @@ struct Route {
     std::int64_t heard_ns;  // steady clock
     std::uint64_t frames;
     std::uint32_t older, newer;  // routes of the same link by age
-    std::uint32_t boot_ms;       // the newest SYSTEM_TIME.time_boot_ms
     Slot slot;
     Pair pair;
-    bool known;     // false: forgotten by a reboot, kept for its count
-    bool has_boot;  // boot_ms is set
+    bool known;  // false: forgotten by a reboot, kept for its count
 };
 
 class RouteTable {

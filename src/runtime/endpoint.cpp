@@ -209,6 +209,11 @@ SetupResult<Endpoint> parse(std::string_view text) {
 
 }  // namespace
 
+bool calls_somebody(Scheme scheme) noexcept {
+    return scheme == Scheme::udpout || scheme == Scheme::udpbcast || scheme == Scheme::udpmcast ||
+           scheme == Scheme::tcpout || scheme == Scheme::serial;
+}
+
 std::string_view scheme_name(Scheme scheme) noexcept { return names[static_cast<std::size_t>(scheme)]; }
 
 std::span<const std::string_view> detail::scheme_names() noexcept { return names; }

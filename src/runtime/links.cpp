@@ -28,18 +28,14 @@ void LinkCounters::add(const LinkCounters& other) noexcept {
         (this->*counter).add((other.*counter).value());
 }
 
-void LinkCounters::add(wire::SequenceTracker::Update update) noexcept {
-    using Verdict = wire::SequenceTracker::Verdict;
-    switch (update.verdict) {
-        case Verdict::gap: lost.add(update.lost); break;
-        case Verdict::duplicate: duplicate.add(); break;
-        case Verdict::resync: resync.add(); break;
-        case Verdict::late:
-            late.add();
-            lost.set(lost.value() + update.lost);
-            break;
-        default: break;
-    }
+void LinkCounters::add(const wire::SequenceTracker::Update& update) noexcept {
+    const auto change = [](Counter& counter, std::int32_t by) {
+        if (by != 0) counter.set(counter.value() + static_cast<std::uint64_t>(std::int64_t{by}));
+    };
+    change(lost, update.lost);
+    change(late, update.late);
+    change(duplicate, update.duplicate);
+    change(resync, update.resync);
 }
 
 class Links::Impl {
@@ -90,6 +86,7 @@ SetupResult<std::unique_ptr<Links>> Links::create(const dialect::Dialect& dialec
         auto impl = std::make_unique<Impl>(Language{dialect.wire_table(), MessageClasses(dialect)}, std::move(loop),
                                            std::move(batch));
         impl->routing = routing;
+        if (routing == RoutingOptions::by_owner) impl->core.leave_loss_to_owner();
         return std::unique_ptr<Links>(new Links(std::move(impl)));
     });
 }
@@ -193,6 +190,11 @@ bool Links::send_unsigned(LinkId link, wire::FrameView frame) {
     Link* const found = impl_->core.links().find(link);
     return found != nullptr && found->up && impl_->core.queue(*found, frame) && found->signature != nullptr &&
            found->signature->signs();
+}
+
+wire::SequenceTracker::Update Links::count_loss(const RxFrame& rx) {
+    Link* const found = impl_->core.links().find(rx.link);
+    return found == nullptr ? wire::SequenceTracker::Update{} : Core::count_loss(*found, rx.frame, rx.info);
 }
 
 MonoTime Links::now() const noexcept { return impl_->core.now(); }

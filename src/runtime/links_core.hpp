@@ -211,6 +211,15 @@ public:
     // For what is done between turns.
     void refresh_now() { now_ = mono_now(); }
 
+    void leave_loss_to_owner() noexcept { owner_counts_loss_ = true; }
+    static wire::SequenceTracker::Update count_loss(Link& link, const wire::FrameView& frame,
+                                                    const wire::MessageInfo* info) {
+        const auto update = link.tracker.update(frame, info);
+        if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
+            link.counters.add(update);
+        return update;
+    }
+
     // `link.name` is made unique. The handler is told at once inside a turn, else when the next begins.
     void add_link(Link& link);
     void set_up(Link& link);
@@ -295,6 +304,7 @@ private:
     LinkHandler* handler_ = nullptr;  // inside a turn only
     MonoTime now_ = mono_now();
     std::uint64_t turns_ = 0;
+    bool owner_counts_loss_ = false;
     std::size_t frames_this_turn_ = 0;
     bool more_waits_ = false;
     MonoTime turn_began_{};

@@ -26,14 +26,10 @@ std::optional<Source> own_source(const RouterConfig& config) {
     return Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
 }
 
-bool waits_for_others(Scheme scheme) noexcept {
-    return scheme == Scheme::udpin || scheme == Scheme::tcpin || scheme == Scheme::shm;
-}
-
 }  // namespace
 
 bool wants_heartbeat(const Endpoint& endpoint) noexcept {
-    return endpoint.options.heartbeat.value_or(!waits_for_others(endpoint.scheme) && !endpoint.options.tap);
+    return endpoint.options.heartbeat.value_or(calls_somebody(endpoint.scheme) && !endpoint.options.tap);
 }
 
 OwnMessages::OwnMessages(const wire::MessageTable& table, const RouterConfig& config, Ways ways)

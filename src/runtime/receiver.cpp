@@ -102,13 +102,12 @@ void Receiver::count_loss(const RxFrame& rx) {
         }
         last_loss_ = &it->second;
     }
-    using Verdict = wire::SequenceTracker::Verdict;
     auto& loss = *last_loss_;
     ++loss.received;
-    loss.lost += static_cast<std::uint64_t>(rx.sequence.lost);
-    loss.late += rx.sequence.verdict == Verdict::late;
-    loss.duplicate += rx.sequence.verdict == Verdict::duplicate;
-    loss.resync += rx.sequence.verdict == Verdict::resync;
+    loss.lost += static_cast<std::uint64_t>(std::int64_t{rx.sequence.lost});
+    loss.late += static_cast<std::uint64_t>(std::int64_t{rx.sequence.late});
+    loss.duplicate += static_cast<std::uint64_t>(std::int64_t{rx.sequence.duplicate});
+    loss.resync += static_cast<std::uint64_t>(std::int64_t{rx.sequence.resync});
 }
 
 void Receiver::on_link_up(LinkId link, EndpointId, std::string_view name) {

@@ -27,6 +27,8 @@ shm::ReaderOptions reader_options(const EndpointOptions& options) {
     return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
 }
 
+bool is_echo(std::uint8_t ring_verdict) noexcept { return verdict_of(ring_verdict) == route::Verdict::echo; }
+
 bool is_copy(const shm::RecordInfo& info) noexcept {
     const auto verdict = verdict_of(info.verdict);
     return verdict == route::Verdict::duplicate || verdict == route::Verdict::echo;
@@ -140,7 +142,8 @@ void RingSource::parse(ByteView bytes, LinkHandler& handler) {
 }
 
 void RingSource::hand_over(LinkHandler& handler, const Found& found) {
-    const auto update = last_->tracker.update(found.frame);
+    const auto update = is_echo(verdict_) ? wire::SequenceTracker::Update{}
+                                          : last_->tracker.update(found.frame, found.info);
     counters_.add(update);
     counters_.frames_in.add();
     counters_.bytes_in.add(found.frame.size());

@@ -11,6 +11,7 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "runtime/own_messages.hpp"
 #include "runtime/ring_tap.hpp"
+#include "runtime/silence_watch.hpp"
 
 namespace mavloom::runtime {
 
@@ -48,7 +49,8 @@ Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Noti
       own_messages_(std::make_unique<OwnMessages>(
           dialect.wire_table(), config,
           OwnMessages::Ways{[this](LinkId link, const wire::FrameView& frame) { return send_own(link, frame); },
-                            [this](LinkId link) { return is_answered(link); }})) {}
+                            [this](LinkId link) { return is_answered(link); }})),
+      silence_(std::make_unique<SilenceWatch>()) {}
 
 Router::~Router() {
     // Their threads post.
@@ -253,6 +255,16 @@ void Router::on_frame(const RxFrame& rx) {
     const auto decision = decide(rx, mark);
     if (ring_) ring_->write(rx, decision.verdict, by_id_[rx.endpoint.value]->verifies);
     send(rx, decision.links);
+    if (decision.verdict != route::Verdict::echo) count_loss(rx);
+}
+
+// What the link does not learn from tells of no reboot either.
+void Router::count_loss(const RxFrame& rx) {
+    if (links_->count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
+        return;
+    const auto& policy = by_id_[rx.endpoint.value]->policy;
+    if (!policy.tap && policy.in.admits(rx.frame.id(), rx.frame.source()))
+        engine_.note_reboot(rx.link, rx.frame.source(), links_->now());
 }
 
 route::Decision Router::decide(const RxFrame& rx, std::uint64_t mark) {
@@ -281,6 +293,7 @@ void Router::on_link_up(LinkId link, EndpointId endpoint, std::string_view name)
         return notice_(LogLevel::warning,
                        fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
     speak_on(link, endpoint);
+    if (expects_answer(by_id_[endpoint.value]->endpoint)) silence_->add(link, endpoint);
     if (may_tell_of_link(endpoint)) notice_(LogLevel::info, fmt::format("{}: up", name));
 }
 
@@ -311,6 +324,7 @@ void Router::forget_link(LinkId link) {
     if (ring_) ring_->on_link_down(link);
     engine_.remove_link(link);
     own_messages_->remove(link);
+    silence_->remove(link);
 }
 
 void Router::on_notice(EndpointId, std::string_view text) { notice_(LogLevel::info, text); }
@@ -400,6 +414,7 @@ void Router::look_after(MonoTime now) {
     for (const auto& e : endpoints_) tell_more_links(*e);
     if (inlet_) tell_more_links(*inlet_);
     look_after_ring();
+    tell_silence(now);
     std::erase_if(ending_recorders_, [](const auto& recorder) { return recorder->finished(); });
     if (std::exchange(a_link_went_, false))
         traffic_.forget_links_unless([&](LinkId link) { return !links_->link_name(link).empty(); });
@@ -415,6 +430,15 @@ void Router::look_after(MonoTime now) {
             fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
                         d.source.system.value, d.source.component.value, name(d.first), name(d.second)));
     }
+}
+
+void Router::tell_silence(MonoTime now) {
+    const auto silent = silence_->look([this](LinkId link) { return links_->counters(link); }, now);
+    if (silent.empty()) return;
+    const auto endpoints = links_->endpoints();
+    for (const auto& [link, endpoint] : silent)
+        notice_(LogLevel::warning,
+                silence_text(*std::ranges::find(endpoints, endpoint, &EndpointInfo::id), *links_->counters(link)));
 }
 
 void Router::look_after_ring() {

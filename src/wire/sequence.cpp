@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/wire/sequence.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace mavloom::wire {
 
 namespace {
@@ -10,6 +13,24 @@ std::uint32_t fingerprint(const FrameView& frame) noexcept {
     return (std::uint32_t{frame.checksum()} << 16 | std::uint32_t{frame.payload_length()} << 8 |
             (frame.id().value & 0xff)) |
            0x100u;
+}
+
+constexpr MessageId system_time{2};
+constexpr ComponentId autopilot{1};  // MAV_COMP_ID_AUTOPILOT1
+
+// Trailing zeros of a payload may be missing.
+std::uint32_t boot_ms_in(ByteView payload, std::size_t offset) noexcept {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4 && offset + i < payload.size(); ++i)
+        value |= std::uint32_t{payload[offset + i]} << (8 * i);
+    return value;
+}
+
+void add(SequenceTracker::Update& sum, const SequenceTracker::Update& one) noexcept {
+    sum.lost += one.lost;
+    sum.late += one.late;
+    sum.duplicate += one.duplicate;
+    sum.resync += one.resync;
 }
 
 }  // namespace
@@ -32,17 +53,21 @@ std::size_t SequenceTracker::find_or_add(Source source) {
 }
 
 // Flattened it takes a quarter less time.
-[[gnu::flatten]] SequenceTracker::Update SequenceTracker::update(const FrameView& frame) {
+[[gnu::flatten]] SequenceTracker::Update SequenceTracker::update(const FrameView& frame, const MessageInfo* info) {
     const std::size_t index = find_or_add(frame.source());
     if (index == 0) {
         ++untracked_;
-        return {Verdict::untracked, 0};
+        return {.verdict = Verdict::untracked};
     }
     auto& stats = stats_[index - 1];
     auto& state = states_[index - 1];
-    const auto result = judge(stats, state, frame);
+    Update result = judge(stats, state, frame);
     ++stats.received;
     state.recent[frame.sequence() % window] = fingerprint(frame);
+    if (result.verdict != Verdict::good) [[unlikely]]
+        add(state.since_clock_ran, result);
+    if (info != nullptr && info->boot_time_offset != MessageInfo::no_boot_time)
+        watch_clock(stats, state, frame, *info, result);
     return result;
 }
 
@@ -52,14 +77,14 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
     if (state.fresh) {
         state.fresh = false;
         advance();
-        return {Verdict::first, 0};
+        return {.verdict = Verdict::first};
     }
     const auto d = static_cast<std::int8_t>(sequence - state.expected);
     if (d == 0) {
         state.repeats = 0;
         stats.no_sequence = false;
         advance();
-        return {Verdict::good, 0};
+        return {};
     }
     const bool same_bytes = state.recent[sequence % window] == fingerprint(frame);
     if (d == -1) {  // the number of the newest frame again: a duplicate, or a sender that does not count
@@ -68,28 +93,71 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
             stats.no_sequence = true;
             stats.duplicate -= std::min<std::uint64_t>(stats.duplicate, constant_after - 1);
         }
-        if (stats.no_sequence) return {Verdict::no_sequence, 0};
+        if (stats.no_sequence) return {.verdict = Verdict::no_sequence};
     } else {
         state.repeats = 0;
     }
     if (d > 0 && d <= 100) {
         stats.lost += static_cast<std::uint64_t>(d);
         advance();
-        return {Verdict::gap, d};
+        return {.verdict = Verdict::gap, .lost = d};
     }
     if (d < 0 && d >= -30) {
         if (same_bytes || d == -1) {
             ++stats.duplicate;
-            return {Verdict::duplicate, 0};
+            return {.verdict = Verdict::duplicate, .duplicate = 1};
         }
         ++stats.late;
-        const std::int16_t taken_back = stats.lost > 0 ? -1 : 0;
-        stats.lost += taken_back;
-        return {Verdict::late, taken_back};
+        const std::int32_t taken_back = stats.lost > 0 ? -1 : 0;
+        stats.lost += static_cast<std::uint64_t>(taken_back);
+        return {.verdict = Verdict::late, .lost = taken_back, .late = 1};
     }
     ++stats.resync;
     advance();
-    return {Verdict::resync, 0};
+    return {.verdict = Verdict::resync, .resync = 1};
+}
+
+// Between the last frame of the old clock and this one the numbers began anew: that was one jump, whatever it was taken for.
+void SequenceTracker::watch_clock(SequenceStats& stats, State& state, const FrameView& frame, const MessageInfo& info,
+                                  Update& update) noexcept {
+    if (info.id != system_time && frame.component() != autopilot) return;
+    const auto verdict = read_clock(state, info.id, boot_ms_in(frame.payload(), info.boot_time_offset));
+    if (verdict == ClockVerdict::says_nothing) return;
+    Update& since = state.since_clock_ran;
+    if (verdict == ClockVerdict::restarted) {
+        since.resync -= 1;  // the jump itself stays
+        stats.lost -= static_cast<std::uint64_t>(since.lost);
+        stats.late -= static_cast<std::uint64_t>(since.late);
+        stats.duplicate -= std::min(stats.duplicate, static_cast<std::uint64_t>(since.duplicate));
+        stats.resync -= static_cast<std::uint64_t>(since.resync);
+        update = {Verdict::reboot, update.lost - since.lost, update.late - since.late,
+                  update.duplicate - since.duplicate, update.resync - since.resync};
+        state.expected = static_cast<std::uint8_t>(frame.sequence() + 1);
+        state.repeats = 0;
+    }
+    since = {};
+}
+
+SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept {
+    if (boot_ms == 0) return ClockVerdict::says_nothing;
+    const auto end = state.clocks.begin() + state.clock_count;
+    const auto clock = std::find_if(state.clocks.begin(), end, [&](const Clock& c) { return c.id == id.value; });
+    if (clock == end) {
+        if (end == state.clocks.end()) return ClockVerdict::says_nothing;
+        *end = {id.value, boot_ms, false};
+        ++state.clock_count;
+        return ClockVerdict::says_nothing;
+    }
+    const bool falls = clock->newest_ms > boot_ms && clock->newest_ms - boot_ms > boot_tolerance_ms;
+    if (!falls) {
+        clock->newest_ms = boot_ms;
+        clock->fell = false;
+        return ClockVerdict::runs;
+    }
+    if (id != system_time && !std::exchange(clock->fell, true)) return ClockVerdict::says_nothing;
+    state.clocks[0] = {id.value, boot_ms, false};  // the others are of the time before
+    state.clock_count = 1;
+    return ClockVerdict::restarted;
 }
 
 void SequenceTracker::restart() noexcept {

@@ -520,7 +520,7 @@ def test_s1_what_only_sends_makes_input_move_and_no_output(net, kind):
 
 @pytest.mark.parametrize("kind", [pytest.param("udpout", marks=pytest.mark.short), "tcpin", pytest.param("tcpout", marks=pytest.mark.short), "serial"])
 def test_s2_what_only_listens_makes_output_move_and_no_input(net, kind):
-    sut = net((kind,), 1, rules={"heartbeat": "7/191"})
+    sut = net((kind,), 1, options={1: "heartbeat=true"}, rules={"heartbeat": "7/191"})
     sut[1].count(5)
     link = sut.link(1)
 
@@ -757,6 +757,43 @@ def test_n12_commands_reach_a_link_that_echoes(net, kind, seconds):
 
     assert sut.link(2)["echo"] >= 2 * commands - 1
     assert (255, 190, sut.link(2)["link"]) not in sut.router.routes()
+
+
+@pytest.mark.short
+def test_an_echo_of_some_frames_is_no_loss(net):
+    """QGroundControl speaks to PX4 and to the router, and PX4 passes to the router what is not addressed: each fourth of its frames comes back."""
+    sut = net(("udpin", "udpout"))
+    for number in range(40):
+        frame = heartbeat(GCS)
+        sut[1].send(frame)
+        assert sut[2].next() == frame
+        if number % 4 == 0:
+            sut[2].send(frame)
+    sut[2].send(last := heartbeat(VEHICLE))
+    assert sut[1].next() == last
+
+    link = sut.link(2)
+    assert (link["echo"], link["lost"], link["resync"]) == (10, 0, 0)
+    assert GCS[0] not in {source["sys"] for source in sut.router.stats("source") if source["link"] == link["link"]}
+
+
+def attitude_at(boot_ms, sequence) -> bytes:
+    return mavlink.MAVLink_attitude_message(boot_ms, 0.1, -0.2, 3.0, 0.01, 0.02, 0.03).pack(frames.sender(*VEHICLE, sequence))
+
+
+@pytest.mark.short
+def test_a_vehicle_that_starts_again_loses_nothing(net):
+    """It sends no SYSTEM_TIME: its clock shows in ATTITUDE, and its sequence numbers begin at 0."""
+    sut = net(("udpout", "tcpin"))
+    flight = [attitude_at(100_000 + 20 * i, 150 + i) for i in range(50)]
+    again = [attitude_at(300 + 20 * i, i) for i in range(50)]
+    for frame in (*flight, *again):
+        sut[1].send(frame)
+    assert sut[2].count(100) == flight + again
+
+    link = sut.link(1)
+    assert sut.router.stats("router")[0]["reboots"] == 1
+    assert (link["frames_in"], link["lost"], link["late"], link["resync"]) == (100, 0, 0, 1)
 
 
 @pytest.mark.short

@@ -704,3 +704,16 @@ def test_a_host_is_looked_up_until_it_has_an_address(own_hosts, scheme):
         end = far if scheme == "udpout" else TcpEnd(server.accept()[0])
         assert end.next() == frame
         end.close()
+
+
+@pytest.mark.short
+def test_an_endpoint_that_hears_nothing_says_so_once(spawn):
+    """A PX4 that talks to somebody else already takes what the router sends, and answers nobody."""
+    with UdpEnd() as px4, UdpEnd() as copy:
+        router = Router(spawn, f"udpout://{LOCALHOST}:{px4.port}?name=px4", f"udpout://{LOCALHOST}:{copy.port}?name=copy&tap=true",
+                        rules={"heartbeat": "255/191"})
+        told = router.process.wait_output(r"px4: nothing heard for 5 s; .*", stream="err")[0]
+        px4.count(60)  # it goes on
+
+    assert f"{LOCALHOST}:{px4.port}" in told and "PX4" in told
+    assert router.process.stderr.count("nothing heard") == 1

@@ -111,10 +111,10 @@ private:
         std::size_t field_count = 0;
         for (const auto& m : dialect_.messages()) {
             records += fmt::format(
-                "    {{{}, {{mavloom::MessageId{{{}}}, {}, {}, {}, {}, {}}}, {{fields + {}, {}}}, {}, {}}},\n",
+                "    {{{}, {{mavloom::MessageId{{{}}}, {}, {}, {}, {}, {}, {}}}, {{fields + {}, {}}}, {}, {}}},\n",
                 text(m.name), m.wire.id.value, m.wire.crc_extra, m.wire.min_length, m.wire.max_length,
-                m.wire.target_system_offset, m.wire.target_component_offset, field_count, m.fields.size(),
-                text(m.origin), text(m.deprecated));
+                m.wire.target_system_offset, m.wire.target_component_offset, m.wire.boot_time_offset, field_count,
+                m.fields.size(), text(m.origin), text(m.deprecated));
             field_count += m.fields.size();
             for (const auto& field : m.fields) fields += fmt::format("    {},\n", field_text(field));
         }

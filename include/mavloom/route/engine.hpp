@@ -113,7 +113,7 @@ struct EngineCounters {
     Counter routes_expired;
     Counter routes_evicted;  // the stalest of a link, or of the busiest link, for a new one: a table was full
     Counter recent_evicted;  // remembered frames that gave way before their time: an echo of them is not known
-    Counter reboots;         // of a system, seen by its clock going back
+    Counter reboots;         // of a system: note_reboot
     Counter duplicate_ids;   // sources heard in turn on links that are not of one group
 };
 
@@ -152,8 +152,6 @@ public:
     static constexpr std::uint32_t most_beats = 256;  // then all links of the group go on with half of theirs
     // A HEARTBEAT that its link brings twice within this time of its first copy is a datagram that was doubled, and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
-    // SYSTEM_TIME.time_boot_ms that falls by more is a reboot; by less, two frames that overtook each other.
-    static constexpr std::uint32_t reboot_tolerance_ms = 1000;
 
     // `table` must outlive the engine.
     Engine(const wire::MessageTable& table, const Options& options);
@@ -189,6 +187,10 @@ public:
 
     // The program itself sent this frame to the link: if it comes back, it is an echo.
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
+
+    // A frame of this source, which was routed already, showed that its system has started again (wire::SequenceTracker finds that out): forgets
+    // the system's routes, but for this one.
+    void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
 
     // Learned routes that are not too old, by system, component and link. Allocates.
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;

@@ -22,6 +22,8 @@ namespace mavloom::runtime {
 enum class Scheme : std::uint8_t { udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog };
 
 [[nodiscard]] std::string_view scheme_name(Scheme scheme) noexcept;
+// Whether an endpoint of this scheme speaks first, to a far side that it names: not one whose peers or clients come by themselves.
+[[nodiscard]] bool calls_somebody(Scheme scheme) noexcept;
 
 struct HostPort {
     std::string host;  // a name, IPv4, or IPv6 without brackets

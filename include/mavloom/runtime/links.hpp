@@ -44,7 +44,7 @@ struct LinkCounters {
     Counter refused;  // sent to a closed port: within 1 s after a refusal (ICMP) and before the peer is heard
     void add(const LinkCounters& other) noexcept;
     // What a frame's number says of the loss.
-    void add(wire::SequenceTracker::Update update) noexcept;
+    void add(const wire::SequenceTracker::Update& update) noexcept;
 };
 
 // What belongs to a socket rather than to one of its peers.
@@ -68,7 +68,7 @@ struct RxFrame {
     LinkId link;
     EndpointId endpoint;
     WallTime time{};                           // the kernel's receive time; a recording's own time for tlog sources
-    wire::SequenceTracker::Update sequence{};  // what it says of the link's loss
+    wire::SequenceTracker::Update sequence{};  // what it says of the link's loss, unless the owner counts that
     std::uint8_t ring_verdict = 0;             // of a ring: what its writer says of the frame (ring_frames.hpp)
 };
 
@@ -109,7 +109,8 @@ struct EndpointInfo {
     }
 };
 
-// Filters, groups, rates, tap= and private= of an endpoint: an error, or applied by who owns the links (Router).
+// Filters, groups, rates, tap= and private= of an endpoint: an error, or applied by the owner of the links (Router). The owner then also says
+// which frames count for the link's loss: not the echoes, which only it knows.
 enum class RoutingOptions : std::uint8_t { refused, by_owner };
 
 class Links {
@@ -158,6 +159,8 @@ public:
     std::size_t send(EndpointId endpoint, wire::FrameView frame);
     // The same without the signature that `sign=` would give: true when the link took it and has `sign=`.
     bool send_unsigned(LinkId link, wire::FrameView frame);
+    // RoutingOptions::by_owner: this frame, which is being handled, counts for its link's loss.
+    wire::SequenceTracker::Update count_loss(const RxFrame& rx);
     // The instant of the turn that is under way.
     [[nodiscard]] MonoTime now() const noexcept;
     // True when something queued is not yet with the kernel.

@@ -27,6 +27,7 @@ namespace mavloom::runtime {
 
 class RingTap;
 class OwnMessages;
+class SilenceWatch;
 
 // Why a router refuses shm://NAME, for who types it.
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
@@ -119,11 +120,13 @@ private:
     // Of a crowd of links of an endpoint that come and go a few are told, and how many there were.
     [[nodiscard]] bool may_tell_of_link(EndpointId endpoint) noexcept;
     void send(const RxFrame& rx, std::span<const LinkId> links);
+    void count_loss(const RxFrame& rx);
     void run_posted();
     bool send_own(LinkId link, const wire::FrameView& frame);
     [[nodiscard]] bool is_answered(LinkId link) const;
     void look_after(MonoTime now);
     void look_after_ring();
+    void tell_silence(MonoTime now);
     void refresh_page();
     void tell_more_links(OpenedEndpoint& opened);
     [[nodiscard]] MonoTime next_due() const noexcept;
@@ -145,6 +148,7 @@ private:
     std::unique_ptr<OpenedEndpoint> inlet_;                    // null: none
     std::unique_ptr<RingTap> ring_;                            // null: none
     std::unique_ptr<OwnMessages> own_messages_;                // never null
+    std::unique_ptr<SilenceWatch> silence_;                    // never null
     bool any_signs_ = false;
     bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
     Counter not_signed_;

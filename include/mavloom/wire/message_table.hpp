@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the wire layer knows of a message: its id, checksum seed, lengths and where its target lies. Names and fields are module dialect's.
+// What the wire layer knows of a message: its id, checksum seed, lengths, and where its target or its sender's clock lies. Names and fields are module dialect's.
 // A MessageTable is immutable after construction: any number of threads and parsers may share one. It allocates only when built.
 // Source: MAVLink guide, "Serialization" (CRC_EXTRA, extension fields) and "Routing" (target fields).
 #pragma once
@@ -15,6 +15,7 @@ namespace mavloom::wire {
 
 struct MessageInfo {
     static constexpr std::uint8_t no_target = 0xff;
+    static constexpr std::uint8_t no_boot_time = 0xff;
 
     MessageId id;
     std::uint8_t crc_extra = 0;
@@ -22,6 +23,7 @@ struct MessageInfo {
     std::uint8_t max_length = 0;  // payload bytes with all extension fields
     std::uint8_t target_system_offset = no_target;  // in the payload; MANUAL_CONTROL's `target` counts (DESIGN.md section 4)
     std::uint8_t target_component_offset = no_target;
+    std::uint8_t boot_time_offset = no_boot_time;  // of `time_boot_ms` (uint32), in messages without a target system
     friend constexpr bool operator==(const MessageInfo&, const MessageInfo&) = default;
 };
 

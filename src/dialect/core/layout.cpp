@@ -57,6 +57,14 @@ void note_target(wire::MessageInfo& info, std::string_view message_name, const F
             info.*target.offset = field.offset;
 }
 
+// A target's owner set the time of a message that has one.
+void note_boot_time(wire::MessageInfo& info, std::span<const Field> fields) noexcept {
+    if (info.target_system_offset != wire::MessageInfo::no_target) return;
+    const auto found = std::ranges::find(fields, std::string_view("time_boot_ms"), &Field::name);
+    if (found != fields.end() && found->type == FieldType::u32 && !found->is_array())
+        info.boot_time_offset = found->offset;
+}
+
 }  // namespace
 
 std::string_view type_name(FieldType type) noexcept {
@@ -84,6 +92,7 @@ wire::MessageInfo lay_out(MessageId id, std::string_view message_name, std::span
         note_target(info, message_name, *field);
     }
     info.max_length = static_cast<std::uint8_t>(offset);
+    note_boot_time(info, fields);
     info.crc_extra = crc_extra(message_name, order);
     return info;
 }

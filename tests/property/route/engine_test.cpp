@@ -112,7 +112,7 @@ public:
             case 23: return frames_.empty() ? void() : again(link, s);
             case 24: return add(s);
             case 25: return s[2] % 2 == 0 ? remove(link) : beat(link, s[2] / 2);
-            case 26:
+            case 26: return reboot(link, {pick(systems, s[2]), pick(components, s[3])});
             case 27:
             case 28:
             case 29:
@@ -160,6 +160,11 @@ private:
         routing_.remove_link(LinkId{link});
         explaining_.remove_link(LinkId{link});
         model_.remove(link);
+    }
+    void reboot(std::uint32_t link, Id source) {
+        if (!model_.reboot(link, source.system, source.component, now_)) return;
+        for (Engine* engine : {&routing_, &explaining_}) engine->note_reboot(LinkId{link}, source, now_);
+        check_routes();
     }
     // HEARTBEATs that no other link hears.
     void beat(std::uint32_t link, std::uint32_t count) {

@@ -54,6 +54,18 @@ public:
         if (policy.tap) link.policy.group = 0;
         links_[id] = link;
     }
+    // A frame of this source told of a reboot. False where the source is not known on that link.
+    bool reboot(std::uint32_t link, std::uint8_t system, std::uint8_t component, MonoTime now) {
+        const auto is_it = [&](const Heard& h) {
+            return h.link == link && h.system == system && h.component == component;
+        };
+        const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
+        if (source == heard_.end() || !source->known || now - source->time >= timeout(link)) return false;
+        for (Heard& h : heard_)
+            if (h.system == system) h.known = is_it(h);
+        source->time = now;
+        return true;
+    }
     void remove(std::uint32_t id) {
         links_.erase(id);
         std::erase_if(heard_, [&](const Heard& h) { return h.link == id; });
@@ -113,7 +125,6 @@ private:
         MonoTime time;
         std::uint64_t frames = 0;
         bool known = true;
-        std::optional<std::uint32_t> boot_ms{};
     };
     struct Recent {
         Bytes bytes;
@@ -230,15 +241,6 @@ private:
         };
         if (std::none_of(heard_.begin(), heard_.end(), same)) heard_.push_back({ingress, system, component, now_});
         Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
-        if (frame.id().value == 2) {
-            Bytes payload = mavloom::test::copy(frame.payload());
-            payload.resize(12);
-            const auto boot_ms = load_le<std::uint32_t>(&payload[8]);
-            if (heard.boot_ms && *heard.boot_ms > boot_ms + std::uint64_t{1000})
-                for (Heard& h : heard_)
-                    if (h.system == system) h.known = false;
-            heard.boot_ms = boot_ms;
-        }
         heard.known = true;
         heard.time = now_;
         ++heard.frames;

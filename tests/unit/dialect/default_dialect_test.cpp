@@ -50,6 +50,17 @@ TEST(DefaultDialect, CountsTargetOfManualControlAsTargetSystem) {
     EXPECT_EQ(default_dialect().find("MANUAL_CONTROL")->wire.target_component_offset, wire::MessageInfo::no_target);
 }
 
+// Offsets worked out by hand from the definitions' wire order.
+TEST(DefaultDialect, KnowsWhereASendersClockLies) {
+    const auto boot_time = [](std::string_view name) { return default_dialect().find(name)->wire.boot_time_offset; };
+
+    EXPECT_EQ(boot_time("SYSTEM_TIME"), 8);
+    EXPECT_EQ(boot_time("ATTITUDE"), 0);
+    EXPECT_EQ(boot_time("CAMERA_IMAGE_CAPTURED"), 8);  // behind time_utc
+    for (const auto* none : {"HEARTBEAT", "GPS_RAW_INT", "SET_POSITION_TARGET_LOCAL_NED"})
+        EXPECT_EQ(boot_time(none), wire::MessageInfo::no_boot_time) << none;
+}
+
 TEST(DefaultDialect, LabelsCommandParameters) {
     const auto* command = default_dialect().find_enum("MAV_CMD")->find("MAV_CMD_NAV_WAYPOINT");
     ASSERT_NE(command, nullptr);

@@ -128,11 +128,12 @@ TEST(Engine, LinkMayHaveATimeoutOfItsOwn) {
 TEST(Engine, RebootForgetsTheRoutesOfASystemAndKeepsTheCount) {
     Network sut;
     sut.links(3);
-    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 100000}});
+    sut.hears(1, vehicle);
     sut.hears(2, {1, 154});
     ASSERT_THAT(sut.command(3, gcs, {1, 0}), ElementsAre(1, 2));
 
-    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 1200}});
+    sut.hears(1, vehicle);
+    sut.engine.note_reboot(LinkId{1}, vehicle, sut.now);
 
     EXPECT_THAT(sut.command(3, gcs, {1, 0}), ElementsAre(1));
     EXPECT_EQ(sut.engine.counters().reboots.value(), 1u);
@@ -141,12 +142,13 @@ TEST(Engine, RebootForgetsTheRoutesOfASystemAndKeepsTheCount) {
     EXPECT_EQ(sut.engine.routes(sut.now)[0].frames, 2u);
 }
 
-TEST(Engine, FramesThatOvertookEachOtherAreNoReboot) {
+TEST(Engine, ARebootOnALinkThatIsGoneForgetsNothing) {
     Network sut;
     sut.links(2);
-    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 100000}});
-    sut.send(1, "SYSTEM_TIME", vehicle, {{"time_boot_ms", 99000}});
+    sut.hears(1, vehicle);
+    sut.engine.note_reboot(LinkId{9}, vehicle, sut.now);
 
+    EXPECT_THAT(sut.command(2, gcs, vehicle), ElementsAre(1));
     EXPECT_EQ(sut.engine.counters().reboots.value(), 0u);
 }
 

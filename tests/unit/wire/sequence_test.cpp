@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mavloom/wire/frame_writer.hpp"
 #include "support/golden_frames.hpp"
 
 namespace mavloom::wire {
@@ -133,6 +134,152 @@ TEST(SequenceTracker, BoundsItsMemory) {
 
     EXPECT_EQ(sut.sources().size(), SequenceTracker::max_sources);
     EXPECT_EQ(sut.untracked(), 65536u - SequenceTracker::max_sources);
+}
+
+// ---- restarts. Rules: docs/guide/routing.md. Offsets are common.xml's: ATTITUDE and GLOBAL_POSITION_INT begin with
+// time_boot_ms, in SYSTEM_TIME it stands behind eight bytes.
+
+namespace {
+
+constexpr MessageInfo system_time{MessageId{2}, 137, 12, 12, 0xff, 0xff, 8},
+    attitude{MessageId{30}, 39, 28, 28, 0xff, 0xff, 0}, position{MessageId{33}, 104, 28, 28, 0xff, 0xff, 0},
+    heartbeat{MessageId{0}, 50, 9, 9};
+
+// The frames of one vehicle with a sequence of its own.
+struct Vehicle {
+    SequenceTracker& tracker;
+    std::uint8_t component = 1;
+    std::uint8_t sequence = 0;
+
+    SequenceTracker::Update send(const MessageInfo& info, std::uint32_t boot_ms = 0) {
+        std::vector<std::uint8_t> payload(info.max_length, 7);
+        if (info.boot_time_offset != MessageInfo::no_boot_time)
+            for (int i = 0; i < 4; ++i)
+                payload[info.boot_time_offset + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(boot_ms >>
+                                                                                                         8 * i);
+        FrameBuffer buffer;
+        const auto frame = write_frame(
+            buffer, {.sequence = sequence++, .source = {SystemId{1}, ComponentId{component}}}, info, payload);
+        return tracker.update(frame, &info);
+    }
+    void fly(std::uint32_t from_ms, int frames) {
+        for (int i = 0; i < frames; ++i) send(attitude, from_ms + static_cast<std::uint32_t>(20 * i));
+    }
+};
+
+}  // namespace
+
+TEST(Restart, ShowsBySystemTimeAtOnceAndIsNoLoss) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 20);
+    vehicle.send(system_time, 100'400);
+    vehicle.sequence = 60;
+
+    EXPECT_EQ(vehicle.send(heartbeat).verdict, Verdict::gap);
+    const auto update = vehicle.send(system_time, 1'200);
+
+    EXPECT_EQ(update.verdict, Verdict::reboot);
+    EXPECT_EQ(update.lost, -39);
+    EXPECT_EQ(update.resync, 1);
+    EXPECT_EQ(sut.total().lost, 0u);
+    EXPECT_EQ(sut.total().resync, 1u);
+}
+
+TEST(Restart, ShowsByTheSecondFrameOfAnotherMessage) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 50);
+    vehicle.sequence = 0;
+
+    EXPECT_EQ(vehicle.send(attitude, 300).verdict, Verdict::resync);
+    EXPECT_EQ(vehicle.send(heartbeat).verdict, Verdict::good);
+    const auto update = vehicle.send(attitude, 320);
+    EXPECT_EQ(update.verdict, Verdict::reboot);
+    EXPECT_EQ(update.resync, 0);  // counted already
+    vehicle.fly(340, 50);
+
+    EXPECT_EQ(sut.total().lost, 0u);
+    EXPECT_EQ(sut.total().resync, 1u);
+}
+
+TEST(Restart, TakesBackTheFramesThatSeemedLate) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 20);
+    vehicle.sequence = 25;
+    vehicle.send(attitude, 100'400);  // five lost, truly
+    vehicle.sequence = 0;             // 26 back: late
+
+    vehicle.fly(100, 10);
+
+    EXPECT_EQ(sut.total().lost, 5u);
+    EXPECT_EQ(sut.total().late, 0u);
+    EXPECT_EQ(sut.total().resync, 1u);
+}
+
+TEST(Restart, IsNoneOfOneFrameThatComesLate) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 20);
+
+    EXPECT_NE(vehicle.send(attitude, 90'000).verdict, Verdict::reboot);
+    EXPECT_NE(vehicle.send(attitude, 100'420).verdict, Verdict::reboot);
+    EXPECT_NE(vehicle.send(attitude, 90'020).verdict, Verdict::reboot);
+    EXPECT_EQ(sut.total().resync, 0u);
+}
+
+TEST(Restart, IsNoneWithinTheTolerance) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 2);
+
+    for (const auto back : {99'020u, 98'100u, 97'100u}) EXPECT_EQ(vehicle.send(attitude, back).verdict, Verdict::good);
+    EXPECT_EQ(vehicle.send(system_time, 200'000).verdict, Verdict::good);
+    EXPECT_EQ(vehicle.send(system_time, 199'000).verdict, Verdict::good);
+}
+
+TEST(Restart, IsComparedWithinOneMessage) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 2);
+
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(vehicle.send(position, 5'000).verdict, Verdict::good);  // another clock
+}
+
+TEST(Restart, IsThatOfAnAutopilot) {
+    SequenceTracker sut;
+    Vehicle camera{sut, 100};
+    camera.fly(100'000, 2);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(camera.send(attitude, 300).verdict, Verdict::good);
+
+    EXPECT_EQ(camera.send(system_time, 100'000).verdict, Verdict::good);
+    EXPECT_EQ(camera.send(system_time, 300).verdict, Verdict::reboot);  // whoever sends SYSTEM_TIME
+}
+
+TEST(Restart, IsNotToldByAClockOfZero) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut};
+    vehicle.fly(100'000, 2);
+    vehicle.send(system_time, 100'100);
+
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(vehicle.send(attitude, 0).verdict, Verdict::good);
+        EXPECT_EQ(vehicle.send(system_time, 0).verdict, Verdict::good);
+    }
+}
+
+TEST(Restart, OfOneSourceIsNoneOfAnother) {
+    SequenceTracker sut;
+    Vehicle vehicle{sut}, radio{sut, 51};
+    radio.send(heartbeat);
+    radio.sequence = 4;
+    radio.send(heartbeat);
+    vehicle.fly(100'000, 2);
+    vehicle.fly(300, 2);
+
+    EXPECT_EQ(sut.sources()[0].lost, 3u);
+    EXPECT_EQ(sut.sources()[1].resync, 1u);
 }
 
 }  // namespace mavloom::wire

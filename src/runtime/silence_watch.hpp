@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Notices links that send and hear nothing: a wrong port, a wrong baud rate, a vehicle that talks to somebody else. Each endpoint is reported
+// once, and only where it calls somebody: whoever comes by itself has been heard.
+//
+// Private to module runtime; one owner thread; time is a parameter.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/base/ids.hpp"
+#include "mavloom/runtime/links.hpp"
+
+namespace mavloom::runtime {
+
+class SilenceWatch {
+public:
+    static constexpr Nanoseconds patience = std::chrono::seconds{5};
+
+    // A link came up of an endpoint that calls somebody and expects an answer.
+    void add(LinkId link, EndpointId endpoint);
+    void remove(LinkId link);
+
+    struct Silent {
+        LinkId link;
+        EndpointId endpoint;
+    };
+    // Null for a link that is gone.
+    using CountersOf = std::function<const LinkCounters*(LinkId)>;
+    // About once a second: what to report now. A link that was heard is watched no longer.
+    [[nodiscard]] std::vector<Silent> look(const CountersOf& counters_of, MonoTime now);
+
+private:
+    struct Watched {
+        LinkId link;
+        EndpointId endpoint;
+        MonoTime since = MonoTime::max();  // the first look at which it had sent something
+    };
+    std::vector<Watched> watched_;
+    std::vector<EndpointId> reported_;
+};
+
+// Whether silence on this endpoint is worth a word: it calls somebody, and is no tap.
+[[nodiscard]] bool expects_answer(const Endpoint& endpoint) noexcept;
+
+// "px4: nothing heard for 5 s; ..." with what to look at, by what did come: `link` of its link, `info` of the endpoint.
+[[nodiscard]] std::string silence_text(const EndpointInfo& info, const LinkCounters& link);
+
+}  // namespace mavloom::runtime
