@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from typing_extensions import Buffer
 
 DEFAULT_BUFFER_BYTES = 16 << 20  # about 250,000 messages
+DEFAULT_SOURCE = (255, 193)  # the system that ArduPilot obeys, with a component that is no ground station's (QGroundControl is 255/190)
 NO_VEHICLES = frozenset({6, 18, 26, 27, 30})  # MAV_TYPE: GCS, onboard controller, gimbal, ADS-B, camera
 AUTOPILOT_INVALID = 8
 
@@ -34,7 +35,7 @@ class Link:
     links of its own.
     """
 
-    def __init__(self, url: str, *, source_system: int = 255, source_component: int = 190, dialect: Dialect | None = None,
+    def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
                  buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
         """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background, or with
         `required=true` in the address for up to 5 s, and is then a SystemFailure too."""
@@ -226,7 +227,7 @@ class Sender:
         return run
 
 
-def connect(url: str, *, source_system: int = 255, source_component: int = 190, dialect: Dialect | None = None,
+def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
             buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
     """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`. pymavlink's spellings (`udpin:HOST:PORT`) are taken too. `version=1` sends MAVLink 1."""
     return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer, version=version)

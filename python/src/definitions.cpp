@@ -148,10 +148,13 @@ nb::tuple enum_entries(const PyDialect& dialect, std::string_view name) {
     return nb::make_tuple(enumeration->bitmask, entries);
 }
 
+// System 255 is the ground station that ArduPilot obeys; component 193 is no ground station's, unlike 190, which is QGroundControl's.
+constexpr Source default_source{SystemId{255}, ComponentId{193}};
+
 // A message's own header stands where it is encoded again, unless the caller gives another.
 wire::FrameHeader header_for(const nb::object& message, const OptionalInteger& system, const OptionalInteger& component,
                              const OptionalInteger& seq, const OptionalInteger& version) {
-    wire::FrameHeader header{.source = {SystemId{255}, ComponentId{190}}};
+    wire::FrameHeader header{.source = default_source};
     if (nb::isinstance<Message>(message)) {
         const auto frame = nb::inst_ptr<Message>(message)->frame();
         header = {frame.version(), frame.sequence(), frame.source(), frame.compat_flags()};
@@ -286,7 +289,7 @@ void bind_dialect(nb::module_& module) {
                  "def encode(self, message: str | Message, /, *, source_system: int | None = None, source_component: "
                  "int | None = None, "
                  "frame_seq: int | None = None, frame_version: int | None = None, **fields: typing.Any) -> bytes"),
-             "One whole frame. `message` is a name, whose header defaults to 255/190, sequence 0, MAVLink 2; or a "
+             "One whole frame. `message` is a name, whose header defaults to 255/193, sequence 0, MAVLink 2; or a "
              "Message, whose header and\n"
              "fields stand where they are not given (encode(decode(frame)) == frame for unsigned frames).\n\n"
              "Fields that are left out are 0. Numbers, names of enum entries (\"A|B\" for flags), str (as UTF-8) or "
@@ -295,7 +298,7 @@ void bind_dialect(nb::module_& module) {
              "field and range.")
         .def("message", &make, nb::arg(), nb::arg("fields"),
              nb::sig("def message(self, name: str | Message, /, **fields: typing.Any) -> Message"),
-             "A Message that was not received: header 255/190, time 0. Fields as in `encode`.")
+             "A Message that was not received: header 255/193, time 0. Fields as in `encode`.")
         .def("decode", &decode_bytes, nb::arg("frame"), nb::arg("time_ns") = 0,
              nb::sig("def decode(self, frame: Buffer, time_ns: int = 0) -> Message"),
              "The Message in one whole frame (any bytes-like object, copied). InputError where the bytes are no frame "

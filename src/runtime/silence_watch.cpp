@@ -14,23 +14,25 @@ namespace {
 std::string advice_for(const Endpoint& endpoint) {
     switch (endpoint.scheme) {
         case Scheme::serial:
-            return fmt::format("is it the right port, is the baud rate right ({}), are the wires crossed (TX to RX), and "
-                               "does the far side speak MAVLink there?",
-                               endpoint.options.baud == 0
-                                   ? std::string("baud=auto found none yet")
-                                   : fmt::format("{} here; baud=auto tries a list", endpoint.options.baud));
+            return fmt::format(
+                "is it the right port, is the baud rate right ({}), are the wires crossed (TX to RX), and "
+                "does the far side speak MAVLink there?",
+                endpoint.options.baud == 0 ? std::string("baud=auto found none yet")
+                                           : fmt::format("{} here; baud=auto tries a list", endpoint.options.baud));
         case Scheme::tcpout:
             return fmt::format("{} took the connection: does it speak MAVLink?", detail::to_text(endpoint.address));
         case Scheme::udpbcast:
-            return fmt::format("does anybody on that network listen on port {}, and does a firewall let answers through?",
-                               endpoint.address.port);
+            return fmt::format(
+                "does anybody on that network listen on port {}, and does a firewall let answers through?",
+                endpoint.address.port);
         case Scheme::udpmcast:
             return fmt::format("is anybody in the group {}, on the network that iface= names or the routes choose?",
                                detail::to_text(endpoint.address));
         default:
-            return fmt::format("is {} the port that the far side listens on, and does it answer whoever speaks to it? PX4 "
-                               "answers only the first that spoke to it: start it again after this router",
-                               detail::to_text(endpoint.address));
+            return fmt::format(
+                "is {} the port that the far side listens on, and does it answer whoever speaks to it? PX4 "
+                "answers only the first that spoke to it: start it again after this router",
+                detail::to_text(endpoint.address));
     }
 }
 
@@ -39,9 +41,10 @@ std::string evidence(const EndpointInfo& info, const LinkCounters& link) {
         return fmt::format("{} frames came without the signature that verify= wants: is it the same key on both sides?",
                            link.bad_signature.value());
     if (info.counters->wrong_peer.value() != 0)
-        return fmt::format("{} datagrams came from another address than {}: a far side that answers from another port "
-                           "is heard by udpin://",
-                           info.counters->wrong_peer.value(), detail::to_text(info.endpoint.address));
+        return fmt::format(
+            "{} datagrams came from another address than {}: a far side that answers from another port "
+            "is heard by udpin://",
+            info.counters->wrong_peer.value(), detail::to_text(info.endpoint.address));
     if (link.junk_bytes.value() + link.crc_error.value() == 0) return {};
     const bool is_serial = info.endpoint.scheme == Scheme::serial;
     return fmt::format("what came is no MAVLink ({} bytes, {} damaged frames): {}", link.junk_bytes.value(),

@@ -149,6 +149,16 @@ def test_row_1_a_poll_looks_at_all_that_is_there(link, vehicle):
     assert mine.recv(timeout=0) is None and link.recv_match() is None
 
 
+def test_the_default_source_is_system_255_and_no_ground_stations_component(peer):
+    vehicle = Vehicle(peer)
+    with mavloom.connect(f"udpout://127.0.0.1:{vehicle.port}") as link:
+        link.send("HEARTBEAT", type=18)
+        sent, = vehicle.receive()
+    made = mavloom.Dialect().encode("HEARTBEAT", type=18)
+
+    assert (sent.get_srcSystem(), sent.get_srcComponent()) == tuple(made[5:7]) == (255, 193)
+
+
 def test_example_4_send(peer):
     vehicle = Vehicle(peer)
     with mavloom.connect(f"udpout://127.0.0.1:{vehicle.port}", source_system=7, source_component=9) as link:

@@ -59,7 +59,7 @@ def test_records_are_messages_with_their_time_link_and_verdict(ring, writer):
         stats = link.stats
         assert (stats.frames_in, stats.bytes_in, stats.other_kinds, stats.bad_records, stats.lapped, stats.peers) == (3, 3 * len(beat(1)), 1, 1, 0, 0)
         assert [(s.link_name, s.sys, s.comp, s.received, s.lost) for s in stats.sources] == [
-            (f"shm://{ring}/7", 255, 190, 1, 0), (f"shm://{ring}/8", 255, 190, 2, 0)]
+            (f"shm://{ring}/7", 255, 193, 1, 0), (f"shm://{ring}/8", 255, 193, 2, 0)]
         assert (link.name, link.port) == (f"shm://{ring}", 0)
 
 

@@ -44,7 +44,7 @@ def test_examples_run(page, flight, tmp_path, child_environment):
         done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
         assert (done.returncode, done.stderr) == (0, ""), done.stderr
         if inlet in script:
-            assert [(frame[0], frame[5:10]) for frame in [router.recv(65536)]] == [(0xfd, bytes((255, 190, 0, 0, 0)))]
+            assert [(frame[0], frame[5:10]) for frame in [router.recv(65536)]] == [(0xfd, bytes((255, 193, 0, 0, 0)))]
 
 
 def numbers_in_names(word):
