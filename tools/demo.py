@@ -5,7 +5,11 @@
     recorded PX4 flight --replay--> +--> mavloom listen   (decoded, shown here)
                                     +--> mavloom relay    (decoded, re-encoded) --> ground-station port (recorded)
 
-Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte what the vehicle sent.
+Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte what the vehicle sent. Then the way
+through shared memory, there and back:
+
+    vehicle --> python -m mavloom.hear --ring--> mavloom relay --> ground station --(its frames of the flight)--> relay --inlet--> hear --> vehicle
+
 Exit status: 0 all bytes agree, 4 they do not, 1 a program failed.
 """
 import argparse
@@ -13,6 +17,7 @@ import os
 import pathlib
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -24,12 +29,16 @@ FLIGHT = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
 SHOWN_EACH_S = 2.0  # of every message one line in this time: all 370 a second would be a blur
 
 
+GROUND_STATION = 255  # its system in the flight
+PATIENCE_S = 10.0
+
+
 class Program:
     """One of our programs with its talk (stderr) on a thread; its ports are read from there."""
 
-    def __init__(self, program, *args):
+    def __init__(self, *args):
         self.args = args
-        self.process = subprocess.Popen([program, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
+        self.process = subprocess.Popen([*map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
         self.talk = []
         self.thread = threading.Thread(target=self._read_talk, daemon=True)
         self.thread.start()
@@ -38,16 +47,19 @@ class Program:
         for line in self.process.stderr:
             self.talk.append(line.rstrip())
 
-    def port(self, seconds=10.0):
-        end = time.monotonic() + seconds
+    def port(self):
+        return int(self.said(r"listening on port (\d+)")[1])
+
+    def said(self, pattern):
+        end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:
             for line in self.talk:
-                if found := re.search(r"listening on port (\d+)", line):
-                    return int(found[1])
+                if found := re.search(pattern, line):
+                    return found
             if self.process.poll() is not None:
                 break
             time.sleep(0.01)
-        raise SystemExit(f"demo: 'mavloom {' '.join(map(str, self.args))}' did not start:\n" + "\n".join(self.talk))
+        raise SystemExit(f"demo: '{' '.join(map(str, self.args))}' did not start:\n" + "\n".join(self.talk))
 
     def stop(self, seconds=10.0):
         if self.process.poll() is None:
@@ -102,6 +114,64 @@ def wait_until_steady(path, seconds=3.0):
         if now != size:
             size, since = now, time.monotonic()
         time.sleep(0.02)
+
+
+class Peer:
+    """A plain UDP socket: the vehicle, or the ground station."""
+
+    def __init__(self):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(PATIENCE_S)
+        self.port = self.socket.getsockname()[1]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.socket.close()
+
+    def receive(self, size):
+        """So many bytes, or what came of them; and who sent the last."""
+        got, sender = b"", None
+        while len(got) < size:
+            try:
+                datagram, sender = self.socket.recvfrom(65536)
+            except TimeoutError:
+                break
+            got += datagram
+        return got, sender
+
+
+def way_back(options):
+    """Whether the ground station's frames reach the vehicle, through ring and inlet, byte for byte."""
+    flight = frames_of(FLIGHT)
+    answers = [frame for frame in flight if frame[5] == GROUND_STATION]
+    ring, started = f"demo-{os.getpid()}", []
+    with Peer() as vehicle, Peer() as station:
+        try:
+            hear = Program(sys.executable, "-m", "mavloom.hear", "udpin://127.0.0.1:0", "--ring", ring)
+            started.append(hear)
+            port = int(hear.said(r"hearing on udpin://127.0.0.1:(\d+)")[1])
+            started.append(Program(options.program, "relay", f"shm://{ring}?from=oldest", "--to", f"udpout://127.0.0.1:{station.port}"))
+            vehicle.socket.sendto(flight[0], ("127.0.0.1", port))
+            _, relay = station.receive(len(flight[0]))
+            if relay is None:
+                return False
+            got = b""
+            for frame in answers:
+                station.socket.sendto(frame, relay)
+                arrived, _ = vehicle.receive(len(frame))
+                got += arrived
+                if not arrived:
+                    break
+        finally:
+            for program in reversed(started):
+                program.stop(2)
+    agree = got == b"".join(answers)
+    print(f"demo: the way back: {len(answers)} frames of the ground station sent, {len(got)} of {sum(map(len, answers))} bytes reached the vehicle "
+          f"through mavloom relay, the ring's inlet and python -m mavloom.hear")
+    return agree
 
 
 def main():
@@ -169,7 +239,10 @@ def compare(options, received, shown, count, damaged):
     print(f"\ndemo: {len(got)} frames reached the ground station, {sum(map(len, got))} bytes; mavloom listen showed {shown} messages")
     agreeing, gaps = follow(got, pathlib.Path(options.flight).read_bytes(), to_its_end=not options.duration)
     if count == len(got) == agreeing == shown and got and gaps <= damaged:
-        print("demo: OK: byte for byte what was sent")
+        if not way_back(options):
+            print("demo: MISMATCH: what the ground station sent did not reach the vehicle as it was")
+            return 4
+        print("demo: OK: byte for byte what was sent, there and back")
         return 0
     print(f"demo: MISMATCH: {count} frames sent, {len(got)} received, {shown} shown; "
           f"the first {agreeing} agree, with {gaps} gaps in them and {damaged} damaged places in the flight")

@@ -364,7 +364,8 @@ Run declare_route(Arguments command, const Common& common) {
         "target was heard.\nEach peer of udpin:// and client of tcpin:// is a link of its own. tlog://PATH records all "
         "that "
         "arrives.\n\nExamples:\n"
-        "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550\n"
+        "  mavloom route --config examples/px4-qgc.toml\n"
+        "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550\n"
         "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550 --ring px4\n"
         "  mavloom route --config router.toml --explain COMMAND_LONG");

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# From a UDP port through shared memory to a ground station:
+# From a UDP port through shared memory to a ground station, and back:
 #
 #   vehicle ──udp──▶ python -m mavloom.hear ──ring px4──▶ mavloom relay ──udp──▶ ground station
+#           ◀──udp──                        ◀──px4.in───               ◀──udp──
 #
 #   examples/pipeline/run.sh                 a vehicle that sends to port 5058 of this machine, until Ctrl-C
 #   examples/pipeline/run.sh FLIGHT.tlog     a recorded flight at its own pace, to its end; SPEED=10 is faster
 #
+# What the ground station sends goes to the vehicle by the ring's inlet: parameters, missions and commands work through it.
 # LISTEN, TO and RING change where it comes from, where it goes, and the ring's name. The script ends both programs together; started by hand,
 # each can be ended and started again by itself. Other readers, in C++ or Python, may follow the ring at any time (docs/guide/python.md, docs/guide/shm.md).
 set -euo pipefail

@@ -91,6 +91,13 @@ class Link:
         place). Also what has no definition. Returns as `send`. Bytes that are no frame are an InputError."""
         return self._port.forward(message)
 
+    def serve_inlet(self, ring: str, *, mode: int = 0o600) -> None:
+        """Opens the way back of a ring that is filled from this link (`pump`): programs that read the ring send frames to the Unix socket RUN/`ring`.in, and each
+        goes unchanged to every peer of this link. `mode` says who may send. Counted in `stats.answers`, and in `stats.unheard_answers` where no peer was there.
+        SystemFailure where another process serves that socket; UsageError for a second inlet of one link. Closing the link closes it.
+        """
+        self._port.serve_inlet(ring, mode)
+
     # ---- state
 
     @property

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""python -m mavloom.hear URL --ring NAME: what is heard on a link goes into a ring in shared memory."""
+"""python -m mavloom.hear URL --ring NAME: what is heard on a link goes into a ring in shared memory, and what readers of the ring send goes to the link."""
 from __future__ import annotations
 
 import argparse
 import signal
 import sys
+import time
 from collections.abc import Callable
 
-from . import ClosedError, Error, InputError, Link, RingWriter, UsageError, connect
+from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingWriter, UsageError, connect
 
 LOOK_AT_SIGNALS_S = 0.1
+LOOK_AT_ANSWERS_S = 1.0
 UNITS = {"k": 1 << 10, "m": 1 << 20, "g": 1 << 30}
 
 EPILOG = """\
+The ring has a way back: programs that read it send to the socket RUN/NAME.in (`mavloom relay shm://NAME` and `mavloom.connect("shm://NAME").send` do), and
+every peer of URL gets what comes there.
+
 Each record is one good frame, byte for byte, of kind 1, with its receive time (the kernel's) and the number of its link; the verdict is 0 unsigned,
 16 signed and not checked, 32 signed and verified (verify= in URL). Other processes read it from there at memory speed:
 
@@ -22,7 +27,7 @@ Each record is one good frame, byte for byte, of kind 1, with its receive time (
 
 While a lossless reader holds the ring full, frames wait in a buffer of 16 MiB; what is overwritten there is "missed". A ring that is there
 already is carried on, one of another capacity replaced, if nobody writes to it; one that somebody removes is made anew. Ctrl-C or SIGTERM ends
-it cleanly (status 130, 143) and takes the ring away, unless --keep; a signal that it was started to ignore (by nohup, or as a job that a script runs
+it cleanly (status 130, 143) and takes ring and socket away, the ring not with --keep; a signal that it was started to ignore (by nohup, or as a job that a script runs
 in the background) does not: use SIGTERM there. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
 """
 
@@ -58,12 +63,12 @@ def mode(text: str) -> int:
 
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory.",
+    parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory; sends back what readers answer.",
                                      epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
     parser.add_argument("--ring", required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
     parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
-    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring (0600)")
+    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring, and send by its socket (0600)")
     end = parser.add_mutually_exclusive_group()
     end.add_argument("--keep", action="store_true", help="leave the ring at the end, for the next writer")
     end.add_argument("--remove", action="store_true", help="take the ring away at the end, as it does unless --keep")
@@ -107,9 +112,38 @@ class Ring:
         self.writer.close(remove=not self._options.keep)
 
 
-def hear(link: Link, ring: Ring, signals: Signals, say: Callable[[str], None]) -> None:
+class Answers:
+    """What readers of the ring send, and whether it found somebody."""
+
+    def __init__(self, link: Link, say: Callable[[str], None]) -> None:
+        self._link, self._say = link, say
+        self._look_due = 0.0
+        self._told_nobody = self._told_refused = False
+
+    def serve(self, ring: str, mode: int) -> None:
+        try:
+            self._link.serve_inlet(ring, mode=mode)
+        except PermissionDeniedError as error:  # there is no folder for sockets
+            self._say(f"{error.strerror}; readers of ring {ring} cannot send")
+
+    def look(self, now: float) -> None:
+        """Says once what found nobody; about once a second."""
+        if now < self._look_due:
+            return
+        self._look_due = now + LOOK_AT_ANSWERS_S
+        stats = self._link.stats
+        if stats.unheard_answers and not self._told_nobody:
+            self._told_nobody = True
+            self._say(f"nobody is there on {self._link.name} for what readers of the ring send; it is counted and dropped")
+        if stats.refused and not self._told_refused:
+            self._told_refused = True
+            self._say(f"a peer of {self._link.name} is gone: what readers of the ring send is refused there, and counted")
+
+
+def hear(link: Link, ring: Ring, answers: Answers, signals: Signals, say: Callable[[str], None]) -> None:
     while not signals.received:
         ring.fill_from(link, LOOK_AT_SIGNALS_S)
+        answers.look(time.monotonic())
         if ring.made_anew():
             say(f"ring {ring.writer.name} was removed, and is made anew")
     ring.fill_from(link, 0)
@@ -119,7 +153,8 @@ def summary(link: Link, name: str, written: int) -> str:
     stats = link.stats
     losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
               "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
-              "wrongly signed": stats.bad_signature}
+              "wrongly signed": stats.bad_signature, "sent back by readers of the ring": stats.answers, "of these for nobody": stats.unheard_answers,
+              "refused by a peer that is gone": stats.refused}
     return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
 
 
@@ -132,8 +167,10 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
         ring = Ring(options)
         try:
             name = ring.writer.name
+            answers = Answers(link, say)
+            answers.serve(name, options.mode)
             say(f"hearing on {link.name}, writing to ring {name}{'' if ring.writer.created else ', which was there before'}")
-            hear(link, ring, signals, say)
+            hear(link, ring, answers, signals, say)
             say(summary(link, name, ring.written))
         finally:
             ring.close()

@@ -5,6 +5,7 @@
 
 #include "gil.hpp"
 #include "mavloom/base/thread.hpp"
+#include "mavloom/runtime/control.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -134,6 +135,7 @@ Hub::Served* Hub::served_by(runtime::EndpointId endpoint) noexcept {
 
 void Hub::on_frame(const runtime::RxFrame& rx) {
     if (auto* served = served_by(rx.endpoint)) served->channel->on_frame(rx, links().now());
+    else pass_answer(rx);
 }
 void Hub::on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) {
     auto* served = served_by(endpoint);
@@ -196,7 +198,7 @@ SetupResult<Hub::Opened> Hub::open_now(const runtime::Endpoint& endpoint, const 
     if (!added) return tl::unexpected(added.error());
     const bool is_lossless = is_ring && endpoint.options.lossless.value_or(false);
     if (is_lossless) channel->hold_for(&reader, [this] { sources_.wake(); });
-    served_.emplace(*added, Served{channel, is_ring, is_lossless, {}});
+    served_.emplace(*added, Served{.channel = channel, .is_ring = is_ring, .is_lossless = is_lossless});
     turn(MonoTime{});
     Opened opened{*added, 0, endpoint.label(), is_ring};
     for (const auto& info : links().endpoints()) {
@@ -232,14 +234,46 @@ std::optional<SetupError> Hub::wait_for_far_side(const Opened& opened) {
 SetupResult<runtime::EndpointId> Hub::inlet(runtime::EndpointId ring) {
     SetupResult<runtime::EndpointId> opened = setup_error(SetupCode::system, "the loop thread has ended");
     on_loop([&] {
-        opened = sources_.inlet(ring);
-        if (!opened || served_.contains(*opened)) return;
-        auto& served = served_.at(ring);
-        served.inlet = *opened;
-        served_.emplace(*opened, Served{served.channel, false, false, {}});
+        opened = open_way_out(ring);
         turn(MonoTime{});
     });
     return opened;
+}
+
+SetupResult<runtime::EndpointId> Hub::open_way_out(runtime::EndpointId ring) {
+    const auto opened = sources_.inlet(ring);
+    if (!opened || served_.contains(*opened)) return opened;
+    auto& served = served_.at(ring);
+    served.inlet = *opened;
+    served_.emplace(*opened, Served{.channel = served.channel});
+    return opened;
+}
+
+SetupResult<void> Hub::serve_inlet(runtime::EndpointId endpoint, const std::string& ring, unsigned mode) {
+    SetupResult<void> opened = setup_error(SetupCode::system, "the loop thread has ended");
+    on_loop([&] { opened = serve_now(endpoint, ring, mode); });
+    return opened;
+}
+
+SetupResult<void> Hub::serve_now(runtime::EndpointId endpoint, const std::string& ring, unsigned mode) {
+    auto& served = served_.at(endpoint);
+    if (served.served_inlet) return setup_error(SetupCode::usage, "this link serves a ring's inlet already");
+    const auto path = runtime::inlet_path(ring);
+    if (!path) return tl::unexpected(path.error());
+    const auto opened = links().add_inlet(ring, *path, mode);
+    if (!opened) return tl::unexpected(opened.error());
+    served.served_inlet = *opened;
+    filled_from_.emplace(*opened, endpoint);
+    return {};
+}
+
+// Unrouted: a program that fills a ring has vehicles of one kind behind it, all of which hear what is said.
+void Hub::pass_answer(const runtime::RxFrame& rx) {
+    const auto filled = filled_from_.find(rx.endpoint);
+    if (filled == filled_from_.end()) return;
+    auto& served = served_.at(filled->second);
+    const auto to = served.is_ring ? open_way_out(filled->second).value_or(filled->second) : filled->second;
+    if (links().send(to, rx.frame) == 0) ++served.unheard_answers;
 }
 
 // What is sent goes there.
@@ -268,7 +302,19 @@ LinkStats Hub::stats_now(runtime::EndpointId endpoint) {
     for (const auto& loss : sources_.losses(endpoint))
         add_to(stats.losses, served.channel->origin()->link_name(loss.link.value), loss.stats);
     stats.crc_errors = served.channel->crc_errors();
+    if (served.served_inlet) stats.answers = frames_in(*served.served_inlet);
+    stats.unheard_answers = served.unheard_answers;
     return stats;
+}
+
+// Over the senders that are there and those that are gone.
+std::uint64_t Hub::frames_in(runtime::EndpointId endpoint) {
+    std::uint64_t sum = 0;
+    for (const auto& link : links().links())
+        if (link.endpoint == endpoint) sum += link.counters->frames_in.value();
+    for (const auto& info : links().endpoints())
+        if (info.id == endpoint) sum += info.counters->gone.frames_in.value();
+    return sum;
 }
 
 LinkStats Hub::stats(runtime::EndpointId endpoint) {
@@ -285,6 +331,10 @@ void Hub::remove(runtime::EndpointId endpoint) {
     auto served = std::move(served_.at(endpoint));
     served_.erase(endpoint);
     if (served.inlet) served_.erase(*served.inlet);
+    if (served.served_inlet) {
+        filled_from_.erase(*served.served_inlet);
+        links().remove(*served.served_inlet);
+    }
     if (served.is_ring) sources_.remove_ring(endpoint);
     else links().remove(endpoint);
     served.channel->close();

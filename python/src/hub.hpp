@@ -25,6 +25,7 @@ struct LinkStats {
     runtime::EndpointCounters endpoint;
     runtime::Totals ring;
     std::uint64_t missed = 0, not_kept = 0, no_peer = 0, peers = 0;
+    std::uint64_t answers = 0, unheard_answers = 0;  // of programs that read a ring which is filled from here
     Losses losses;
     std::map<MessageId, Channel::CrcErrors> crc_errors;
     std::vector<std::string> hints;
@@ -55,6 +56,9 @@ public:
                                            const Consumer& reader);
     // Where what is sent to a ring's router goes, opened at the first call.
     [[nodiscard]] SetupResult<runtime::EndpointId> inlet(runtime::EndpointId ring);
+    // Opens the way back of the ring `ring`, which is filled from this endpoint: what programs send to the socket RUN/`ring`.in goes to every peer
+    // of the endpoint. In use where somebody serves it; closed with the endpoint.
+    [[nodiscard]] SetupResult<void> serve_inlet(runtime::EndpointId endpoint, const std::string& ring, unsigned mode);
     // What was sent goes out first, for at most a second, in which others are served as ever. Returns the last counters.
     LinkStats close(runtime::EndpointId endpoint);
     [[nodiscard]] LinkStats stats(runtime::EndpointId endpoint);
@@ -79,7 +83,9 @@ private:
     struct Served {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
-        std::optional<runtime::EndpointId> inlet;  // of a ring
+        std::optional<runtime::EndpointId> inlet{};         // of a ring that is read: where what is sent goes
+        std::optional<runtime::EndpointId> served_inlet{};  // of a ring that is filled
+        std::uint64_t unheard_answers = 0;
     };
     struct Wait {
         std::function<bool()> over;
@@ -99,9 +105,13 @@ private:
     void remove(runtime::EndpointId endpoint);
     [[nodiscard]] bool is_flushed(runtime::EndpointId endpoint);
     [[nodiscard]] runtime::EndpointId way_out(runtime::EndpointId endpoint);
+    [[nodiscard]] SetupResult<runtime::EndpointId> open_way_out(runtime::EndpointId ring);
+    [[nodiscard]] SetupResult<void> serve_now(runtime::EndpointId endpoint, const std::string& ring, unsigned mode);
+    void pass_answer(const runtime::RxFrame& rx);
     void send_outgoing();
     void stop();
     [[nodiscard]] Served* served_by(runtime::EndpointId endpoint) noexcept;
+    [[nodiscard]] std::uint64_t frames_in(runtime::EndpointId endpoint);
     [[nodiscard]] LinkStats stats_now(runtime::EndpointId endpoint);
     // Runs `work` on the loop thread and waits for it; false when that has ended.
     bool on_loop(std::function<void()> work);
@@ -110,6 +120,7 @@ private:
 
     // The loop thread's. Channels have the dialects that the sources read by, and go after them.
     std::unordered_map<runtime::EndpointId, Served> served_;
+    std::unordered_map<runtime::EndpointId, runtime::EndpointId> filled_from_;  // by served inlet
     runtime::Sources sources_;
     std::vector<Wait> waits_;
 

@@ -280,6 +280,19 @@ public:
         return send_frame([&] { return frame; });
     }
 
+    void serve_inlet(const std::string& ring, const Integer& mode) {
+        fork_.check();
+        const auto bits = mode.in<unsigned>("mode", 0, 0777);
+        auto opened = [&]() -> std::optional<SetupResult<void>> {
+            const WithoutGil outside;
+            const std::lock_guard lock(mutex_);
+            if (!hub_) return std::nullopt;
+            return hub_->serve_inlet(opened_.endpoint, ring, bits & 0666u);
+        }();
+        if (!opened) raise_closed("the link is closed");
+        value_or_raise(std::move(*opened));
+    }
+
     nb::object latest(const nb::object& type, const OptionalInteger& system, const OptionalInteger& component,
                       const std::optional<Instance>& instance, const nb::object& max_age) {
         check();
@@ -422,6 +435,8 @@ void bind_link(nb::module_& module) {
         .def("send", &Port::send, nb::arg(), nb::arg("fields"),
              nb::sig("def send(self, message: str | Message, /, **fields: typing.Any) -> int"))
         .def("forward", &Port::forward, nb::arg(), nb::sig("def forward(self, message: Message | Buffer, /) -> int"))
+        .def("serve_inlet", &Port::serve_inlet, nb::arg("ring"), nb::arg("mode"),
+             nb::sig("def serve_inlet(self, ring: str, mode: int) -> None"))
         .def("latest", &Port::latest, nb::arg("type").none(), nb::arg("system").none(), nb::arg("component").none(),
              nb::arg("instance").none(), nb::arg("max_age").none(),
              nb::sig("def latest(self, type: MessageTypes | None, system: int | None, component: int | None, instance: "

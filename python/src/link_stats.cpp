@@ -103,6 +103,8 @@ void bind_link_stats(nb::module_& module) {
         .def_ro("not_kept", &LinkStats::not_kept,
                 "Messages that `latest` does not know: it keeps 16,384 of different source, id and instance.")
         .def_ro("no_peer", &LinkStats::no_peer, "Messages that `send` had nobody for.")
+        .def_ro("answers", &LinkStats::answers, "Frames that programs sent by the inlet of `serve_inlet`.")
+        .def_ro("unheard_answers", &LinkStats::unheard_answers, "Of those, the ones that nobody was there for.")
         .def_prop_ro("lost", of_links<&L::lost>(),
                      "Lost on the way here, by sequence numbers; late and doubled frames are no loss.")
         .def_prop_ro("late", of_links<&L::late>())

@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstddef>
+#include <fstream>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -40,6 +43,39 @@ IoResult<std::size_t> LocalSender::send(SendBatch& batch, std::size_t first) noe
     const int count = ::sendmmsg(fd_.get(), batch.messages_.data() + first, left, MSG_NOSIGNAL);
     if (count < 0) return tl::unexpected(io_error_of(errno));
     return static_cast<std::size_t>(count);
+}
+
+// /proc/net/unix: "Num RefCount Protocol Flags Type St Inode Path", a heading first.
+static std::string inode_of_socket(const std::filesystem::path& path) {
+    std::ifstream sockets("/proc/net/unix");
+    for (std::string line; std::getline(sockets, line);) {
+        std::istringstream words(line);
+        std::string word, inode, at;
+        for (int i = 0; i < 6; ++i) words >> word;
+        if (words >> inode && words >> std::ws && std::getline(words, at) && at == path.native()) return inode;
+    }
+    return {};
+}
+
+static bool has_open(const std::filesystem::path& process, const std::string& target) {
+    std::error_code none;
+    for (const auto& fd : std::filesystem::directory_iterator(process / "fd", none))
+        if (std::filesystem::read_symlink(fd.path(), none) == target) return true;
+    return false;
+}
+
+std::optional<int> process_serving(const std::filesystem::path& path) {
+    const auto inode = inode_of_socket(path);
+    if (inode.empty()) return std::nullopt;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", none)) {
+        int pid = 0;
+        const auto name = entry.path().filename().string();
+        const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
+        const bool is_process = error == std::errc{} && end == name.data() + name.size();
+        if (is_process && has_open(entry.path(), fmt::format("socket:[{}]", inode))) return pid;
+    }
+    return std::nullopt;
 }
 
 }  // namespace mavloom::net

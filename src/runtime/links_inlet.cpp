@@ -94,7 +94,12 @@ private:
 // Nothing happens where there is no socket, or one of another kind. Of routers of one ring only one comes here: it holds the ring's lock.
 SetupResult<void> take_over(const std::filesystem::path& path) {
     const auto probe = net::LocalSender::connect(path);
-    if (probe) return setup_error(SetupCode::in_use, fmt::format("{} is served by a router that runs", path.string()));
+    if (probe) {
+        const auto process = net::process_serving(path);
+        return setup_error(SetupCode::in_use,
+                           fmt::format("{} is served by {} already; end it, or take another ring", path.string(),
+                                       process ? fmt::format("process {}", *process) : "another process"));
+    }
     struct stat status {};
     const bool is_left = probe.error().sys_errno == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
     if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());

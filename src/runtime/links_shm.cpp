@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mavloom/runtime/control.hpp"
+#include "mavloom/shm/ring_info.hpp"
 #include "runtime/links_options.hpp"
 #include "runtime/links_retry.hpp"
 
@@ -35,9 +38,7 @@ public:
     }
 
     SetupResult<void> connect();
-    void connect_or_retry() {
-        if (auto done = connect(); !done) retry_.fail(done.error());
-    }
+    void connect_or_retry();
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
     [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
@@ -69,7 +70,7 @@ private:
     net::LocalSender socket_;
     net::WatchId watch_;
     Retry retry_;
-    bool full_ = false, was_up_ = false;
+    bool full_ = false, was_up_ = false, told_no_way_ = false;
 };
 
 SetupResult<void> InletSender::connect() {
@@ -87,6 +88,25 @@ SetupResult<void> InletSender::connect() {
     core_.set_up(peer_);
     if (!peer_.queue.empty()) core_.schedule(*this);
     return {};
+}
+
+bool ring_exists(const std::string& name) {
+    const auto names = shm::ring_names();
+    return std::ranges::find(names, name) != names.end();
+}
+
+// The writer of a ring that is there may never serve an inlet: that is said once, as what it is.
+void InletSender::connect_or_retry() {
+    auto done = connect();
+    if (done) return;
+    const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
+    if (!told_no_way_ && (!is_absent || !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
+    if (!std::exchange(told_no_way_, true))
+        core_.notice(info.id,
+                     fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "
+                                 "dropped until somebody does",
+                                 info.endpoint.label()));
+    retry_.fail_silently(done.error());
 }
 
 // The far side went: its router ended, and another may come.

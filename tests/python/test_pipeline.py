@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""examples/pipeline: Python hears MAVLink and fills a ring, the relay reads the ring and sends to a ground station. The frames are a recorded flight's."""
+"""examples/pipeline: Python hears MAVLink and fills a ring, the relay reads the ring and sends to a ground station, whose answers go back the same way. The
+frames are a recorded flight's, and those of a recorded session with a ground station."""
 import contextlib
 import os
 import pathlib
@@ -13,6 +14,7 @@ import pytest
 
 import frames
 import harness
+from recorded_px4 import PARAMETERS, SESSION, VEHICLE, RecordedPx4, Station
 from places import PROGRAM, ROOT
 
 SCRIPT = ROOT / "examples" / "pipeline" / "run.sh"
@@ -129,6 +131,139 @@ def test_a_killed_relay_holds_nobody_up(pipeline):
 
     assert hear.stop().status == 130 and relay.stop().status == 130
 
+
+# ---- the way back
+
+@pytest.mark.parametrize("how", ["by hand", "by the script"])
+def test_a_ground_station_completes_everything(start, ring, port, how):
+    """Every parameter, a mission upload and an arming, by pymavlink at one end with the recorded PX4 at the other. Nothing is asked for twice."""
+    station = Station("udpin:127.0.0.1:0")
+    listen, to = f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.connection.port.getsockname()[1]}"
+    if how == "by hand":
+        running = [start(PROGRAM, "relay", f"shm://{ring}", "--to", to), start(sys.executable, "-m", "mavloom.hear", listen, "--ring", ring)]
+    else:
+        running = [start(SCRIPT, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=listen, RING=ring, TO=to)]
+    running[-1].wait_output("writing to ring", stream="err")
+    with RecordedPx4(port) as vehicle:
+        station.wait_vehicle()
+        parameters = station.fetch_parameters()
+        mission, result = station.upload_mission(), station.arm()
+    station.close()
+    ends = [process.stop() for process in running]
+
+    assert sorted(parameters) == [*range(PARAMETERS), 65535]
+    assert mission == (0, 6) and result == 0 and vehicle.unanswered == []
+    assert [done.status for done in ends] == [130] * len(running)
+    assert "of these for nobody" not in ends[-1].stderr and "lost on the way here" not in ends[-1].stderr, ends[-1]
+
+
+def test_a_recorded_session_passes_both_ways_byte_for_byte(pipeline):
+    hear, relay = pipeline.hear(), pipeline.relay()
+    pipeline.passes()
+    pipeline.ground.settimeout(harness.DEFAULT_TIMEOUT_S)
+    pipeline.vehicle.settimeout(harness.DEFAULT_TIMEOUT_S)
+    pipeline.vehicle.sendto(last := next(pipeline.beats), pipeline.to)
+    got = b""
+    while not got.endswith(last):
+        got, relay_address = pipeline.ground.recvfrom(65536)
+    records = [frame for _, frame in frames.read_tlog(SESSION)]
+    at_ground, at_vehicle = b"", b""
+    for begin in range(0, len(records), 64):
+        some = records[begin:begin + 64]
+        for frame in some:
+            if frame[5] == VEHICLE:
+                pipeline.vehicle.sendto(frame, pipeline.to)
+            else:
+                pipeline.ground.sendto(frame, relay_address)
+        want = b"".join(records[:begin + 64])
+        there = sum(len(frame) for frame in records[:begin + 64] if frame[5] == VEHICLE)
+        while len(at_ground) < there:
+            at_ground += pipeline.ground.recv(65536)
+        while len(at_vehicle) < len(want) - there:
+            at_vehicle += pipeline.vehicle.recv(65536)
+
+    assert at_ground == b"".join(frame for frame in records if frame[5] == VEHICLE)
+    assert at_vehicle == b"".join(frame for frame in records if frame[5] != VEHICLE)
+    assert hear.stop().status == 130 and relay.stop().status == 130
+
+
+def test_what_readers_send_goes_to_every_peer(pipeline):
+    hear, relay = pipeline.hear(), pipeline.relay()
+    pipeline.passes()
+    with udp() as second:
+        second.sendto(next(frames.heartbeats(1, system=2)), pipeline.to)
+        got = b""
+        while frames.split_frames(got)[-1:] != [next(frames.heartbeats(1, system=2))]:
+            got, relay_address = pipeline.ground.recvfrom(65536)
+        answer = next(frames.heartbeats(1, system=255, component=190))
+        pipeline.ground.sendto(answer, relay_address)
+        pipeline.vehicle.settimeout(harness.DEFAULT_TIMEOUT_S)
+        assert (pipeline.vehicle.recv(65536), second.recv(65536)) == (answer, answer)
+    assert "1 sent back by readers of the ring" in hear.stop().stderr
+    relay.stop()
+
+
+def test_an_answer_for_nobody_is_counted_and_said_once(start, ring, port, child_environment):
+    hear = start(sys.executable, "-m", "mavloom.hear", f"udpin://127.0.0.1:{port}", "--ring", ring)
+    hear.wait_output("writing to ring", stream="err")
+    answers = pathlib.Path(os.environ.get("TMPDIR", "/tmp"), f"{ring}-answers.tlog")
+    frames.write_tlog(answers, list(enumerate(frames.heartbeats(3, system=255, component=190))))
+    try:
+        for _ in range(2):
+            subprocess.run([PROGRAM, "replay", answers, "--to", f"shm://{ring}", "--speed", "max"], check=True, env=child_environment, capture_output=True)
+            hear.wait_output("nobody is there on .* for what readers of the ring send", stream="err")
+    finally:
+        answers.unlink()
+    done = hear.stop()
+
+    assert done.stderr.count("nobody is there on") == 1
+    assert "6 sent back by readers of the ring; 6 of these for nobody" in done.stderr
+
+
+def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_said_once(pipeline):
+    hear, relay = pipeline.hear(), pipeline.relay()
+    pipeline.passes()
+    pipeline.vehicle.sendto(last := next(pipeline.beats), pipeline.to)
+    got = b""
+    while not got.endswith(last):
+        got, relay_address = pipeline.ground.recvfrom(65536)
+    pipeline.vehicle.close()
+    answers = frames.heartbeats(1 << 20, system=255, component=190)
+
+    def told():
+        pipeline.ground.sendto(next(answers), relay_address)
+        return "what readers of the ring send is refused there" in hear.stderr
+    harness.wait_for(told, what="the refusal to be told")
+    done = hear.stop()
+
+    assert done.stderr.count("is refused there") == 1 and "refused by a peer that is gone" in done.stderr
+    relay.stop()
+
+
+def test_a_second_hear_is_refused_with_the_first_ones_process(start, ring, port):
+    first = start(sys.executable, "-m", "mavloom.hear", f"udpin://127.0.0.1:{port}", "--ring", ring)
+    first.wait_output("writing to ring", stream="err")
+    second = start(sys.executable, "-m", "mavloom.hear", "udpin://127.0.0.1:0", "--ring", ring).wait()
+    router = start(PROGRAM, "route", "udpin://127.0.0.1:1", "--ring", ring).wait()
+
+    assert second.status == router.status == 1
+    for refused in (second, router):
+        assert f"ring {ring} has a writer already, process {first.pid}" in refused.stderr
+    first.stop()
+
+
+def test_an_inlet_that_somebody_serves_is_refused_with_its_process(start, ring):
+    folder = pathlib.Path("/run/mavloom") if os.access("/run/mavloom", os.W_OK) else pathlib.Path(os.environ["XDG_RUNTIME_DIR"], "mavloom")
+    folder.mkdir(exist_ok=True)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
+        other.bind(str(folder / f"{ring}.in"))
+        done = start(sys.executable, "-m", "mavloom.hear", "udpin://127.0.0.1:0", "--ring", ring).wait()
+    (folder / f"{ring}.in").unlink()
+
+    assert done.status == 1 and f"{ring}.in is served by process {os.getpid()} already" in done.stderr
+
+
+# ---- examples/pipeline/run.sh
 
 def test_the_script_passes_a_recorded_flight_byte_for_byte(start, ring, port, ground, flight):
     sent = [frame for _, frame in frames.read_tlog(flight)][:8000]

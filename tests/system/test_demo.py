@@ -49,3 +49,14 @@ def test_a_fault_of_ours_is_told(program, flight, tmp_path, command, option, sai
     done = demo(faulty, flight)
 
     assert done.returncode != 0 and f"demo: {said}" in done.stdout and "demo: OK" not in done.stdout, done
+
+
+def test_the_way_back_is_proved(program, flight, tmp_path):
+    done = demo(program, flight)
+    lossy = tmp_path / "mavloom"
+    lossy.write_text(f'#!/bin/sh\ncase "$*" in *shm://*) exec "{program}" "$@" --remap-system 9=255;; esac\nexec "{program}" "$@"\n')
+    lossy.chmod(0o755)
+    faulty = demo(lossy, flight)
+
+    assert done.returncode == 0 and "demo: the way back: " in done.stdout and "demo: OK: byte for byte what was sent, there and back" in done.stdout
+    assert faulty.returncode == 4 and "demo: MISMATCH: what the ground station sent" in faulty.stdout, faulty

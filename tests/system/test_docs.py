@@ -60,8 +60,16 @@ def runnable(line):
     return words
 
 
+def copy_examples(folder):
+    """The configurations of examples/ with free ports in the place of theirs."""
+    folder.mkdir()
+    for path in (harness.ROOT / "examples").glob("*.toml"):
+        (folder / path.name).write_text(re.sub(r"(?<=:)\d{4,5}(?=\")", lambda _: str(harness.free_port(harness.socket.SOCK_STREAM)), path.read_text()))
+
+
 @pytest.fixture
 def folder(tmp_path, run):
+    copy_examples(tmp_path / "examples")
     shutil.copy(frames.FLIGHT, tmp_path / "flight.tlog")
     (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'

@@ -10,6 +10,7 @@ import pytest
 import frames
 import harness
 from frames import mavlink
+from pymavlink import mavutil
 
 pytestmark = pytest.mark.short
 
@@ -81,8 +82,8 @@ class Px4(Stub):
 class Qgc(Stub):
     """Answers whoever speaks to it with its heartbeat and a command for the vehicle."""
 
-    def __init__(self, sock):
-        self.sender = frames.sender(255, 190)
+    def __init__(self, sock, system=255):
+        self.sender = frames.sender(system, 190)
         super().__init__(sock)
 
     def hear(self, datagram, sender):
@@ -98,21 +99,25 @@ class Qgc(Stub):
 HEARTBEAT, ATTITUDE, COMMAND_LONG = 0, 30, 76
 
 
+def on_free_ports(name, free, folder):
+    """A copy of the example, with `free` = {port of the example: port to use} in the place of all its ports."""
+    text, replaced = re.subn(r"(?<=127\.0\.0\.1:)\d+(?=\")", lambda match: str(free[int(match[0])]), (harness.ROOT / "examples" / name).read_text())
+    assert replaced == len(free)
+    (folder / name).write_text(text)
+    return folder / name
+
+
 @pytest.fixture
 def bridge(tmp_path, udp_socket, udp_port):
     """px4-qgc.toml on other ports: (file, {"px4": socket, ...}, the router's own port)."""
     sockets = {port: udp_socket() for port in (18570, 14550, 5058)}
-    ports = {port: sock.getsockname()[1] for port, sock in sockets.items()}
-    ports[5057] = udp_port()
-    text = (harness.ROOT / "examples" / "px4-qgc.toml").read_text()
-    text, replaced = re.subn(r"(?<=127\.0\.0\.1:)\d+(?=\")", lambda match: str(ports[int(match[0])]), text)
-    assert replaced == 4
-    (tmp_path / "px4-qgc.toml").write_text(text)
-    return tmp_path / "px4-qgc.toml", {"px4": sockets[18570], "qgc": sockets[14550], "copy": sockets[5058]}, ports[5057]
+    own = udp_port()
+    file = on_free_ports("px4-qgc.toml", {port: sock.getsockname()[1] for port, sock in sockets.items()} | {5057: own}, tmp_path)
+    return file, {"px4": sockets[18570], "qgc": sockets[14550], "copy": sockets[5058]}, own
 
 
 @pytest.fixture
-def stubs(bridge):  # ends the stubs before bridge's sockets
+def stubs(udp_socket):  # ends the stubs before their sockets
     made = []
 
     def make(stub):
@@ -175,3 +180,49 @@ def test_px4_qgc_the_router_that_is_started_again_is_still_the_partner(spawn, st
 
     wait_for(lambda: ATTITUDE in qgc.heard_ids(1) and COMMAND_LONG in px4.heard_ids(255), what="both directions")
     assert px4.strangers == 0
+
+
+def test_px4_with_two_stations_and_sdks(spawn, stubs, tmp_path, udp_socket, udp_port, tcp_port, wait_for):
+    px4_socket, first_socket, second_socket = udp_socket(), udp_socket(), udp_socket()
+    own, sdk_port = udp_port(), tcp_port()
+    file = on_free_ports("px4-two-stations.toml", {18570: px4_socket.getsockname()[1], 5057: own, 14550: first_socket.getsockname()[1],
+                                                   14551: second_socket.getsockname()[1], 5760: sdk_port}, tmp_path)
+    start(spawn, file, own)
+    px4 = stubs(Px4(px4_socket, first_socket.getsockname()[1]))
+    first, second = stubs(Qgc(first_socket)), stubs(Qgc(second_socket, 254))
+    sdks = [mavutil.mavlink_connection(f"tcp:127.0.0.1:{sdk_port}", source_system=system, source_component=191) for system in (201, 202)]
+    heard = [sdk.wait_heartbeat(timeout=harness.DEFAULT_TIMEOUT_S) for sdk in sdks]
+    for sdk in sdks:
+        sdk.mav.command_long_send(1, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0)
+
+    assert {message.get_srcSystem() for message in heard} <= {1, 254, 255}, "the router's heartbeat is 255/191"
+    assert all((message.get_srcSystem(), message.get_srcComponent()) != (255, 191) for message in heard)
+    for station in (first, second):
+        wait_for(lambda station=station: station.heard_ids(1) >= {HEARTBEAT, ATTITUDE}, what="the vehicle's telemetry at a ground station")
+    for system in (255, 254, 201, 202):
+        wait_for(lambda system=system: COMMAND_LONG in px4.heard_ids(system), what=f"the command of {system} at the vehicle")
+    wait_for(lambda: HEARTBEAT in second.heard_ids(255) and HEARTBEAT in first.heard_ids(254), what="each other's heartbeats")
+    assert px4.partner == ("127.0.0.1", own)
+    for sdk in sdks:
+        sdk.close()
+
+
+def test_two_vehicles_do_not_hear_each_other(spawn, tmp_path, udp_socket, udp_port, wait_for):
+    first, second, ground = udp_socket(), udp_socket(), udp_socket()
+    ports = {14541: udp_port(), 14542: udp_port(), 14550: ground.getsockname()[1]}
+    router = spawn("route", "--config", on_free_ports("two-vehicles.toml", ports, tmp_path), "--name", f"two-vehicles-{ports[14541]}")
+    router.wait_output("vehicle2: listening")
+    for sock, system, port in ((first, 1, ports[14541]), (second, 2, ports[14542]), (first, 1, ports[14541])):
+        sock.sendto(frames.attitude(system=system), ("127.0.0.1", port))
+    heard = b""
+    while {frame[5] for frame in frames.split_frames(heard)} != {1, 2}:
+        heard += (got := ground.recvfrom(65536))[0]
+    station = frames.sender(255, 190)
+    everybody = mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3).pack(station)
+    ground.sendto(everybody, got[1])
+    arrived = [sock.recv(65536) for sock in (first, second)]
+    to_second = mavlink.MAVLink_command_long_message(2, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0).pack(frames.sender(255, 190, 1))
+    ground.sendto(to_second, got[1])
+
+    assert arrived == [everybody, everybody], "and none of the other vehicle's telemetry before it"
+    assert second.recv(65536) == to_second

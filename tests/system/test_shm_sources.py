@@ -612,9 +612,11 @@ def test_answers_without_an_inlet_are_counted(run, spawn, feed, ring, sink):
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)
     sink.sendto(heartbeat(system=255, component=190), relay_address)
-    relay.wait_output(rf"cannot send to .*{ring}\.in")
+    relay.wait_output(rf"shm://{ring}: this ring has no way back: nobody serves its inlet", stream="err")
+    sink.sendto(heartbeat(system=255, component=190, sequence=1), relay_address)
     done = relay.stop()
-    assert stats_of(done)["edit"]["unheard_answers"] == 1
+    assert stats_of(done)["edit"]["unheard_answers"] == 2
+    assert done.stderr.count("no way back") == 1 and "trying again" not in done.stderr
 
 
 # ---- wrong use

@@ -32,4 +32,7 @@ private:
     Fd fd_;
 };
 
+// The process that has the Unix socket at `path` open, as far as /proc shows it to us: nothing for another user's.
+[[nodiscard]] std::optional<int> process_serving(const std::filesystem::path& path);
+
 }  // namespace mavloom::net
