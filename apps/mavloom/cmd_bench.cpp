@@ -16,9 +16,11 @@
 #include "counted.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/record/tlog_reader.hpp"
+#include "mavloom/runtime/endpoint.hpp"
 #include "mavloom/shm/ring_reader.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "mavloom/wire/stream_parser.hpp"
+#include "signals.hpp"
 
 namespace mavloom::app {
 
@@ -29,7 +31,8 @@ using Bytes = std::vector<std::uint8_t>;
 struct Options {
     std::string file;
     int turns = 21;
-    std::size_t chunk = 4096;
+    std::string chunk_text = "4096";
+    std::size_t chunk = 0;  // of chunk_text, by run_bench
     bool json = false;
 };
 
@@ -51,11 +54,11 @@ SetupResult<Recording> read_recording(const std::string& path, const wire::Messa
     return recording;
 }
 
-// The median over the turns of what one second would hold.
+// The median over the turns of what one second would hold. A signal ends it after the turn.
 template <class Work>
 double per_second(int turns, double amount, Work&& work) {
     std::vector<double> rates;
-    for (int turn = 0; turn < std::max(turns, 1); ++turn) {
+    for (int turn = 0; turn < std::max(turns, 1) && !(turn > 0 && Signals::received()); ++turn) {
         const auto begin = mono_now();
         work();
         rates.push_back(amount / std::chrono::duration<double>(mono_now() - begin).count());
@@ -128,8 +131,19 @@ Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const
     return Exit::done;
 }
 
+SetupResult<void> set_chunk(Options& options) {
+    constexpr std::uint64_t most = 1u << 30;
+    const auto chunk = runtime::parse_size(options.chunk_text);
+    if (!chunk) return tl::unexpected(SetupError(chunk.error()).within("--chunk"));
+    if (*chunk == 0 || *chunk > most)
+        return setup_error(SetupCode::usage, fmt::format("--chunk {}: from 1 byte to 1G", options.chunk_text));
+    options.chunk = static_cast<std::size_t>(*chunk);
+    return {};
+}
+
 template <class Bench>
-Exit run_bench(const Common& common, const Options& options, Bench&& bench) {
+Exit run_bench(const Common& common, Options& options, Bench&& bench) {
+    if (auto good = set_chunk(options); !good) return fail(good.error());
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     const auto recording = read_recording(options.file, dialect->wire_table());
@@ -148,19 +162,25 @@ struct RingOptions {
 };
 
 constexpr auto patience = std::chrono::seconds(10);  // with the other side
+constexpr auto look_at_end = std::chrono::milliseconds(100);
+constexpr std::uint64_t look_at_signals = 1u << 16;  // records
 
-// Up to record `end`, whose payload begins with its number. False: not so, or nothing comes.
-bool read_up_to(shm::RingReader& reader, std::uint64_t& next, std::uint64_t end) {
+// Up to record `end`, whose payload begins with its number; a signal ends it sooner. False: not so, or nothing comes.
+bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<std::uint64_t>& end) {
     bool good = true;
     const auto look = [&](const shm::RingRecord& record) {
         good = good && std::memcmp(record.data.data(), &next, sizeof next) == 0;
         ++next;
     };
+    MonoTime limit = mono_now() + patience;
     while (good && next < end) {
-        if (reader.try_visit(end - next, look)) continue;
-        const auto record = reader.read(mono_now() + patience);
-        if (!record) return false;
-        look(*record);
+        if (!reader.try_visit(end - next, look)) {
+            const auto record = reader.read(mono_now() + look_at_end);
+            if (!record && mono_now() >= limit) return false;
+            if (!record) continue;
+            look(*record);
+        }
+        limit = mono_now() + patience;
     }
     return good;
 }
@@ -168,19 +188,23 @@ bool read_up_to(shm::RingReader& reader, std::uint64_t& next, std::uint64_t end)
 // Once through the ring to every reader.
 bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, const RingOptions& options,
                std::uint64_t& first) {
-    const std::uint64_t end = first + options.records;
+    std::atomic<std::uint64_t> end{first + options.records};
     std::atomic<bool> good{true};
     {
         std::vector<std::jthread> threads;
         threads.reserve(readers.size());
         for (auto& reader : readers)
-            threads.emplace_back([&reader, &good, first, end] {
+            threads.emplace_back([&reader, &good, &end, first] {
                 auto next = first;
                 if (!read_up_to(reader, next, end)) good = false;
                 reader.release();
             });
         Bytes payload(options.bytes);
         for (; first < end && good; ++first) {
+            if (first % look_at_signals == 0 && Signals::received()) {
+                end = first;
+                break;
+            }
             std::memcpy(payload.data(), &first, sizeof first);
             if (!writer.write(payload, {}, mono_now() + patience)) good = false;
         }
@@ -213,6 +237,7 @@ void print(const RingOptions& options, double per_s) {
 }
 
 Exit bench_shm(const RingOptions& options) {
+    const Signals signals([](void*) noexcept {}, nullptr);  // the ring is removed whatever ends it
     auto writer = shm::RingWriter::open(fmt::format("bench-{}", ::getpid()));
     if (!writer) return fail(writer.error());
     auto readers = open_readers(writer->name(), options.readers);
@@ -225,8 +250,8 @@ Exit bench_shm(const RingOptions& options) {
     (void)writer->close(shm::RingWriter::Leave::nothing);
     if (!readers) return fail(readers.error());
     if (!good) return fail(Exit::mismatch, "a reader did not get what was written");
-    print(options, rate);
-    return Exit::done;
+    if (!Signals::received()) print(options, rate);
+    return Signals::status(Exit::done);
 }
 
 Arguments declare_shm(Arguments command, RingOptions& options) {
@@ -254,10 +279,9 @@ Arguments declare_one(Arguments command, Options& options, const char* name, con
         .capture_default_str()
         .type_name("N")
         .range(1, 10'000);
-    sub.add_option("--chunk", options.chunk, "bytes handed to the parser at once")
+    sub.add_option("--chunk", options.chunk_text, "bytes handed to the parser at once: 4096, 64k; up to 1G")
         .capture_default_str()
-        .type_name("BYTES")
-        .range(1, 1 << 30);
+        .type_name("BYTES");
     sub.add_flag("--json", options.json, "one JSON object a line");
     sub.fallthrough();
     sub.footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));

@@ -65,9 +65,8 @@ Exit check(const Common& common, const Options& options) {
     if (!dialect) return fail(dialect.error());
     const auto config = runtime::load_config(options.file, runtime::environment_of(environ));
     if (!config) return fail(Exit::bad_input, config.error().text);
-    if (const auto checked = runtime::check_message_names(*config, options.file, *dialect); !checked)
+    if (const auto checked = runtime::check_for_router(*config, options.file, *dialect); !checked)
         return fail(checked.error());
-    if (const auto checked = runtime::check_key_files(*config, options.file); !checked) return fail(checked.error());
     for (const auto& note : config->notes) say(common, note);
     for (const auto& warning : runtime::config_warnings(*config, options.file, *dialect)) say(common, warning);
     Output output;

@@ -40,7 +40,7 @@ SetupResult<Json> request_of(const CtlOptions& options) {
     const bool takes_argument = options.action == "add" || options.action == "remove";
     if (takes_argument && options.argument.empty())
         return setup_error(SetupCode::usage, options.action == "add" ? "add takes the URL of an endpoint"
-                                                                     : "remove takes the name of an endpoint");
+                                                                     : "remove takes the name of an endpoint or link");
     if (!takes_argument && !options.argument.empty())
         return setup_error(SetupCode::usage, fmt::format("{} takes nothing behind it", options.action));
     Json request{{"cmd", options.action}};

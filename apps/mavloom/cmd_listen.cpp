@@ -141,6 +141,8 @@ Exit listen(const Common& common, Options& options) {
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     const dialect::Message* csv = nullptr;
+    if (!options.csv.empty() && !options.selection.only.empty())
+        return fail(Exit::wrong_use, fmt::format("--csv {} prints that one message; leave --only out", options.csv));
     if (!options.csv.empty()) {
         const auto message = dialect::find_message(*dialect, options.csv);
         if (!message) return fail(SetupError(message.error()).within("--csv"));

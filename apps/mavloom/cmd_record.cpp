@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <poll.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
@@ -14,6 +16,8 @@ namespace mavloom::app {
 
 namespace {
 
+constexpr std::chrono::milliseconds look_for_room{100};
+
 struct Options {
     ReceiveOptions receive;
     Selection selection;
@@ -21,23 +25,65 @@ struct Options {
     bool json = false;
 };
 
-// Takes frames until the end; hands them to the system whenever there is nothing else to do, so that a kill loses little.
-SetupResult<void> record_all(const Options& options, runtime::Receiver& receiver, record::RotatingWriter& writer) {
-    while (receiver.wait()) {
-        while (const auto entry = receiver.next()) {
-            if (!options.selection.takes(entry->frame)) continue;
-            if (auto written = writer.write(entry->time, entry->frame); !written) return written;
-            if (writer.taken_records() == options.receive.count) return {};
+// Writes what the receiver hands over. On a full disk it waits for room as a router's recording does: frames wait in the receiver's buffer meanwhile,
+// and what finds no room there is counted.
+class Recording {
+public:
+    Recording(const Common& common, const Options& options, runtime::Receiver& receiver, record::RotatingWriter& writer,
+              MonoTime end)
+        : common_(common), options_(options), receiver_(receiver), writer_(writer), end_(end) {}
+
+    // Until the end; hands records to the system whenever there is nothing else to do, so that a kill loses little.
+    SetupResult<void> run() {
+        while (receiver_.wait()) {
+            while (const auto entry = receiver_.next()) {
+                if (!options_.selection.takes(entry->frame)) continue;
+                if (auto written = write(*entry); !written) return written;
+                if (writer_.taken_records() == options_.receive.count) return {};
+            }
+            if (auto flushed = flush(); !flushed) return flushed;
         }
-        if (auto flushed = writer.flush(); !flushed) return flushed;
+        return {};
     }
-    return {};
-}
+
+private:
+    SetupResult<void> write(const runtime::FrameQueue::Entry& entry) {
+        auto room = writer_.make_room(entry.frame);
+        if (!room) room = flush();
+        if (room) return writer_.write(entry.time, entry.frame);
+        writer_.give_up();
+        return room;
+    }
+
+    // Waits while the disk is full.
+    SetupResult<void> flush() {
+        auto flushed = writer_.flush();
+        if (flushed || !writer_.is_full_disk(flushed.error())) return flushed;
+        say(common_, fmt::format("{}; waiting for room: what does not fit into --buffer meanwhile is counted",
+                                 flushed.error().text));
+        while (!flushed && writer_.is_full_disk(flushed.error()) && goes_on()) {
+            ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends it
+            flushed = writer_.flush();
+        }
+        if (flushed) say(common_, fmt::format("{}: records are written again", writer_.path().string()));
+        return flushed;
+    }
+
+    [[nodiscard]] bool goes_on() const { return !Signals::received() && mono_now() < end_; }
+
+    const Common& common_;
+    const Options& options_;
+    runtime::Receiver& receiver_;
+    record::RotatingWriter& writer_;
+    MonoTime end_;
+};
 
 // FILE, whatever its name; or tlog://PATH or PATH.tlog?rotate_every=... with options.
 SetupResult<record::RotatingWriter> create_output(const Common& common, const std::string& text) {
-    const bool is_endpoint = text.find("://") != std::string::npos ||
-                             (text.find(".tlog?") != std::string::npos && !text.ends_with(".tlog"));
+    const auto query = std::string_view(text).find('?');
+    const bool has_options = query != std::string_view::npos && !runtime::names_recording(text) &&
+                             runtime::names_recording(std::string_view(text).substr(0, query));
+    const bool is_endpoint = text.find("://") != std::string::npos || has_options;
     runtime::Endpoint endpoint;
     endpoint.scheme = runtime::Scheme::tlog;
     endpoint.path = text;
@@ -72,8 +118,9 @@ Exit record(const Common& common, Options& options) {
     say_ports(common, (*receiver)->endpoints());
     auto writer = create_output(common, options.file);
     if (!writer) return Signals::received() ? Signals::status(Exit::failed) : fail(writer.error());
-    (*receiver)->start(options.receive.end(mono_now()));
-    auto recorded = record_all(options, **receiver, *writer);
+    const MonoTime end = options.receive.end(mono_now());
+    (*receiver)->start(end);
+    auto recorded = Recording(common, options, **receiver, *writer, end).run();
     (*receiver)->stop();
     (*receiver)->join();
     if (!recorded) give_up_the_rest(options, **receiver, *writer);

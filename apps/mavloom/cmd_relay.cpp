@@ -9,6 +9,7 @@
 #include "counted.hpp"
 #include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
+#include "mavloom/net/interfaces.hpp"
 #include "mavloom/runtime/sources.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
@@ -126,7 +127,9 @@ private:
         const auto printed = json_ ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;
-        if (sources_.finished() && destinations_.lost_any()) return Signals::status(Exit::mismatch);
+        const bool had_something = c.frames.value() != 0 || waited_;
+        const bool lost = sources_.finished() && destinations_.lost_any();
+        if (lost || (had_something && destinations_.reached_nobody())) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
@@ -182,6 +185,38 @@ SetupResult<void> open_sources(const Options& options, runtime::Sources& sources
     return {};
 }
 
+bool is_own_host(const std::string& host) {
+    const auto address = net::Address::parse(host, 0);
+    return address ? net::OwnAddresses().contains(*address, mono_now()) : host == "localhost";
+}
+
+// What is sent to `to` would come in by `source` again.
+bool leads_back(const runtime::EndpointInfo& source, const runtime::Endpoint& to) {
+    using runtime::Scheme;
+    const auto in = source.endpoint.scheme;
+    const bool same_kind = (in == Scheme::udpin && to.scheme == Scheme::udpout) ||
+                           (in == Scheme::tcpin && to.scheme == Scheme::tcpout);
+    if (!same_kind || source.local_port != to.address.port || !is_own_host(to.address.host)) return false;
+    const auto bound = net::Address::parse(source.endpoint.address.host, 0);
+    return !bound || bound->is_any() || to.address.host == source.endpoint.address.host ||
+           to.address.host == "localhost";
+}
+
+SetupResult<void> check_no_loop(const std::vector<runtime::EndpointInfo>& sources, const std::vector<std::string>& to) {
+    for (const auto& text : to) {
+        const auto endpoint = runtime::parse_endpoint(text);
+        const auto loop = std::ranges::find_if(
+            sources, [&](const auto& source) { return endpoint && leads_back(source, *endpoint); });
+        if (loop != sources.end())
+            return setup_error(
+                SetupCode::usage,
+                fmt::format("--to {} is where {} listens: every frame would go round for ever; name another "
+                            "port",
+                            endpoint->label(), loop->label()));
+    }
+    return {};
+}
+
 Exit relay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
@@ -192,6 +227,7 @@ Exit relay(const Common& common, Options& options) {
     auto sources = runtime::Sources::create(*dialect, runtime::Copies::left_out);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
+    if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
     const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
     say_ports(common, sources->links().endpoints());
     auto destinations = Destinations::open(common, options.to, sources->links());

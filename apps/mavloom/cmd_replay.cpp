@@ -112,7 +112,7 @@ private:
         const auto printed = options_.json ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;
-        if (destinations_.lost_any() && !options_.no_wait) return Signals::status(Exit::mismatch);
+        if (destinations_.lost_any()) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
         return Signals::status(Exit::done);
     }
@@ -141,9 +141,8 @@ Exit replay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
-    auto endpoint = runtime::parse_endpoint(
-        options.file.ends_with(".tlog") || options.file.find("://") != std::string::npos ? options.file
-                                                                                         : "tlog://" + options.file);
+    const bool is_endpoint = runtime::names_recording(options.file) || options.file.find("://") != std::string::npos;
+    auto endpoint = runtime::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
     if (endpoint->scheme != runtime::Scheme::tlog)
         return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));

@@ -61,30 +61,16 @@ private:
     }
 };
 
-SetupResult<runtime::Config> read_config(const std::string& file, const dialect::Dialect& dialect) {
-    const auto environment = runtime::environment_of(environ);
-    auto config = file.empty() ? runtime::parse_config("", "", environment) : runtime::load_config(file, environment);
-    if (!config) return config;
-    if (auto checked = runtime::check_message_names(*config, file, dialect); !checked)
-        return tl::unexpected(std::move(checked.error()));
-    if (auto checked = runtime::check_key_files(*config, file); !checked)
-        return tl::unexpected(std::move(checked.error()));
-    return config;
-}
-
 // The file, with what the command line says instead.
-SetupResult<runtime::Config> effective_config(const Options& options, const dialect::Dialect& dialect) {
-    auto config = read_config(options.config, dialect);
-    if (config && !options.ring.empty()) config->ring.name = options.ring;
+SetupResult<runtime::Config> read_config(const Options& options, const dialect::Dialect& dialect) {
+    const auto environment = runtime::environment_of(environ);
+    auto config = options.config.empty() ? runtime::parse_config("", "", environment)
+                                         : runtime::load_config(options.config, environment);
+    if (!config) return config;
+    if (!options.ring.empty()) config->ring.name = options.ring;
+    if (auto checked = runtime::check_for_router(*config, options.config, dialect); !checked)
+        return tl::unexpected(std::move(checked.error()));
     return config;
-}
-
-SetupResult<void> check_endpoints(const runtime::Config& config, const std::string& file) {
-    for (const auto& endpoint : config.endpoints)
-        if (endpoint.scheme == runtime::Scheme::shm)
-            return setup_error(SetupCode::bad_input,
-                               fmt::format("{}: {}", file, runtime::ring_is_no_endpoint(endpoint)));
-    return {};
 }
 
 SetupResult<void> check_recordings(std::span<const runtime::Endpoint> endpoints) {
@@ -106,9 +92,8 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         plan.from_command_line.push_back(std::move(*endpoint));
     }
-    auto config = effective_config(options, dialect);
+    auto config = read_config(options, dialect);
     if (!config) return tl::unexpected(of_input_file(std::move(config.error())));
-    if (auto good = check_endpoints(*config, options.config); !good) return tl::unexpected(std::move(good.error()));
     plan.config = std::move(*config);
     const auto endpoints = plan.endpoints();
     if (endpoints.empty())
@@ -238,7 +223,7 @@ private:
         if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
             return tell(fmt::format("mavloom: {} is a pipe or a terminal, which is read once; nothing was changed",
                                     options_.config));
-        auto config = effective_config(options_, dialect_);
+        auto config = read_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
@@ -322,6 +307,7 @@ Exit route(const Common& common, const Options& options) {
         explain.emplace(common, *dialect, (*router)->links(), *id);
     }
     if (auto opened = open_ring(common, plan->config.ring, **router); !opened) return fail(opened.error());
+    if (auto learned = (*router)->learn_group_modes(plan->endpoints()); !learned) return fail(learned.error());
     if (auto added = add_endpoints(**router, *plan, false); !added) return fail(added.error());
     const auto control = open_control(common, options, plan->config.ring.name, **router);
     if (!control) return fail(control.error());

@@ -147,6 +147,12 @@ bool Destinations::lost_any() const {
            std::ranges::any_of(nobody_there_, [](auto frames) { return frames != 0; });
 }
 
+bool Destinations::reached_nobody() const {
+    const auto endpoints = links_->endpoints();
+    return files_.empty() &&
+           std::ranges::none_of(endpoints, [&](const auto& info) { return has(info.id) && sums_of(info).frames != 0; });
+}
+
 void Destinations::say_sums(const Common& common) const {
     const auto endpoints = links_->endpoints();
     for (std::size_t i = 0; i < endpoints_.size(); ++i) {

@@ -37,6 +37,8 @@ public:
 
     // Frames were dropped, had nobody there, or were left in a queue at the end.
     [[nodiscard]] bool lost_any() const;
+    // There is no file among them, and not one frame was sent to anybody.
+    [[nodiscard]] bool reached_nobody() const;
     // Writes what the files still buffer. The first error of a file, now or earlier, is returned.
     [[nodiscard]] SetupResult<void> close();
     // A file could not be written: the command ends.

@@ -16,6 +16,7 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/base/version.hpp"
+#include "signals.hpp"
 
 namespace mavloom::app {
 
@@ -205,6 +206,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE,
                 SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
     std::signal(SIGXFSZ, SIG_IGN);
+    mavloom::app::Signals::watch();
     mavloom::app::keep_standard_descriptors();
     const auto status = mavloom::app::run(argc, argv);
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)

@@ -16,12 +16,13 @@ std::atomic<Signals::OnStop> stop_function{nullptr};
 std::atomic<void*> stop_context{nullptr};
 std::atomic<bool> hangup_is_remembered{false};
 std::atomic<bool> hangup{false};
+std::atomic<bool> has_begun{false};  // there is or was a Signals object
 
 void handle(int signal) {
     const int saved_errno = errno;
     if (signal == SIGHUP && hangup_is_remembered) {
         hangup = true;
-    } else if (received_signal.exchange(signal) != 0) {
+    } else if (received_signal.exchange(signal) != 0 || !has_begun) {
         ::_exit(128 + signal);
     }
     if (const auto stop = stop_function.load()) stop(stop_context.load());
@@ -29,7 +30,7 @@ void handle(int signal) {
 }
 
 // Without SA_RESTART: a write that blocks on a slow reader returns.
-void install(void (*handler)(int)) {
+void install(void (*handler)(int)) noexcept {
     struct sigaction action {};
     action.sa_handler = handler;
     ::sigaction(SIGINT, &action, nullptr);
@@ -43,8 +44,11 @@ Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup) {
     hangup_is_remembered = on_hangup == OnHangup::remember;
     stop_context = context;
     stop_function = on_stop;
+    has_begun = true;
     install(handle);
 }
+
+void Signals::watch() noexcept { install(handle); }
 
 Signals::~Signals() { stop_function = nullptr; }
 

@@ -15,6 +15,9 @@ public:
     Signals(OnStop on_stop, void* context, OnHangup on_hangup = OnHangup::stop);
     ~Signals();
     Signals(const Signals&) = delete;
+    // At the start of the program: until there is a Signals object nothing is there to be ended cleanly, and a signal ends the program at once with
+    // the status that belongs to it.
+    static void watch() noexcept;
     Signals& operator=(const Signals&) = delete;
 
     [[nodiscard]] static bool received() noexcept;

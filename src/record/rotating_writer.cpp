@@ -105,9 +105,17 @@ SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& fr
     return taken;
 }
 
+SetupResult<void> RotatingWriter::make_room(const wire::FrameView& frame) {
+    return writer_ ? writer_->make_room(frame) : SetupResult<void>{};
+}
+
+bool RotatingWriter::is_full_disk(const SetupError& error) const noexcept {
+    return (error.sys_errno == ENOSPC || error.sys_errno == EDQUOT) && writer_ && writer_->is_file();
+}
+
 bool RotatingWriter::is_disk_full() {
     const auto flushed = flush();
-    return !flushed && (flushed.error().sys_errno == ENOSPC || flushed.error().sys_errno == EDQUOT);
+    return !flushed && is_full_disk(flushed.error());
 }
 
 SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }

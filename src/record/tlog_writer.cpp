@@ -78,10 +78,13 @@ TlogWriter::~TlogWriter() {
     if (file_.is_open() && used_ != 0) (void)flush();
 }
 
+SetupResult<void> TlogWriter::make_room(const wire::FrameView& frame) {
+    return time_length + frame.size() > capacity_ - used_ ? flush() : SetupResult<void>{};
+}
+
 SetupResult<void> TlogWriter::write(WallTime time, const wire::FrameView& frame) {
     const std::size_t length = time_length + frame.size();
-    if (length > capacity_ - used_)
-        if (auto done = flush(); !done) return done;
+    if (auto done = make_room(frame); !done) return done;
     std::uint8_t* record = buffer_.get() + used_;
     store_be64(record, time_on_file(time));
     std::memcpy(record + time_length, frame.bytes().data(), frame.size());

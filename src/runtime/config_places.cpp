@@ -17,16 +17,9 @@
 
 namespace mavloom::runtime {
 
-namespace {
+using namespace detail;
 
-// Where the first of these keys was given.
-std::uint32_t line_of(const Section& section, std::span<const std::string_view> keys) {
-    for (const auto key : keys) {
-        const auto setting = std::ranges::find(section.settings, key, &Setting::key);
-        if (setting != section.settings.end() && setting->origin == Origin::file) return setting->line;
-    }
-    return 0;
-}
+namespace {
 
 // A port that an endpoint is bound to for as long as it lives.
 struct Bound {
@@ -69,18 +62,15 @@ bool meet(const Bound& a, const Bound& b) {
            overlap(a.address.host, b.address.host);
 }
 
-// Calls `use(endpoint, its section)` until an error.
-template <class Use>
-SetupResult<void> each_endpoint(const Config& config, Use&& use) {
-    auto endpoint = config.endpoints.begin();
-    for (const Section& section : config.sections) {
-        if (section.name != "endpoint") continue;
-        if (auto done = use(*endpoint++, section); !done) return done;
-    }
-    return {};
-}
-
 }  // namespace
+
+std::uint32_t detail::line_of(const Section& section, std::span<const std::string_view> keys) {
+    for (const auto key : keys) {
+        const auto setting = std::ranges::find(section.settings, key, &Setting::key);
+        if (setting != section.settings.end() && setting->origin == Origin::file) return setting->line;
+    }
+    return 0;
+}
 
 SetupResult<void> detail::check_ports(const Config& config, std::string_view file_name) {
     std::vector<Bound> all;

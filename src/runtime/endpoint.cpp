@@ -82,8 +82,6 @@ tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_v
     return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
 }
 
-bool ends_with(std::string_view text, std::string_view end) { return text.size() > end.size() && text.ends_with(end); }
-
 // Whether `text` begins with SCHEME://, known or not.
 bool names_scheme(std::string_view text) {
     const auto slashes = text.find("://");
@@ -138,16 +136,17 @@ SetupResult<Split> split(std::string_view text) {
         result.scheme = static_cast<Scheme>(found - names.begin());
         return result;
     }
-    if (!is_short_form(text) && ends_with(result.rest, ".tlog")) {
+    if (!is_short_form(text) && names_recording(result.rest)) {
         result.scheme = Scheme::tlog;
         result.plain_path = true;
         return result;
     }
-    if (result.rest.starts_with("/dev/")) {
+    const auto comma = result.rest.rfind(',');
+    const bool has_comma = comma != std::string_view::npos;
+    if (result.rest.starts_with("/dev/") || (result.rest.starts_with('/') && has_comma)) {
         result.scheme = Scheme::serial;
         result.plain_path = true;
-        const auto comma = result.rest.rfind(',');
-        if (comma == std::string_view::npos) return result;
+        if (!has_comma) return result;
         result.comma_baud = result.rest.substr(comma + 1);
         if (result.comma_baud.empty())
             return usage(fmt::format("the baud rate behind the comma is missing; type {}57600", shown(result.rest)));
@@ -209,6 +208,13 @@ SetupResult<Endpoint> parse(std::string_view text) {
 
 }  // namespace
 
+std::string ring_is_no_endpoint(const Endpoint& endpoint) {
+    return fmt::format(
+        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
+        "send there",
+        endpoint.label(), endpoint.path);
+}
+
 bool calls_somebody(Scheme scheme) noexcept {
     return scheme == Scheme::udpout || scheme == Scheme::udpbcast || scheme == Scheme::udpmcast ||
            scheme == Scheme::tcpout || scheme == Scheme::serial;
@@ -222,9 +228,17 @@ std::optional<std::string_view> detail::query_of(std::string_view endpoint) {
     const auto question = endpoint.find('?');
     if (question == std::string_view::npos) return std::nullopt;
     const bool is_path = !names_scheme(endpoint) && !is_short_form(endpoint) && !endpoint.starts_with("/dev/");
-    if (is_path && ends_with(endpoint, ".tlog") && !ends_with(endpoint.substr(0, question), ".tlog"))
-        return std::nullopt;
+    if (is_path && names_recording(endpoint) && !names_recording(endpoint.substr(0, question))) return std::nullopt;
     return endpoint.substr(question + 1);
+}
+
+bool names_recording(std::string_view path) noexcept {
+    const auto end = path.find_last_not_of("0123456789");  // of .tlog.12
+    if (end != std::string_view::npos && end + 1 < path.size() && path[end] == '.') path = path.substr(0, end);
+    constexpr std::string_view suffix = ".tlog";
+    if (path.size() <= suffix.size()) return false;
+    return std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {},
+                              [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
 }
 
 std::filesystem::path same_file(const std::filesystem::path& path) {

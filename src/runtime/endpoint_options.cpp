@@ -57,11 +57,13 @@ SetupResult<std::uint64_t> size_within(std::string_view text, std::uint64_t leas
     return size;
 }
 
+constexpr std::array<std::string_view, 3> modes{"all", "best", "primary"};
+
 SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text) {
-    constexpr std::array<std::string_view, 3> modes{"all", "best", "primary"};
     const auto mode = std::find(modes.begin(), modes.end(), text);
     if (mode == modes.end()) return usage(fmt::format("{} is none of all, best, primary", in_quotes(text)));
     options.group_mode = static_cast<GroupMode>(mode - modes.begin());
+    options.names_group_mode = true;
     return {};
 }
 
@@ -252,6 +254,8 @@ SetupResult<std::uint64_t> detail::parse_rotate_bytes(std::string_view text) {
 SetupResult<std::chrono::nanoseconds> detail::parse_rotate_every(std::string_view text) {
     return duration_of_at_least(text, std::chrono::seconds{1}, "segments are named by the second: 1s is the least");
 }
+
+std::string_view group_mode_name(GroupMode mode) noexcept { return modes[static_cast<std::size_t>(mode)]; }
 
 std::span<const std::string_view> endpoint_option_names() noexcept { return option_names; }
 

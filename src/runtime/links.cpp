@@ -167,6 +167,12 @@ void Links::remove(EndpointId endpoint) {
     impl_->choose_coalescing();
 }
 
+bool Links::close(LinkId link) {
+    const Link* const found = impl_->core.links().find(link);
+    OpenEndpoint* const endpoint = found == nullptr ? nullptr : impl_->find(found->endpoint);
+    return endpoint != nullptr && endpoint->close_link(link);
+}
+
 bool Links::has_other_keys(EndpointId endpoint) const {
     const OpenEndpoint* const found = impl_->find(endpoint);
     return found != nullptr && found->signature != nullptr && found->signature->has_other_keys();

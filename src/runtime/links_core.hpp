@@ -171,6 +171,8 @@ public:
     virtual void refresh_kernel_drops() {}
     // Counts what was sent and not yet known to have been refused.
     virtual void settle_sent() {}
+    // Closes one of its peers or clients; false where the link is not one of several.
+    virtual bool close_link(LinkId) { return false; }
     // The answer to a look-up that this endpoint asked for.
     virtual void on_resolved(net::Resolver::Answer&&) {}
     // Keeps the sums of a link that has been removed.

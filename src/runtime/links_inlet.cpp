@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <functional>
 #include <string_view>
@@ -59,6 +60,7 @@ public:
     SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
     std::size_t send(const wire::FrameView& frame) override;
     [[nodiscard]] std::size_t queued_bytes() const override { return 0; }
+    bool close_link(LinkId link) override;
     void on_io(net::IoEvents events) override;
     void on_timer(MonoTime now) override;
 
@@ -236,6 +238,13 @@ void Inlet::on_timer(MonoTime now) {
 void Inlet::expire(MonoTime now) {
     for (std::size_t i = senders_.size(); i-- > 0;)
         if (now - senders_[i]->last_heard >= idle) drop(i, "idle");
+}
+
+bool Inlet::close_link(LinkId link) {
+    const auto sender = std::ranges::find_if(senders_, [&](const auto& s) { return s->id == link; });
+    if (sender == senders_.end()) return false;
+    drop(static_cast<std::size_t>(sender - senders_.begin()), "closed");
+    return true;
 }
 
 std::size_t Inlet::send(const wire::FrameView& frame) {

@@ -33,7 +33,7 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     }
     const EndpointOptions& o = endpoint.options;
     const std::pair<std::string_view, bool> routed[] = {
-        {"group", !o.group.empty() || o.group_mode != GroupMode::all},
+        {"group", !o.group.empty() || o.names_group_mode},
         {"max_rate", !o.max_rate.empty()},
         {"max_bytes", o.max_bytes_per_s.has_value()},
         {"in_allow", !o.in_allow.empty()},

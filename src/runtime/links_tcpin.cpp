@@ -62,6 +62,7 @@ public:
         for (const auto& peer : peers_) sum += peer->queue.bytes();
         return sum;
     }
+    bool close_link(LinkId link) override;
     void on_resolved(net::Resolver::Answer&& answer) override;
     void on_closed(TcpPeer& peer, std::string_view why) override;
     void on_timer(MonoTime now) override;
@@ -151,6 +152,13 @@ void TcpIn::on_closed(TcpPeer& peer, std::string_view why) {
     core_.bury(std::move(*at));
     *at = std::move(peers_.back());
     peers_.pop_back();
+}
+
+bool TcpIn::close_link(LinkId link) {
+    const auto peer = std::ranges::find_if(peers_, [&](const auto& p) { return p->id == link; });
+    if (peer == peers_.end()) return false;
+    (*peer)->close("closed");
+    return true;
 }
 
 void TcpIn::on_timer(MonoTime now) {

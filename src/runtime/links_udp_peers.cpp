@@ -20,6 +20,14 @@ std::size_t UdpPeers::send(const wire::FrameView& frame) {
     return taken;
 }
 
+bool UdpPeers::close(LinkId link) {
+    const auto peer = std::ranges::find_if(peers_, [&](const auto& p) { return p->id == link; });
+    if (peer == peers_.end()) return false;
+    drop(static_cast<std::size_t>(peer - peers_.begin()), "closed");
+    if (peers_.empty()) owner_.on_last_peer_gone();
+    return true;
+}
+
 std::size_t UdpPeers::queued_bytes() const {
     std::size_t sum = 0;
     for (const auto& peer : peers_) sum += peer->queue.bytes();

@@ -37,6 +37,7 @@ public:
         return newcomer(port, datagram);
     }
     std::size_t send(const wire::FrameView& frame);
+    bool close(LinkId link);
     [[nodiscard]] std::size_t queued_bytes() const;
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     void on_timer(MonoTime now) override;

@@ -41,6 +41,7 @@ public:
         return peers_.send(frame);
     }
     [[nodiscard]] std::size_t queued_bytes() const override { return everybody_.queue.bytes() + peers_.queued_bytes(); }
+    bool close_link(LinkId link) override { return peers_.close(link); }
     void settle_sent() override { port_.settle(); }
     void refresh_kernel_drops() override { port_.refresh_kernel_drops(); }
     void on_resolved(net::Resolver::Answer&& answer) override;

@@ -22,6 +22,7 @@ public:
     SetupResult<void> open(const std::vector<net::Address>& addresses);
     std::size_t send(const wire::FrameView& frame) override { return peers_.send(frame); }
     [[nodiscard]] std::size_t queued_bytes() const override { return peers_.queued_bytes(); }
+    bool close_link(LinkId link) override { return peers_.close(link); }
     void settle_sent() override {
         for (const auto& port : ports_) port->settle();
     }

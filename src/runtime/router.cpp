@@ -38,6 +38,11 @@ route::FilterTerms terms_of(std::string_view option, const FilterTerms& terms) {
     return {option, terms.messages, terms.systems, terms.components};
 }
 
+tl::unexpected<SetupError> other_mode(const Endpoint& endpoint, GroupMode mode) {
+    return setup_error(SetupCode::usage, fmt::format("{}: group '{}' has group_mode={} already: a group has one",
+                                                     endpoint.label(), endpoint.options.group, group_mode_name(mode)));
+}
+
 }  // namespace
 
 Router::Router(const dialect::Dialect& dialect, const RouterConfig& config, Notice notice, std::unique_ptr<Links> links)
@@ -68,18 +73,12 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
 
 // ---- endpoints -------------------------------------------------------------------------------------------------------
 
-std::string ring_is_no_endpoint(const Endpoint& endpoint) {
-    return fmt::format(
-        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
-        "send there",
-        endpoint.label(), endpoint.path);
-}
-
 SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (endpoint.scheme == Scheme::tlog) return add_recording(endpoint);
     if (endpoint.scheme == Scheme::shm) return setup_error(SetupCode::usage, ring_is_no_endpoint(endpoint));
     if (endpoint.options.heartbeat.value_or(false) && !config_.heartbeat)
         return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), heartbeat_needs_id));
+    if (auto good = check_group(endpoint); !good) return good;
     auto policy = policy_of(endpoint);
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
     const auto id = links_->add(endpoint);
@@ -162,9 +161,36 @@ SetupResult<route::LinkPolicy> Router::policy_of(const Endpoint& endpoint) {
     policy.tap = o.tap;
     policy.is_private = o.is_private;
     if (!o.group.empty()) policy.group = group_id(o.group);
-    policy.group_mode = o.group_mode;
+    policy.group_mode = mode_of(o);
     policy.group_order = endpoints_.empty() ? 0 : endpoints_.back()->policy.group_order + 1;
     return policy;
+}
+
+// An endpoint that names no mode takes that of its group.
+GroupMode Router::mode_of(const EndpointOptions& options) const {
+    const auto group = group_modes_.find(options.group);
+    return options.names_group_mode || group == group_modes_.end() ? options.group_mode : group->second;
+}
+
+// Against the endpoints of its group that are there.
+SetupResult<void> Router::check_group(const Endpoint& endpoint) const {
+    const auto& o = endpoint.options;
+    const auto member = std::ranges::find_if(
+        endpoints_, [&](const auto& e) { return !o.group.empty() && e->endpoint.options.group == o.group; });
+    if (member == endpoints_.end() || mode_of(o) == (*member)->policy.group_mode) return {};
+    return other_mode(endpoint, (*member)->policy.group_mode);
+}
+
+SetupResult<void> Router::learn_group_modes(std::span<const Endpoint> endpoints) {
+    std::map<std::string, GroupMode> modes;
+    for (const auto& endpoint : endpoints) {
+        const auto& o = endpoint.options;
+        if (o.group.empty() || !o.names_group_mode) continue;
+        const auto [known, is_new] = modes.try_emplace(o.group, o.group_mode);
+        if (!is_new && known->second != o.group_mode) return other_mode(endpoint, known->second);
+    }
+    group_modes_ = std::move(modes);
+    return {};
 }
 
 route::GroupId Router::group_id(const std::string& name) {
@@ -183,7 +209,7 @@ bool Router::remove(std::string_view label) {
         return true;
     }
     const auto at = std::ranges::find_if(endpoints_, [&](const auto& e) { return e->endpoint.label() == label; });
-    if (at == endpoints_.end()) return false;
+    if (at == endpoints_.end()) return close_link(label);
     const EndpointId id = (*at)->id;
     for (const auto& link : links_->links())
         if (link.endpoint == id) forget_link(link.id);
@@ -194,6 +220,15 @@ bool Router::remove(std::string_view label) {
     return true;
 }
 
+bool Router::close_link(std::string_view name) {
+    const auto links = links_->links();
+    const auto link = std::ranges::find(links, name, &LinkInfo::name);
+    if (link == links.end() || !links_->close(link->id)) return false;
+    forget_link(link->id);
+    a_link_went_ = true;
+    return true;
+}
+
 void Router::configure(const RouterConfig& config) {
     config_ = config;
     engine_.set_options(engine_options(config));
@@ -201,10 +236,14 @@ void Router::configure(const RouterConfig& config) {
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
+    if (auto learned = learn_group_modes(endpoints); !learned)
+        return notice_(LogLevel::error, fmt::format("{}; nothing was changed", learned.error().text));
     std::vector<Endpoint> gone;
     const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
-    for (const auto& e : endpoints_)
-        if (!stays(e->endpoint) || links_->has_other_keys(e->id)) gone.push_back(e->endpoint);
+    for (const auto& e : endpoints_) {
+        const bool has_other_mode = mode_of(e->endpoint.options) != e->policy.group_mode;
+        if (!stays(e->endpoint) || has_other_mode || links_->has_other_keys(e->id)) gone.push_back(e->endpoint);
+    }
     for (const auto& e : recordings_)
         if (!stays(e)) gone.push_back(e);
     for (const auto& endpoint : gone) {

@@ -39,9 +39,10 @@ Later<Lines> add(Router& router, const std::string& url) {
     return done();
 }
 
-// An endpoint or a recording by its name.
+// An endpoint, a recording or a link by its name.
 Later<Lines> remove(Router& router, const std::string& name) {
-    if (!router.remove(name)) return failed(fmt::format("there is no endpoint {}; stats shows them", name));
+    if (!router.remove(name))
+        return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
     router.tell(LogLevel::info, name + ": removed by ctl");
     return done();
 }

@@ -91,8 +91,10 @@ SetupResult<EndpointId> Sources::add(const Endpoint& endpoint, MonoTime now, dou
             return tl::unexpected(std::move(skipped.error()));
     const auto id = first_recording_id + static_cast<std::uint32_t>(recordings_.size());
     const double speed = endpoint.options.speed.value_or(default_speed);
-    recordings_.push_back(std::make_unique<Recording>(Recording{
-        LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), record::Pacer(speed, now), {}, {}, now}));
+    record::Pacer pacer(speed, now);
+    const MonoTime due = pacer.waits() ? now : MonoTime{};
+    recordings_.push_back(std::make_unique<Recording>(
+        Recording{LinkId{id}, EndpointId{id}, endpoint.label(), std::move(*reader), pacer, {}, {}, due}));
     return EndpointId{id};
 }
 
@@ -148,7 +150,9 @@ bool Sources::advance(Recording& recording, LinkHandler& handler) {
         return true;
     }
     recording.next = *record;
-    recording.due = recording.pacer.due(record->time);
+    // Those that wait for nothing are all due at once: the order of their records is that of the records' times.
+    if (recording.pacer.waits()) recording.due = recording.pacer.due(record->time);
+    else recording.due = MonoTime{};
     return true;
 }
 

@@ -97,6 +97,34 @@ def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
     assert f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has already" in done.stderr
 
 
+@pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]], ids=["check", "route"])
+@pytest.mark.parametrize("text, line, said", [
+    ('[[endpoint]]\nname = "r"\nurl = "shm://px4"\n', 3, "r: a ring is no endpoint of a router: --ring px4 writes every frame into it"),
+    ('[[endpoint]]\nscheme = "shm"\nring = "px4"\n', 3, "shm://px4: a ring is no endpoint of a router"),
+    ('[ring]\ncapacity = "64k"\n', 2, "[ring] has no name"),
+    ('[record]\nrotate_every = 60\n', 2, "[record] has no path"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\ngroup = "air"\ngroup_mode = "primary"\n',
+     6, "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1"\nsign = "/nonexistent/key"\n', 3, "sign: cannot open key file /nonexistent/key"),
+])
+def test_check_refuses_what_route_refuses(run, tmp_path, udp_port, command, text, line, said):
+    path = tmp_path / "bad.toml"
+    path.write_text(text + f'[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\n')
+    done = run(*command, path)
+
+    assert done.status == 3 and done.stdout == ""
+    assert f"{path}:{line}: {said}" in done.stderr, done
+
+
+def test_an_empty_section_is_no_fault(run, tmp_path, udp_port):
+    path = tmp_path / "router.toml"
+    path.write_text(f'[ring]\n[record]\n[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\n')
+    assert run("check", path).status == 0
+    path.write_text(f'[ring]\ncapacity = "64k"\n[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\n')
+    named = run("route", "--config", path, "--ring", f"check-{path.parent.name}"[:60].replace("_", "-"), "--for", "0.1")
+    assert named.status == 0, named
+
+
 def test_messages_of_a_dialect_file_are_known(run, tmp_path):
     (tmp_path / "mine.xml").write_text('<mavlink><messages><message id="54321" name="MY_OWN">'
                                        '<field type="uint8_t" name="a">a</field></message></messages></mavlink>')
@@ -143,8 +171,8 @@ def rows(page):
 
 def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
     urls = {"udpin": "udpin://127.0.0.1:1", "udpout": "udpout://127.0.0.1:2", "udpbcast": "udpbcast://10.0.0.255:3", "tcpin": "tcpin://127.0.0.1:4",
-            "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6", "serial": "serial:///dev/ttyS0", "shm": "shm://main",
-            "tlog": "tlog://x.tlog"}
+            "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6", "serial": "serial:///dev/ttyS0",
+            "tlog": "tlog://x.tlog"}  # shm:// is no endpoint of a router
     path = tmp_path / "all.toml"
     path.write_text("".join(f'[[endpoint]]\nurl = "{url}"\n' for url in urls.values()))
     effective = [json.loads(line) for line in run("check", path, "--json").lines]

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What every command does with a line that is not right, and the words it uses: nothing is passed over in silence, nothing raw reaches the terminal."""
 import json
+import os
+import pathlib
 import re
+import signal
 
 import pytest
 
@@ -167,6 +170,41 @@ def test_bench_shm_hands_every_record_to_every_reader(run):
     assert done.status == 0, done
     assert {**json.loads(done.stdout), "per_second": 0} == {"bench": "shm", "per_second": 0, "unit": "records", "readers": 3, "bytes": 40, "records": 20000,
                                                             "turns": 2}
+
+
+def takes_signals(process):
+    caught = re.search(r"^SigCgt:\s*(\w+)$", pathlib.Path(f"/proc/{process.pid}/status").read_text(), re.MULTILINE)[1]
+    return int(caught, 16) >> (signal.SIGINT - 1) & 1
+
+
+@pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("words", [["parse", frames.FLIGHT, "--turns", "10000"], ["shm", "--records", "1000000", "--turns", "10000"]], ids=["parse", "shm"])
+def test_a_signal_ends_a_benchmark_that_leaves_no_ring(spawn, words, number, status):
+    bench = spawn("bench", *words)
+    ring = pathlib.Path(f"/dev/shm/mavloom.bench-{bench.pid}")
+    harness.wait_for(lambda: takes_signals(bench), what="its handlers")
+    if words[0] == "shm":
+        harness.wait_for(ring.exists, what="the ring")
+
+    assert bench.stop(number).status == status
+    assert not ring.exists()
+
+
+@pytest.mark.parametrize("words", [["route", "--config"], ["check"], ["bench", "parse"]], ids=" ".join)
+def test_a_signal_while_the_program_starts_is_taken(spawn, tmp_path, words):
+    slow = tmp_path / "slow"
+    os.mkfifo(slow)
+    process = spawn(*words, slow)
+    with open(slow, "wb"):  # waits until the program reads it
+
+        assert process.stop().status == 130
+
+
+@pytest.mark.parametrize("chunk, done", [("64k", 0), ("1", 0), ("0", 2), ("2G", 2), ("much", 2)])
+def test_a_chunk_is_a_size(run, chunk, done):
+    bench = run("bench", "parse", frames.FLIGHT, "--turns", "1", "--chunk", chunk)
+
+    assert bench.status == done and ("--chunk" in bench.stderr) == (done != 0), bench
 
 
 def test_benchmarks_take_the_options_of_every_command(run):

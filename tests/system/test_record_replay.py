@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """mavloom record and replay: what is recorded is what came; what is replayed is what was recorded, at its pace."""
+import contextlib
 import json
 import os
 import re
@@ -11,6 +12,7 @@ import pytest
 
 import frames
 import harness
+from disks import SmallDisk
 
 pytestmark = pytest.mark.short
 
@@ -181,6 +183,46 @@ def test_a_full_disk_is_an_error(run):
     assert "No space left" in done.stderr
 
 
+def test_a_recording_waits_for_room_on_a_full_disk(spawn, udp_socket, tmp_path, wait_for):
+    """Nothing is lost: what the disk has no room for waits in the receiver's buffer."""
+    disk = SmallDisk(tmp_path)
+    with contextlib.closing(disk):
+        log = tmp_path / "x.tlog"
+        process = spawn("record", "udpin://127.0.0.1:0", "-o", log, "--json")
+        address = ("127.0.0.1", int(process.wait_output(r"listening on port (\d+)", stream="err")[1]))
+        sender, sent = udp_socket(), []
+
+        def send_more():
+            for _ in range(50):
+                sent.append(next(frames.heartbeats(1, sequence=len(sent) % 256)) if len(sent) % 2 else frames.attitude(len(sent), sequence=len(sent) % 256))
+                sender.sendto(sent[-1], address)
+            return "waiting for room" in process.stderr
+        wait_for(send_more, what="the disk to be full")
+        for _ in range(20):
+            send_more()
+        disk.free(process.pid)
+        process.wait_output("records are written again", stream="err")
+        done = process.stop()
+        recorded = json.loads(done.stdout)["stats"]["destinations"][0]
+
+        assert done.status == 130 and (recorded["frames"], recorded["not_written"]) == (len(sent), 0)
+        assert [frame for _, frame in frames.read_tlog(log)] == sent
+        assert done.stderr.count("waiting for room") == 1
+
+
+def test_a_recording_on_a_disk_that_stays_full_ends_when_it_is_asked_to(spawn, tmp_path):
+    disk = SmallDisk(tmp_path)
+    with contextlib.closing(disk):
+        process = spawn("record", frames.FLIGHT, "-o", tmp_path / "x.tlog", "--json")
+        process.wait_output("No space left on device; waiting for room", stream="err")
+        done = process.stop()
+        recorded = json.loads(done.stdout)["stats"]["destinations"][0]
+        written = frames.read_tlog(tmp_path / "x.tlog")
+
+        assert done.status == 1 and recorded["not_written"] > 0
+        assert recorded["frames"] == len(written) and written == frames.read_tlog(frames.FLIGHT)[:len(written)]
+
+
 @pytest.mark.parametrize("command", ["record '{flight}' -o", "relay '{flight}' --to", "replay '{flight}' --speed max --to"])
 def test_a_file_at_its_limit_keeps_whole_records_and_counts_no_others(program, tmp_path, command):
     log = tmp_path / "x.tlog"
@@ -314,6 +356,33 @@ def test_that_nobody_listened_is_told(run, tmp_path, udp_port, command):
     sent = sums(done)["destinations"][0]
     assert done.status == 4 and (sent["frames"], sent["refused"]) == (0, 3), done
     assert "3 frames refused: nobody listens there, or it cannot be reached (3 datagrams came back)" in done.stderr
+
+
+@pytest.mark.parametrize("command", [["replay", "--no-wait"], ["replay"], ["relay"]], ids=" ".join)
+def test_what_is_sent_to_nobody_is_status_4(run, tmp_path, tcp_port, command):
+    """Nobody connects: without --no-wait a recording waits for somebody until the end."""
+    log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(3))))
+    done = run(command[0], log, "--to", f"tcpin://127.0.0.1:{tcp_port()}", "--for", "300ms", *command[1:])
+
+    assert done.status == 4, done
+
+
+def test_a_relay_of_something_live_to_nobody_is_status_4(spawn, udp_socket, udp_port):
+    relay = spawn("relay", "udpin://127.0.0.1:0", "--to", f"udpout://127.0.0.1:{udp_port()}", "--for", "2s")
+    vehicle, port = udp_socket(), int(relay.wait_output(r"listening on port (\d+)", stream="err")[1])
+    vehicle.sendto(next(frames.heartbeats(1)), ("127.0.0.1", port))
+
+    assert relay.wait().status == 4
+
+
+@pytest.mark.parametrize("source, to", [("udpin://0.0.0.0:{}", "udpout://127.0.0.1:{}"), ("udpin://127.0.0.1:{}", "udpout://localhost:{}"),
+                                        ("udpin://[::]:{}", "udpout://[::1]:{}"), ("tcpin://127.0.0.1:{}", "tcpout://127.0.0.1:{}")])
+def test_a_relay_onto_its_own_port_is_refused(run, udp_port, source, to):
+    port = udp_port()
+    done = run("relay", source.format(port), "--to", to.format(port), "--for", "1s")
+
+    assert done.status == 2 and "every frame would go round for ever" in done.stderr, done
+    assert run("relay", source.format(port), "--to", "udpout://127.0.0.1:1", "--for", "100ms").status == 0
 
 
 def test_replay_starts_later(spawn, tmp_path):

@@ -324,17 +324,19 @@ def test_p5_flood_sends_an_unseen_target_to_all(net, kind):
 def test_p6_a_recording_goes_on_in_a_new_file(spawn, tmp_path):
     port = routers.udp_port()
     router = Router(spawn, f"udpin://127.0.0.1:{port}", f"tlog://{tmp_path}/dump.tlog?rotate_every=1")
-    end, sent = UdpEnd(("127.0.0.1", port)), [heartbeat(), heartbeat()]
-    end.send(sent[0])
-    harness.wait_for(lambda: router.stats("recording")[0]["frames"] == 1, what="the first record")
-    time.sleep(1.1)  # longer than a segment
-    end.send(sent[1])
-    harness.wait_for(lambda: router.stats("recording")[0]["frames"] == 2, what="the second record")
+    end, sent = UdpEnd(("127.0.0.1", port)), []
+
+    def second_file():
+        sent.append(heartbeat())
+        end.send(sent[-1])
+        harness.wait_for(lambda: router.stats("recording")[0]["frames"] == len(sent), what="the record")
+        return len(list(tmp_path.glob("*.tlog"))) == 2
+    harness.wait_for(second_file, what="the second file")
     router.process.stop()
     end.close()
 
-    files = sorted(tmp_path.glob("*.tlog"))
-    assert [[frame for _, frame in frames.read_tlog(file)] for file in files] == [[sent[0]], [sent[1]]]
+    first, second = ([frame for _, frame in frames.read_tlog(file)] for file in sorted(tmp_path.glob("*.tlog")))
+    assert first + second == sent and len(second) == 1
 
 
 # ---- gomavlib --------------------------------------------------------------------------------------------------------

@@ -72,6 +72,39 @@ def test_ctl_links_counts_what_came_and_went(net, ctl):
     assert a["forwarded"] == 3 and a["up"] is True and a["kind"] == "link"
 
 
+@pytest.mark.parametrize("kind", ["peers", "clients"])
+def test_ctl_remove_closes_one_link(net, ctl, kind):
+    sut = net(kind, 3)
+    sut.hears(1, VEHICLE)
+    gone, stays = sut.link(1)["link"], sut.link(2)["link"]
+    assert ctl(sut.router, "remove", gone).status == 0
+
+    assert gone not in {link["link"] for link in sut.router.links()} and stays in {link["link"] for link in sut.router.links()}
+    assert sut.router.routes() == {route for route in sut.router.routes() if route[2] != gone}
+    frame = attitude((2, 1))
+    sut[2].send(frame)
+    assert sut[3].next() == frame and gone not in {link["link"] for link in sut.router.links()}
+    if kind == "clients":
+        assert sut[1].sock.recv(1) == b"", "it was disconnected"
+    else:
+        back = heartbeat(VEHICLE)
+        sut[1].send(back)
+        assert sut[2].next() == back, "it is a new link when it speaks again"
+    again = ctl(sut.router, "remove", f"{gone}0")
+    assert again.status == 1 and "there is no endpoint" in again.stderr
+
+
+def test_a_group_has_one_mode(net, ctl, run, udp_port):
+    sut = net("udpout", 2, options={1: "group=air&group_mode=best"})
+    other = ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode=primary")
+    assert other.status == 1 and "group 'air' has group_mode=best already: a group has one" in other.stderr
+    assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air").status == 0, "it takes the group's"
+
+    both = [f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode={mode}" for mode in ("best", "all")]
+    done = run("route", *both, "--for", "1s")
+    assert done.status == 2 and "group 'air' has group_mode=best already: a group has one" in done.stderr
+
+
 def test_ctl_routes_are_what_was_heard(net, ctl):
     sut = net(("udpout", "tcpin"))
     sut.hears(1, VEHICLE)

@@ -96,6 +96,17 @@ def test_listen_takes_both_spellings(spawn, port, spelling, baud):
 
 
 @pytest.mark.short
+def test_a_port_outside_dev_takes_a_baud_rate(spawn, port, tmp_path):
+    far, name = port(), tmp_path / "autopilot"
+    put_link(name, far.device)
+    listen = spawn("listen", f"{name},115200", "--count", "1")
+    harness.wait_for(lambda: far.baud() == 115200, what="115200 baud")
+    far.write(next(frames.heartbeats(1)))
+
+    assert listen.wait().status == 0
+
+
+@pytest.mark.short
 def test_a_missing_port_is_awaited(spawn, port, tmp_path):
     name = tmp_path / "autopilot"
     listen = spawn("listen", f"serial://{name}", "--count", "1")

@@ -26,6 +26,10 @@ public:
     // written, and rotation of a device or FIFO, are errors here.
     [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
 
+    // TlogWriter::make_room of the segment that is open.
+    [[nodiscard]] SetupResult<void> make_room(const wire::FrameView& frame);
+    // Whether this error of `make_room` ends when somebody makes room on the disk: not so of devices and pipes.
+    [[nodiscard]] bool is_full_disk(const SetupError& error) const noexcept;
     // An error means that records are lost, as `lost_records` counts them: this one (TlogWriter::write; a new segment that cannot be opened), or
     // the last of the segment behind us, which could not be closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);

@@ -25,6 +25,8 @@ public:
     // Tries to write what is buffered; only `close` says whether that worked.
     ~TlogWriter();
 
+    // Whether `write` would take a record of this frame. An error means that the buffer is full and could not be written: the disk may have room later.
+    [[nodiscard]] SetupResult<void> make_room(const wire::FrameView& frame);
     // An error means that this record was not taken, and that the buffer could not be written. Times outside 1970 to 2255 are moved to those.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
     // Hands the buffered records to the system: other programs see them then.
@@ -42,6 +44,8 @@ public:
     [[nodiscard]] std::uint64_t written_records() const noexcept { return written_records_; }
     [[nodiscard]] std::uint64_t written_bytes() const noexcept { return written_; }
     [[nodiscard]] std::size_t buffered_bytes() const noexcept { return used_; }
+    // Not a device or pipe.
+    [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
 
 private:
     TlogWriter(File file, std::filesystem::path renamed_to, std::size_t buffer_bytes);

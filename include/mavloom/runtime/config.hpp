@@ -102,6 +102,11 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 // Reads the key files that the endpoints name. An error is `bad_input`, with file and line.
 [[nodiscard]] SetupResult<void> check_key_files(const Config& config, std::string_view file_name);
 
+// All that a router refuses in a configuration that reads well: the two above, a ring as an endpoint, [ring] without a name, [record] without a
+// path, two modes for one group. An error is `bad_input`, with file and line.
+[[nodiscard]] SetupResult<void> check_for_router(const Config& config, std::string_view file_name,
+                                                 const dialect::Dialect& dialect);
+
 // Errors are `bad_input` and begin with FILE:LINE: or the variable's name.
 [[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,
                                                const Environment& environment = {});

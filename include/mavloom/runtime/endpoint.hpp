@@ -48,6 +48,7 @@ struct EndpointOptions {
     std::string name;  // default: the URL without its query
     std::string group;
     GroupMode group_mode = GroupMode::all;
+    bool names_group_mode = false;                 // else another endpoint of the group may
     std::uint32_t mtu_bytes = 1280;                // 0: one frame a datagram
     std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
     std::uint64_t queue_bytes = 1 << 20;
@@ -87,6 +88,14 @@ struct Endpoint {
     [[nodiscard]] std::string label() const;
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
+
+[[nodiscard]] std::string_view group_mode_name(GroupMode mode) noexcept;
+
+// Why a router refuses shm://NAME, with what to type instead.
+[[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
+
+// Whether a path is a recording's by its name: FLIGHT.tlog, FLIGHT.TLOG, or FLIGHT.tlog.1 as an older one is renamed.
+[[nodiscard]] bool names_recording(std::string_view path) noexcept;
 
 // The path by which a file is known however it is spelt; it need not exist.
 [[nodiscard]] std::filesystem::path same_file(const std::filesystem::path& path);

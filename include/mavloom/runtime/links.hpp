@@ -146,6 +146,9 @@ public:
     [[nodiscard]] const SetupError* failure(EndpointId endpoint) const noexcept;
     // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
     void remove(EndpointId endpoint);
+    // Closes one peer, client or sender of an endpoint, as if it had gone; it may come again. False where the link is the only one that its endpoint
+    // can have, or is gone. Not to be called inside a callback.
+    bool close(LinkId link);
     // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.
     [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;
 

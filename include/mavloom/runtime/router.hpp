@@ -10,9 +10,11 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,9 +31,6 @@ class RingTap;
 class OwnMessages;
 class SilenceWatch;
 
-// Why a router refuses shm://NAME, for who types it.
-[[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
-
 class Router : private LinkHandler {
 public:
     // What a person should know: links that came and went, odd things. Called on the router's thread.
@@ -46,6 +45,9 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router() override;
 
+    // The group_mode= of all endpoints that will be there, before the first is added: one that names none takes that of its group. Two modes for
+    // one group are an error, and change nothing.
+    [[nodiscard]] SetupResult<void> learn_group_modes(std::span<const Endpoint> endpoints);
     // A link endpoint, or tlog://PATH: a recording of every frame that arrives, taken before routing.
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
     // Every good frame that arrives is written once into a ring, whatever becomes of it, and a counter page tells of the links (docs/formats/ring.md).
@@ -54,7 +56,8 @@ public:
     [[nodiscard]] SetupResult<void> open_ring(const RingConfig& config);
     // The socket by which who reads that ring sends frames: Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const RingConfig& config, const std::filesystem::path& socket);
-    // By its label (`name=`, else the URL without its query). False when there is none.
+    // An endpoint or recording by its label (`name=`, else the URL without its query), or a peer or client by its link's name: it is closed, and is
+    // a new link if it speaks again. False when there is none.
     bool remove(std::string_view label);
     // Other [router] values. Links stay, and so does what was learned and counted.
     void configure(const RouterConfig& config);
@@ -110,6 +113,8 @@ private:
     [[nodiscard]] SetupResult<void> add_recording(const Endpoint& endpoint);
     [[nodiscard]] route::Decision decide(const RxFrame& rx, std::uint64_t mark);
     [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const Endpoint& endpoint);
+    [[nodiscard]] SetupResult<void> check_group(const Endpoint& endpoint) const;
+    [[nodiscard]] GroupMode mode_of(const EndpointOptions& options) const;
     [[nodiscard]] route::GroupId group_id(const std::string& name);
     void register_endpoint(OpenedEndpoint& opened);
     [[nodiscard]] bool has(const Endpoint& endpoint) const;
@@ -117,6 +122,7 @@ private:
     void put_back(const std::vector<Endpoint>& gone, const std::string& label);
     void speak_on(LinkId link, EndpointId endpoint);
     void forget_link(LinkId link);
+    bool close_link(std::string_view name);
     // Of a crowd of links of an endpoint that come and go a few are told, and how many there were.
     [[nodiscard]] bool may_tell_of_link(EndpointId endpoint) noexcept;
     void send(const RxFrame& rx, std::span<const LinkId> links);
@@ -142,6 +148,7 @@ private:
     std::vector<std::unique_ptr<OpenedEndpoint>> endpoints_;
     std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null: removed
     std::vector<std::string> groups_;     // by GroupId - 1
+    std::map<std::string, GroupMode> group_modes_;
     std::vector<std::unique_ptr<Recorder>> recorders_;
     std::vector<std::unique_ptr<Recorder>> ending_recorders_;  // removed, and still writing
     std::vector<Endpoint> recordings_;                         // what each recorder was made from

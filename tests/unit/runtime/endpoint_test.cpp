@@ -80,22 +80,23 @@ TEST_P(GoodPaths, AreTaken) {
     EXPECT_EQ(endpoint.path, GetParam().path);
 }
 
-INSTANTIATE_TEST_SUITE_P(ParseEndpoint, GoodPaths,
-                         testing::Values(GoodPath{"serial:///dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
-                                         GoodPath{"serial:///dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0",
-                                                  Scheme::serial, "/dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0"},
-                                         GoodPath{"/dev/ttyACM0,57600", Scheme::serial, "/dev/ttyACM0"},
-                                         GoodPath{"/dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
-                                         GoodPath{"shm://main", Scheme::shm, "main"},
-                                         GoodPath{"tlog://flight.tlog", Scheme::tlog, "flight.tlog"},
-                                         GoodPath{"tlog:///var/log/flight.tlog", Scheme::tlog, "/var/log/flight.tlog"},
-                                         GoodPath{"tlog://logs/no%20ending%3F", Scheme::tlog, "logs/no ending?"},
-                                         GoodPath{"flight.tlog", Scheme::tlog, "flight.tlog"},
-                                         GoodPath{"./a/b.tlog", Scheme::tlog, "./a/b.tlog"},
-                                         GoodPath{"/tmp/100%20.tlog", Scheme::tlog,
-                                                  "/tmp/100%20.tlog"},  // a bare path is as the shell gives it
-                                         GoodPath{"/tmp/what?.tlog", Scheme::tlog, "/tmp/what?.tlog"},
-                                         GoodPath{"flight.tlog?speed=10", Scheme::tlog, "flight.tlog"}));
+INSTANTIATE_TEST_SUITE_P(
+    ParseEndpoint, GoodPaths,
+    testing::Values(
+        GoodPath{"serial:///dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"serial:///dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0", Scheme::serial,
+                 "/dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0"},
+        GoodPath{"/dev/ttyACM0,57600", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"/tmp/vehicle/tty,115200", Scheme::serial, "/tmp/vehicle/tty"},
+        GoodPath{"/tmp/a,b.tlog", Scheme::tlog, "/tmp/a,b.tlog"}, GoodPath{"FOO.TLOG", Scheme::tlog, "FOO.TLOG"},
+        GoodPath{"x.tlog.12", Scheme::tlog, "x.tlog.12"}, GoodPath{"/dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"shm://main", Scheme::shm, "main"}, GoodPath{"tlog://flight.tlog", Scheme::tlog, "flight.tlog"},
+        GoodPath{"tlog:///var/log/flight.tlog", Scheme::tlog, "/var/log/flight.tlog"},
+        GoodPath{"tlog://logs/no%20ending%3F", Scheme::tlog, "logs/no ending?"},
+        GoodPath{"flight.tlog", Scheme::tlog, "flight.tlog"}, GoodPath{"./a/b.tlog", Scheme::tlog, "./a/b.tlog"},
+        GoodPath{"/tmp/100%20.tlog", Scheme::tlog, "/tmp/100%20.tlog"},  // a bare path is as the shell gives it
+        GoodPath{"/tmp/what?.tlog", Scheme::tlog, "/tmp/what?.tlog"},
+        GoodPath{"flight.tlog?speed=10", Scheme::tlog, "flight.tlog"}));
 
 struct Bad {
     std::string_view text;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a router refuses in a configuration that reads well: apart from reading it, so that `mavloom check` and `route` say the same.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "mavloom/base/shown.hpp"
+#include "runtime/config_places.hpp"
+
+namespace mavloom::runtime {
+
+namespace {
+
+tl::unexpected<SetupError> bad(std::string_view file_name, std::uint32_t line, std::string_view what) {
+    return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}", file_name, line, what));
+}
+
+SetupResult<void> check_no_rings(const Config& config, std::string_view file_name) {
+    return detail::each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        static constexpr std::array<std::string_view, 3> own{"ring", "url", "scheme"};
+        if (endpoint.scheme != Scheme::shm) return {};
+        return bad(file_name, detail::line_of(section, own), ring_is_no_endpoint(endpoint));
+    });
+}
+
+// The first key that the file gives to a section; null where it gives none.
+const Setting* first_given(const Config& config, std::string_view name) {
+    const auto section = std::ranges::find(config.sections, name, &Section::name);
+    if (section == config.sections.end()) return nullptr;
+    const auto setting = std::ranges::find(section->settings, Origin::file, &Setting::origin);
+    return setting == section->settings.end() ? nullptr : &*setting;
+}
+
+// A section that lacks what it is about would do nothing in silence.
+SetupResult<void> check_sections(const Config& config, std::string_view file_name) {
+    if (const auto* given = first_given(config, "ring"); given != nullptr && config.ring.name.empty())
+        return bad(file_name, given->line, "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
+    if (const auto* given = first_given(config, "record"); given != nullptr && config.record.path.empty())
+        return bad(file_name, given->line, "[record] has no path: write path = \"flight.tlog\"");
+    return {};
+}
+
+SetupResult<void> check_groups(const Config& config, std::string_view file_name) {
+    struct Chosen {
+        GroupMode mode;
+        std::uint32_t line;
+    };
+    std::map<std::string, Chosen> chosen;
+    return detail::each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        static constexpr std::array<std::string_view, 1> own{"group_mode"};
+        const auto& o = endpoint.options;
+        if (o.group.empty() || !o.names_group_mode) return {};
+        const auto line = detail::line_of(section, own);
+        const auto [first, is_first] = chosen.try_emplace(o.group, Chosen{o.group_mode, line});
+        if (is_first || first->second.mode == o.group_mode) return {};
+        return bad(file_name, line,
+                   fmt::format("group {} has group_mode \"{}\" in line {}, and \"{}\" here: a group has one",
+                               in_quotes(o.group), group_mode_name(first->second.mode), first->second.line,
+                               group_mode_name(o.group_mode)));
+    });
+}
+
+}  // namespace
+
+SetupResult<void> check_for_router(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
+    if (auto good = check_no_rings(config, file_name); !good) return good;
+    if (auto good = check_sections(config, file_name); !good) return good;
+    if (auto good = check_groups(config, file_name); !good) return good;
+    if (auto good = check_message_names(config, file_name, dialect); !good) return good;
+    return check_key_files(config, file_name);
+}
+
+}  // namespace mavloom::runtime
