@@ -203,10 +203,11 @@ void RingSource::arm() {
 
 Nanoseconds RingSource::nap() {
     constexpr auto until_next_look = std::chrono::milliseconds{1};
-    const auto lock = turns_.try_take();
-    if (!lock.owns_lock()) return until_next_look;  // somebody reads
-    if (is_closed() || pending_.lease) return {};
-    return reader_.arm();
+    return turns_.glance([this](bool nobody_reads) -> Nanoseconds {
+        if (!nobody_reads) return until_next_look;
+        if (is_closed() || pending_.lease) return {};
+        return reader_.arm();
+    });
 }
 
 }  // namespace mavloom::python

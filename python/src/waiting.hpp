@@ -50,7 +50,8 @@ private:
     std::uint64_t born_ = Hub::forks();
 };
 
-// A mutex that is held while waiting, slice by slice; between two of them those who ask come first. Nobody holds it who needs the GIL.
+// A mutex that is held while waiting, slice by slice; between two of them those who ask come first. Nobody holds it who needs the GIL. One thread may
+// glance: hold it for a moment, without waiting, which takes no turn from those that try.
 class Turns {
 public:
     using Lock = std::unique_lock<std::timed_mutex>;
@@ -60,7 +61,21 @@ public:
         return Lock(mutex_);
     }
     // Those that come back without owning it say that it is not their turn: yet, or before the deadline and the slice's end.
-    [[nodiscard]] Lock try_take() { return Lock(mutex_, std::try_to_lock); }
+    [[nodiscard]] Lock try_take() {
+        for (;;) {
+            const unsigned glances = glances_.load();
+            Lock lock(mutex_, std::try_to_lock);
+            const bool is_glanced_at = glances % 2 == 1 || glances_.load() != glances;
+            if (lock.owns_lock() || !is_glanced_at) return lock;
+            std::this_thread::yield();
+        }
+    }
+    // `look(is_free)` with the lock where nobody has it; at once in either case. One call at a time.
+    [[nodiscard]] auto glance(auto&& look) {
+        const Glance glance(glances_);
+        const Lock lock(mutex_, std::try_to_lock);
+        return look(lock.owns_lock());
+    }
     [[nodiscard]] Lock take_until(MonoTime deadline) {
         Lock lock = try_take();
         if (lock.owns_lock()) return lock;
@@ -82,8 +97,17 @@ private:
         std::atomic<int>& count;
     };
 
+    struct Glance {
+        explicit Glance(std::atomic<unsigned>& glances) : count(glances) { count.fetch_add(1); }
+        Glance(const Glance&) = delete;
+        Glance& operator=(const Glance&) = delete;
+        ~Glance() { count.fetch_add(1); }
+        std::atomic<unsigned>& count;
+    };
+
     std::timed_mutex mutex_;
     std::atomic<int> asking_{0};
+    std::atomic<unsigned> glances_{0};  // odd during one
 };
 
 }  // namespace mavloom::python

@@ -1545,6 +1545,19 @@ def test_row_3_21_a_loop_of_ones_own(writer, ring):
         reader.poll()
 
 
+def test_a_read_that_does_not_wait_finds_what_is_there_while_the_descriptors_thread_looks(writer, ring):
+    """That thread wakes after some 50 us: what was written is read at many moments around then."""
+    reader = mavloom.RingReader(ring)
+    reader.event_fd()
+    for number in range(30_000):
+        assert reader.poll() is None  # the thread waits from here
+        writer.write(b"x")
+        moment = time.perf_counter_ns() + number % 128 * 1000
+        while time.perf_counter_ns() < moment:
+            pass
+        assert reader.read(0) is not None, number
+
+
 @pytest.mark.parametrize("leaks", [False, True], ids=["", "told of leaks"])
 def test_rows_3_21_and_3_22_an_exit_while_tasks_wait_is_silent(ring, start, leaks):
     process = start(f"""
