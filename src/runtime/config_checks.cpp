@@ -36,7 +36,8 @@ const Setting* first_given(const Config& config, std::string_view name) {
 // A section that lacks what it is about would do nothing in silence.
 SetupResult<void> check_sections(const Config& config, std::string_view file_name) {
     if (const auto* given = first_given(config, "ring"); given != nullptr && config.ring.name.empty())
-        return bad(file_name, given->line, "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
+        return bad(file_name, given->line,
+                   "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
     if (const auto* given = first_given(config, "record"); given != nullptr && config.record.path.empty())
         return bad(file_name, given->line, "[record] has no path: write path = \"flight.tlog\"");
     return {};
