@@ -63,12 +63,13 @@ def test_pymavlink_is_heard_and_hears(machines, start):  # noqa: F811
     peer = harness.Running(here.command(sys.executable, "-c", PYMAVLINK_PEER))
     try:
         listening = start(here, "listen", "udpmcast://239.255.145.50:14550", "--only", "HEARTBEAT", "--json")
+        harness.wait_for(lambda: '"sys":77' in listening.stdout, what="pymavlink to be heard")
         _, send = relay_of(here, start, "udpmcast://239.255.145.50:14550")
 
-        def both():
+        def has_heard():  # and ends then
             send(next(frames.heartbeats(1, system=42)))
-            return '"sys":77' in listening.stdout and not peer.alive
-        harness.wait_for(both, what="each to hear the other")
+            return not peer.alive
+        harness.wait_for(has_heard, what="pymavlink to hear")
         assert peer.wait().status == 0
     finally:
         peer.kill()
