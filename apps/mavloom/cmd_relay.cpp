@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <climits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -127,7 +130,7 @@ private:
         const auto printed = json_ ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;
-        const bool had_something = c.frames.value() != 0 || waited_;
+        const bool had_something = destinations_.given() != 0 || (waited_ && !started_);
         const bool lost = sources_.finished() && destinations_.lost_any();
         if (lost || (had_something && destinations_.reached_nobody())) return Signals::status(Exit::mismatch);
         if (const auto* error = sources_.error()) return fail(*error);
@@ -185,21 +188,31 @@ SetupResult<void> open_sources(const Options& options, runtime::Sources& sources
     return {};
 }
 
-bool is_own_host(const std::string& host) {
-    const auto address = net::Address::parse(host, 0);
-    return address ? net::OwnAddresses().contains(*address, mono_now()) : host == "localhost";
+// A name that this machine gives itself, as far as that can be said without looking it up.
+bool is_own_name(const std::string& host) {
+    std::array<char, HOST_NAME_MAX + 1> own{};
+    return host == "localhost" || (::gethostname(own.data(), own.size() - 1) == 0 && host == own.data());
+}
+
+// Whether a socket that is bound to `bound` hears what is sent to `host`. One on 0.0.0.0 hears no IPv6, one on :: hears both.
+bool hears(const std::string& bound, const std::string& host, bool broadcast) {
+    const auto here = net::Address::parse(bound, 0), there = net::Address::parse(host, 0);
+    if (!there) return is_own_name(host);
+    if (!here) return true;
+    if (!here->is_any()) return *here == *there;
+    if (here->is_v4() && !there->is_v4()) return false;
+    return broadcast || net::OwnAddresses().contains(*there, mono_now());
 }
 
 // What is sent to `to` would come in by `source` again.
 bool leads_back(const runtime::EndpointInfo& source, const runtime::Endpoint& to) {
     using runtime::Scheme;
     const auto in = source.endpoint.scheme;
-    const bool same_kind = (in == Scheme::udpin && to.scheme == Scheme::udpout) ||
+    const bool broadcast = to.scheme == Scheme::udpbcast;
+    const bool same_kind = (in == Scheme::udpin && (to.scheme == Scheme::udpout || broadcast)) ||
                            (in == Scheme::tcpin && to.scheme == Scheme::tcpout);
-    if (!same_kind || source.local_port != to.address.port || !is_own_host(to.address.host)) return false;
-    const auto bound = net::Address::parse(source.endpoint.address.host, 0);
-    return !bound || bound->is_any() || to.address.host == source.endpoint.address.host ||
-           to.address.host == "localhost";
+    return same_kind && source.local_port == to.address.port &&
+           hears(source.endpoint.address.host, to.address.host, broadcast);
 }
 
 SetupResult<void> check_no_loop(const std::vector<runtime::EndpointInfo>& sources, const std::vector<std::string>& to) {
@@ -275,7 +288,7 @@ Run declare_relay(Arguments command, const Common& common) {
     command.footer(
         "Without options what comes out is byte for byte what went in. What the far side answers goes "
         "back. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
-        "  mavloom relay udpin://0.0.0.0:14540 --to udpout://127.0.0.1:14550\n"
+        "  mavloom relay udpin://0.0.0.0:14540 --to udpout://192.168.1.20:14550\n"
         "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"
         "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
     return [options, &common] { return relay(common, *options); };

@@ -228,6 +228,8 @@ private:
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
             return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
+        if (auto agreed = runtime::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
+            return tell(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
         const bool same_rules = config->router == plan_.config.router;
         if (config->ring != plan_.config.ring) tell("mavloom: [ring] stays as it is until the router starts anew");
         config->ring = plan_.config.ring;
@@ -353,7 +355,7 @@ Run declare_route(Arguments command, const Common& common) {
         "  mavloom route --config examples/px4-qgc.toml\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550\n"
         "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"
-        "  mavloom route udpin://0.0.0.0:14540 udpout://127.0.0.1:14550 --ring px4\n"
+        "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550 --ring px4\n"
         "  mavloom route --config router.toml --explain COMMAND_LONG");
     return [options, &common] { return route(common, *options); };
 }

@@ -78,6 +78,7 @@ SetupResult<void> Destinations::add(const Common& common, const runtime::Endpoin
 
 bool Destinations::send(const wire::FrameView& frame, WallTime time) {
     std::size_t takers = 0;
+    ++given_;
     for (std::size_t i = 0; i < endpoints_.size(); ++i) {
         const std::size_t taken = links_->send(endpoints_[i], frame);
         nobody_there_[i] += taken == 0;
@@ -163,9 +164,9 @@ void Destinations::say_sums(const Common& common) const {
         if (sums.dropped != 0)
             say(common,
                 fmt::format("{}: {} dropped, the far side was too slow or went", name, counted(sums.dropped, "frame")));
-        if (sums.came_back != 0)
-            say(common, fmt::format("{}: {} refused: nobody listens there, or it cannot be reached ({} came back)",
-                                    name, counted(sums.refused, "frame"), counted(sums.came_back, "datagram")));
+        if (sums.refused != 0)
+            say(common, fmt::format("{}: {} refused: nobody listens there, or it cannot be reached", name,
+                                    counted(sums.refused, "frame")));
         if (sums.not_sent != 0)
             say(common, fmt::format("{}: {} not sent, the system refused them", name, counted(sums.not_sent, "frame")));
         if (nobody_there_[i] != 0)

@@ -37,6 +37,8 @@ public:
 
     // Frames were dropped, had nobody there, or were left in a queue at the end.
     [[nodiscard]] bool lost_any() const;
+    // How many frames `send` was given.
+    [[nodiscard]] std::uint64_t given() const noexcept { return given_; }
     // There is no file among them, and not one frame was sent to anybody.
     [[nodiscard]] bool reached_nobody() const;
     // Writes what the files still buffer. The first error of a file, now or earlier, is returned.
@@ -65,7 +67,7 @@ private:
     std::vector<record::RotatingWriter> files_;
     std::optional<SetupError> failure_;
     std::vector<std::uint64_t> nobody_there_;  // frames, by endpoint
-    std::uint64_t sent_ = 0;
+    std::uint64_t given_ = 0, sent_ = 0;
 };
 
 }  // namespace mavloom::app

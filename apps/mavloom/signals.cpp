@@ -29,13 +29,18 @@ void handle(int signal) {
     errno = saved_errno;
 }
 
-// Without SA_RESTART: a write that blocks on a slow reader returns.
-void install(void (*handler)(int)) noexcept {
+enum class Ignored : bool { stay, are_taken };
+
+// Without SA_RESTART: a write that blocks on a slow reader returns. SIGHUP: the terminal was closed.
+void install(void (*handler)(int), Ignored ignored) noexcept {
     struct sigaction action {};
     action.sa_handler = handler;
-    ::sigaction(SIGINT, &action, nullptr);
-    ::sigaction(SIGTERM, &action, nullptr);
-    ::sigaction(SIGHUP, &action, nullptr);  // the terminal was closed
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction present {};
+        ::sigaction(signal, nullptr, &present);
+        if (ignored == Ignored::stay && present.sa_handler == SIG_IGN) continue;
+        ::sigaction(signal, &action, nullptr);
+    }
 }
 
 }  // namespace
@@ -45,10 +50,10 @@ Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup) {
     stop_context = context;
     stop_function = on_stop;
     has_begun = true;
-    install(handle);
+    install(handle, Ignored::are_taken);
 }
 
-void Signals::watch() noexcept { install(handle); }
+void Signals::watch() noexcept { install(handle, Ignored::stay); }
 
 Signals::~Signals() { stop_function = nullptr; }
 

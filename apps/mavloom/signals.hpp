@@ -15,10 +15,11 @@ public:
     Signals(OnStop on_stop, void* context, OnHangup on_hangup = OnHangup::stop);
     ~Signals();
     Signals(const Signals&) = delete;
-    // At the start of the program: until there is a Signals object nothing is there to be ended cleanly, and a signal ends the program at once with
-    // the status that belongs to it.
-    static void watch() noexcept;
     Signals& operator=(const Signals&) = delete;
+
+    // At the start of the program: until there is a Signals object nothing is there to be ended cleanly, and a signal ends the program at once with
+    // the status that belongs to it. Signals that the caller ignores (nohup, background jobs of scripts) stay ignored until then.
+    static void watch() noexcept;
 
     [[nodiscard]] static bool received() noexcept;
     // True once for each SIGHUP that was remembered (several at once are one).

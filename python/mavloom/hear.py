@@ -153,7 +153,7 @@ def summary(link: Link, name: str, written: int) -> str:
     stats = link.stats
     losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
               "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
-              "wrongly signed": stats.bad_signature, "sent back by readers of the ring": stats.answers, "of these for nobody": stats.unheard_answers,
+              "wrongly signed": stats.bad_signature, "sent back by readers of the ring": stats.answers, "of these had no peer to go to": stats.unheard_answers,
               "refused by a peer that is gone": stats.refused}
     return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
 

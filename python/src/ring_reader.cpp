@@ -202,8 +202,8 @@ void RingSource::arm() {
 }
 
 Nanoseconds RingSource::nap() {
-    constexpr auto until_next_look = std::chrono::milliseconds{1};
     return turns_.glance([this](bool nobody_reads) -> Nanoseconds {
+        constexpr auto until_next_look = std::chrono::milliseconds{1};
         if (!nobody_reads) return until_next_look;
         if (is_closed() || pending_.lease) return {};
         return reader_.arm();

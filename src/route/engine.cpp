@@ -204,6 +204,10 @@ void Engine::Impl::learn(Passage& p) noexcept {
 void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcept {
     const Slot slot = slot_of(link);
     if (slot == no_slot || source.system.value == 0) return;
+    Reboot& last = last_reboots_[source.system.value];
+    const bool is_known = last.link != link && last.when != MonoTime{} && now - last.when < one_reboot;
+    if (is_known) return;  // by another link, and routes were learnt since
+    last = {link, now};
     counters.reboots.add();
     routes_.forget_system(source.system);
     RouteTable::Change change;

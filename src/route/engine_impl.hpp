@@ -62,6 +62,8 @@ private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // links: with more of them the lists would take too much memory
+    static constexpr std::chrono::seconds one_reboot{
+        10};  // links of one vehicle that lag behind report its restart within
     static constexpr std::uint8_t turns_of_duplicates = 4;  // A, B, A, B: nobody who moves does that within the timeout
 
     struct Group {
@@ -147,6 +149,11 @@ private:
     std::vector<std::uint64_t> candidates_, scratch_;
     std::vector<LinkId> out_;
     MonoTime now_{};
+    struct Reboot {
+        LinkId link{};
+        MonoTime when{};
+    };
+    std::array<Reboot, 256> last_reboots_{};  // by system
     std::vector<Reason>* reasons_ = nullptr;  // by slot, while explaining
 };
 

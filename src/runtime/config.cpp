@@ -176,7 +176,7 @@ private:
     SetupResult<void> read_section(std::string_view name, const toml::table* table) {
         if (table != nullptr)
             if (auto done = check_keys(name, *table); !done) return done;
-        Section section{std::string(name), {}, {}};
+        Section section{std::string(name), {}, {}, table == nullptr ? 0 : line_of(*table)};
         for (const ConfigKey& key : config_keys()) {
             if (key.section != name) continue;
             auto setting = read_key(key, table == nullptr ? nullptr : table->get(key.name));

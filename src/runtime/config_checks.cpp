@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a router refuses in a configuration that reads well: apart from reading it, so that `mavloom check` and `route` say the same.
+// Checks that only a router needs. `mavloom check` and `route` both run them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "mavloom/base/shown.hpp"
 #include "runtime/config_places.hpp"
+#include "runtime/links_options.hpp"
 
 namespace mavloom::runtime {
 
@@ -25,22 +26,29 @@ SetupResult<void> check_no_rings(const Config& config, std::string_view file_nam
     });
 }
 
-// The first key that the file gives to a section; null where it gives none.
-const Setting* first_given(const Config& config, std::string_view name) {
+// Where the file has this section; 0 where it has none.
+std::uint32_t line_of_section(const Config& config, std::string_view name) {
     const auto section = std::ranges::find(config.sections, name, &Section::name);
-    if (section == config.sections.end()) return nullptr;
-    const auto setting = std::ranges::find(section->settings, Origin::file, &Setting::origin);
-    return setting == section->settings.end() ? nullptr : &*setting;
+    return section == config.sections.end() ? 0 : section->line;
 }
 
-// A section that lacks what it is about would do nothing in silence.
+// Without its name or path a section would be ignored silently.
 SetupResult<void> check_sections(const Config& config, std::string_view file_name) {
-    if (const auto* given = first_given(config, "ring"); given != nullptr && config.ring.name.empty())
-        return bad(file_name, given->line,
-                   "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
-    if (const auto* given = first_given(config, "record"); given != nullptr && config.record.path.empty())
-        return bad(file_name, given->line, "[record] has no path: write path = \"flight.tlog\"");
+    if (const auto line = line_of_section(config, "ring"); line != 0 && config.ring.name.empty())
+        return bad(file_name, line, "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
+    if (const auto line = line_of_section(config, "record"); line != 0 && config.record.path.empty())
+        return bad(file_name, line, "[record] has no path: write path = \"flight.tlog\"");
     return {};
+}
+
+// What Links::add would refuse at once.
+SetupResult<void> check_links(const Config& config, std::string_view file_name) {
+    return detail::each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        static constexpr std::array<std::string_view, 2> own{"url", "scheme"};
+        if (endpoint.scheme == Scheme::tlog) return {};
+        auto good = detail::check_link(endpoint, RoutingOptions::by_owner);
+        return good ? good : bad(file_name, detail::line_of(section, own), good.error().text);
+    });
 }
 
 SetupResult<void> check_groups(const Config& config, std::string_view file_name) {
@@ -67,6 +75,7 @@ SetupResult<void> check_groups(const Config& config, std::string_view file_name)
 
 SetupResult<void> check_for_router(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
     if (auto good = check_no_rings(config, file_name); !good) return good;
+    if (auto good = check_links(config, file_name); !good) return good;
     if (auto good = check_sections(config, file_name); !good) return good;
     if (auto good = check_groups(config, file_name); !good) return good;
     if (auto good = check_message_names(config, file_name, dialect); !good) return good;

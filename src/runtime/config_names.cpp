@@ -2,22 +2,15 @@
 // The messages that a configuration names, looked up in definitions: apart from reading the file, which needs none.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "mavloom/dialect/rates.hpp"
-#include "mavloom/runtime/config.hpp"
+#include "runtime/config_places.hpp"
 
 namespace mavloom::runtime {
 
 namespace {
-
-// Where the option was given: that of the key, else that of the endpoint's first line.
-std::uint32_t line_of(const Section& section, std::string_view key) {
-    const auto setting = std::ranges::find(section.settings, key, &Setting::key);
-    return setting == section.settings.end() ? 0 : setting->line;
-}
 
 // The first term that no definition has, in words.
 std::string unknown_in(const Endpoint& endpoint, std::string_view key, const dialect::Dialect& dialect) {
@@ -38,28 +31,25 @@ std::string unknown_in(const Endpoint& endpoint, std::string_view key, const dia
 }  // namespace
 
 SetupResult<void> check_message_names(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
-    auto endpoint = config.endpoints.begin();
-    for (const Section& section : config.sections) {
-        if (section.name != "endpoint") continue;
+    return detail::each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         for (const std::string_view key : {"in_allow", "in_block", "out_allow", "out_block", "max_rate"})
-            if (const auto what = unknown_in(*endpoint, key, dialect); !what.empty())
-                return setup_error(SetupCode::bad_input,
-                                   fmt::format("{}:{}: {}: {}", file_name, line_of(section, key), key, what));
-        ++endpoint;
-    }
-    return {};
+            if (const auto what = unknown_in(endpoint, key, dialect); !what.empty())
+                return setup_error(
+                    SetupCode::bad_input,
+                    fmt::format("{}:{}: {}: {}", file_name, detail::line_of(section, std::array{key}), key, what));
+        return {};
+    });
 }
 
 std::vector<std::string> config_warnings(const Config& config, std::string_view file_name,
                                          const dialect::Dialect& dialect) {
     std::vector<std::string> warnings;
-    auto endpoint = config.endpoints.begin();
-    for (const Section& section : config.sections) {
-        if (section.name != "endpoint") continue;
-        for (const auto& warning : dialect::rate_warnings(dialect, endpoint->options.max_rate))
-            warnings.push_back(fmt::format("{}:{}: max_rate={}", file_name, line_of(section, "max_rate"), warning));
-        ++endpoint;
-    }
+    (void)detail::each_endpoint(config, [&](const Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        for (const auto& warning : dialect::rate_warnings(dialect, endpoint.options.max_rate))
+            warnings.push_back(fmt::format("{}:{}: max_rate={}", file_name,
+                                           detail::line_of(section, std::array{std::string_view("max_rate")}), warning));
+        return {};
+    });
     return warnings;
 }
 

@@ -93,7 +93,7 @@ private:
 
 // ---- the socket ------------------------------------------------------------------------------------------------------
 
-// Nothing happens where there is no socket, or one of another kind. Of routers of one ring only one comes here: it holds the ring's lock.
+// Nothing happens where there is no socket, or one of another kind.
 SetupResult<void> take_over(const std::filesystem::path& path) {
     const auto probe = net::LocalSender::connect(path);
     if (probe) {

@@ -93,4 +93,17 @@ SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint)
     return address;
 }
 
+SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
+    if (auto good = check_supported(endpoint, routing); !good) return good;
+    const auto scheme = endpoint.scheme;
+    if (scheme != Scheme::udpout && scheme != Scheme::udpbcast && scheme != Scheme::tcpout) return {};
+    if (auto good = check_destination(endpoint); !good) return good;
+    const auto local = local_address(endpoint);
+    if (!local) return tl::unexpected(local.error());
+    const auto far = net::Address::parse(endpoint.address.host, endpoint.address.port);
+    if (*local && far && (*local)->family() != far->family())
+        return usage(endpoint, fmt::format("bind={} is of another family than {}", (*local)->text(), far->text()));
+    return {};
+}
+
 }  // namespace mavloom::runtime::detail

@@ -13,6 +13,8 @@ namespace mavloom::runtime::detail {
 [[nodiscard]] SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing);
 // An error for what nobody can send to: 0.0.0.0, port 0, a group or a broadcast address; the text says what to type.
 [[nodiscard]] SetupResult<void> check_destination(const Endpoint& endpoint);
+// Both, and a bind= that does not go with the destination: what can be said of an endpoint before it is opened.
+[[nodiscard]] SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing);
 // bind=HOST:PORT as an address; nothing where it is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 

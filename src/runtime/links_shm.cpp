@@ -84,6 +84,8 @@ SetupResult<void> InletSender::connect() {
     retry_.settle();
     retry_.begin_anew();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
+    if (std::exchange(told_no_way_, false))
+        core_.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
     peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());  // as its router calls it
     core_.set_up(peer_);
     if (!peer_.queue.empty()) core_.schedule(*this);
@@ -100,7 +102,7 @@ void InletSender::connect_or_retry() {
     auto done = connect();
     if (done) return;
     const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
-    if (!told_no_way_ && (!is_absent || !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
+    if (!is_absent || (!told_no_way_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
     if (!std::exchange(told_no_way_, true))
         core_.notice(info.id,
                      fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "

@@ -30,6 +30,10 @@ void TcpPeer::detach() noexcept {
 
 void TcpPeer::close(std::string_view why) {
     parser_.finish(sink(wall_now()));
+    drop(why);
+}
+
+void TcpPeer::drop(std::string_view why) {
     detach();
     owner_.on_closed(*this, why);
 }

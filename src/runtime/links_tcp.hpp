@@ -32,6 +32,8 @@ public:
     // Ends the stream. A frame of which a part was sent will be sent again, from its start, on the next one.
     void detach() noexcept;
     void close(std::string_view why);
+    // The same for an owner that closes it between two turns: what the parser held back is not handed over.
+    void drop(std::string_view why);
     [[nodiscard]] const net::TcpStream& stream() const noexcept { return stream_; }
 
     void schedule() override { core_.schedule(*this); }

@@ -157,7 +157,7 @@ void TcpIn::on_closed(TcpPeer& peer, std::string_view why) {
 bool TcpIn::close_link(LinkId link) {
     const auto peer = std::ranges::find_if(peers_, [&](const auto& p) { return p->id == link; });
     if (peer == peers_.end()) return false;
-    (*peer)->close("closed");
+    (*peer)->drop("closed");
     return true;
 }
 

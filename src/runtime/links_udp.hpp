@@ -32,7 +32,9 @@ struct UdpPeer final : Link {
     void note_heard(MonoTime now) noexcept;
     // The far side's port is closed. Not every datagram that meets it is reported: what is sent in the next second counts as refused.
     void note_refusal(MonoTime now) noexcept;
-    // What goes to a peer that was not heard since it was refused, or never, waits for `settle`.
+    // The far side is somewhere else now: what the old address refused says nothing of it.
+    void move_to(const net::Address& where) noexcept;
+    // Frames to a peer that has not been heard since its last refusal, or never, are counted by `settle`.
     void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
     // No refusal has come of what was sent: it counts as sent.
     void settle() noexcept;

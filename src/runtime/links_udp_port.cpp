@@ -22,6 +22,13 @@ void UdpPeer::note_heard(MonoTime now) noexcept {
     refuses_until_ = {};
 }
 
+void UdpPeer::move_to(const net::Address& where) noexcept {
+    if (where == address) return;
+    address = where;
+    listens_ = false;
+    refuses_until_ = {};
+}
+
 void UdpPeer::note_refusal(MonoTime now) noexcept {
     listens_ = false;
     refuses_until_ = now + refusal_holds;

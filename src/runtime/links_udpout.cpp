@@ -101,7 +101,7 @@ SetupResult<void> UdpOut::aim_at(const net::Address& address) {
         peer_->signature = signature.get();
         core_.add_link(*peer_);
     }
-    peer_->address = address;
+    peer_->move_to(address);
     core_.set_up(*peer_);
     return {};
 }

@@ -85,6 +85,7 @@ SetupResult<void> Router::add(const Endpoint& endpoint) {
     if (!id) return tl::unexpected(id.error());
     endpoints_.push_back(std::make_unique<OpenedEndpoint>(OpenedEndpoint{*id, endpoint, std::move(*policy)}));
     endpoints_.back()->verifies = !endpoint.options.verify_key_file.empty();
+    if (endpoint.options.names_group_mode) group_modes_[endpoint.options.group] = endpoint.options.group_mode;
     any_signs_ = any_signs_ || !endpoint.options.sign_key_file.empty();
     register_endpoint(*endpoints_.back());
     return {};
@@ -181,15 +182,21 @@ SetupResult<void> Router::check_group(const Endpoint& endpoint) const {
     return other_mode(endpoint, (*member)->policy.group_mode);
 }
 
-SetupResult<void> Router::learn_group_modes(std::span<const Endpoint> endpoints) {
-    std::map<std::string, GroupMode> modes;
+SetupResult<Router::GroupModes> Router::group_modes_of(std::span<const Endpoint> endpoints) {
+    GroupModes modes;
     for (const auto& endpoint : endpoints) {
         const auto& o = endpoint.options;
         if (o.group.empty() || !o.names_group_mode) continue;
         const auto [known, is_new] = modes.try_emplace(o.group, o.group_mode);
         if (!is_new && known->second != o.group_mode) return other_mode(endpoint, known->second);
     }
-    group_modes_ = std::move(modes);
+    return modes;
+}
+
+SetupResult<void> Router::learn_group_modes(std::span<const Endpoint> endpoints) {
+    auto modes = group_modes_of(endpoints);
+    if (!modes) return tl::unexpected(std::move(modes.error()));
+    group_modes_ = std::move(*modes);
     return {};
 }
 
@@ -216,7 +223,10 @@ bool Router::remove(std::string_view label) {
     links_->remove(id);
     a_link_went_ = true;
     by_id_[id.value] = nullptr;
+    const auto group = (*at)->endpoint.options.group;
     endpoints_.erase(at);
+    const auto is_member = [&](const auto& e) { return e->endpoint.options.group == group; };
+    if (std::ranges::none_of(endpoints_, is_member)) group_modes_.erase(group);
     return true;
 }
 
@@ -236,8 +246,8 @@ void Router::configure(const RouterConfig& config) {
 }
 
 void Router::become(const std::vector<Endpoint>& endpoints) {
-    if (auto learned = learn_group_modes(endpoints); !learned)
-        return notice_(LogLevel::error, fmt::format("{}; nothing was changed", learned.error().text));
+    group_modes_ = group_modes_of(endpoints).value();
+    const auto modes = group_modes_;
     std::vector<Endpoint> gone;
     const auto stays = [&](const Endpoint& e) { return std::ranges::find(endpoints, e) != endpoints.end(); };
     for (const auto& e : endpoints_) {
@@ -250,6 +260,7 @@ void Router::become(const std::vector<Endpoint>& endpoints) {
         remove(endpoint.label());
         notice_(LogLevel::info, fmt::format("{}: removed", endpoint.label()));
     }
+    group_modes_ = modes;  // also of a group whose members all went, and come again
     for (const auto& endpoint : endpoints) {
         if (has(endpoint)) continue;
         const auto added = add(endpoint);
@@ -297,7 +308,7 @@ void Router::on_frame(const RxFrame& rx) {
     if (decision.verdict != route::Verdict::echo) count_loss(rx);
 }
 
-// What the link does not learn from tells of no reboot either.
+// Frames that teach no route report no reboot.
 void Router::count_loss(const RxFrame& rx) {
     if (links_->count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
         return;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -315,7 +316,8 @@ public:
     }
     void sample(const std::string& name, std::string_view labels, std::uint64_t value) {
         auto at = std::ranges::find(families_, name, &std::pair<std::string, std::string>::first);
-        if (at == families_.end()) at = families_.insert(at, {name, fmt::format("# TYPE {} counter\n", name)});
+        if (at == families_.end())
+            at = families_.insert(at, {name, fmt::format("# TYPE {} {}\n", name, type_of(name))});
         fmt::format_to(std::back_inserter(at->second), "{}{{{}}} {}\n", name, labels, value);
     }
     [[nodiscard]] std::string text() const {
@@ -325,6 +327,14 @@ public:
     }
 
 private:
+    // What is lost is judged again when a frame arrives late or a source turns out to have restarted: these may fall, which a counter must not.
+    static std::string_view type_of(std::string_view name) {
+        static constexpr std::array<std::string_view, 4> judged_again{"_lost_total", "_late_total", "_repeated_total",
+                                                                      "_resync_total"};
+        const auto ends = [&](std::string_view end) { return name.ends_with(end); };
+        return std::ranges::any_of(judged_again, ends) ? "gauge" : "counter";
+    }
+
     std::vector<std::pair<std::string, std::string>> families_;
 };
 

@@ -45,6 +45,9 @@ std::string evidence(const EndpointInfo& info, const LinkCounters& link) {
             "{} datagrams came from another address than {}: a far side that answers from another port "
             "is heard by udpin://",
             info.counters->wrong_peer.value(), detail::to_text(info.endpoint.address));
+    if (link.refused.value() != 0)
+        return fmt::format("{} frames were refused: nobody listens at {}", link.refused.value(),
+                           detail::to_text(info.endpoint.address));
     if (link.junk_bytes.value() + link.crc_error.value() == 0) return {};
     const bool is_serial = info.endpoint.scheme == Scheme::serial;
     return fmt::format("what came is no MAVLink ({} bytes, {} damaged frames): {}", link.junk_bytes.value(),

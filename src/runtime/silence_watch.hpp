@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Notices links that send and hear nothing: a wrong port, a wrong baud rate, a vehicle that talks to somebody else. Each endpoint is reported
-// once, and only where it calls somebody: whoever comes by itself has been heard.
+// once, and only where it calls somebody: a peer that calls us has been heard already.
 //
 // Private to module runtime; one owner thread; time is a parameter.
 #pragma once

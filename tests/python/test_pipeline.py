@@ -154,7 +154,7 @@ def test_a_ground_station_completes_everything(start, ring, port, how):
     assert sorted(parameters) == [*range(PARAMETERS), 65535]
     assert mission == (0, 6) and result == 0 and vehicle.unanswered == []
     assert [done.status for done in ends] == [130] * len(running)
-    assert "of these for nobody" not in ends[-1].stderr and "lost on the way here" not in ends[-1].stderr, ends[-1]
+    assert "had no peer to go to" not in ends[-1].stderr and "lost on the way here" not in ends[-1].stderr, ends[-1]
 
 
 def test_a_recorded_session_passes_both_ways_byte_for_byte(pipeline):
@@ -217,7 +217,7 @@ def test_an_answer_for_nobody_is_counted_and_said_once(start, ring, port, child_
     done = hear.stop()
 
     assert done.stderr.count("nobody is there on") == 1
-    assert "6 sent back by readers of the ring; 6 of these for nobody" in done.stderr
+    assert "6 sent back by readers of the ring; 6 of these had no peer to go to" in done.stderr
 
 
 def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_said_once(pipeline):

@@ -101,8 +101,13 @@ def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
 @pytest.mark.parametrize("text, line, said", [
     ('[[endpoint]]\nname = "r"\nurl = "shm://px4"\n', 3, "r: a ring is no endpoint of a router: --ring px4 writes every frame into it"),
     ('[[endpoint]]\nscheme = "shm"\nring = "px4"\n', 3, "shm://px4: a ring is no endpoint of a router"),
-    ('[ring]\ncapacity = "64k"\n', 2, "[ring] has no name"),
-    ('[record]\nrotate_every = 60\n', 2, "[record] has no path"),
+    ('[ring]\ncapacity = "64k"\n', 1, "[ring] has no name"),
+    ('# a comment\n[ring]\n', 2, "[ring] has no name"),
+    ('[record]\nrotate_every = 60\n', 1, "[record] has no path"),
+    ('[[endpoint]]\nurl = "udpmcast://239.1.2.3:14550?max_peers=3"\n', 2, "udpmcast://239.1.2.3:14550: all who are heard here are one link"),
+    ('[[endpoint]]\nscheme = "udpout"\nhost = "127.0.0.1"\nport = 1\nbind = "[::1]:0"\n', 2,
+     "udpout://127.0.0.1:1: bind=[::1]:0 is of another family than 127.0.0.1:1"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?ttl=0"\n', 2, "udpin://127.0.0.1:1: ttl=0 keeps the datagrams of a group on this machine"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\ngroup = "air"\ngroup_mode = "primary"\n',
      6, "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1"\nsign = "/nonexistent/key"\n', 3, "sign: cannot open key file /nonexistent/key"),
@@ -116,10 +121,8 @@ def test_check_refuses_what_route_refuses(run, tmp_path, udp_port, command, text
     assert f"{path}:{line}: {said}" in done.stderr, done
 
 
-def test_an_empty_section_is_no_fault(run, tmp_path, udp_port):
+def test_the_command_line_may_name_the_ring_of_the_file(run, tmp_path, udp_port):
     path = tmp_path / "router.toml"
-    path.write_text(f'[ring]\n[record]\n[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\n')
-    assert run("check", path).status == 0
     path.write_text(f'[ring]\ncapacity = "64k"\n[[endpoint]]\nurl = "udpin://127.0.0.1:{udp_port()}"\n')
     named = run("route", "--config", path, "--ring", f"check-{path.parent.name}"[:60].replace("_", "-"), "--for", "0.1")
     assert named.status == 0, named

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """mavloom listen: every message that the kernel delivered, in all forms, from all kinds of source."""
+import contextlib
 import csv
 import json
 import os
+import pathlib
 import pty
 import random
 import re
@@ -206,6 +208,23 @@ def test_a_signal_ends_cleanly_with_the_table(spawn, number, status):
 
     assert done.status == status
     assert "1 frame, 0 lost" in done.stdout
+
+
+def test_a_signal_that_the_caller_ignores_stays_ignored(spawn, tmp_path):
+    """As under nohup; `bench` handles no signals of its own."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    process = spawn("bench", "parse", pipe, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+
+    def opened():
+        with contextlib.suppress(OSError):  # until the program reads
+            return os.open(pipe, os.O_WRONLY | os.O_NONBLOCK)
+    writing = harness.wait_for(opened, what="the program to open the pipe")
+    process.send(signal.SIGHUP)
+    os.set_blocking(writing, True)
+    with open(writing, "wb") as stream:
+        stream.write(pathlib.Path(frames.FLIGHT).read_bytes())
+    assert process.wait().status == 0
 
 
 def test_what_arrived_before_the_signal_is_printed(spawn):

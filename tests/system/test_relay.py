@@ -187,6 +187,12 @@ def test_the_sums_of_a_link_as_json(run, udp_socket):
     assert (sums["endpoint"], sums["frames"], sums["dropped"], sums["queued_bytes"]) == (address, 531, 0, 0)
 
 
+@pytest.mark.parametrize("options", [["--only", "PLAY_TUNE"], ["--as-v1", "--only", "COMPONENT_METADATA"]], ids=" ".join)
+def test_nothing_to_send_is_no_loss(run, udp_socket, options):
+    done = run("relay", frames.FLIGHT, "--to", f"udpout://127.0.0.1:{udp_socket().getsockname()[1]}", *options)
+    assert done.status == 0 and "0 frames, 0 bytes sent" in done.stderr, done
+
+
 def test_frames_that_cannot_leave_are_counted(run, tmp_path):
     log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
     done = run("relay", log, "--to", "udpout://192.0.2.1:9?bind=127.0.0.1:0", "--json")  # from the loopback address nothing goes to another host

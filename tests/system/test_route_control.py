@@ -100,6 +100,9 @@ def test_a_group_has_one_mode(net, ctl, run, udp_port):
     assert other.status == 1 and "group 'air' has group_mode=best already: a group has one" in other.stderr
     assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air").status == 0, "it takes the group's"
 
+    assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=sea&group_mode=primary&name=boat").status == 0
+    assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=sea").status == 0, "of a group that came by ctl too"
+
     both = [f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode={mode}" for mode in ("best", "all")]
     done = run("route", *both, "--for", "1s")
     assert done.status == 2 and "group 'air' has group_mode=best already: a group has one" in done.stderr
@@ -598,6 +601,14 @@ def test_a_broken_file_changes_nothing(reloadable, broken, said):
     assert said in sut.router.process.stderr
     assert sut.names() == before
     sut.passes()
+
+
+def test_a_file_whose_group_has_another_mode_on_the_command_line_changes_nothing(reloadable):
+    sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=own&group=radios&group_mode=best"])
+    before = sut.names()
+    sut.file.write_text(f'[router]\nheartbeat = "7/191"\n[[endpoint]]\nurl = "udpin://127.0.0.1:{routers.udp_port()}?group=radios&group_mode=primary"\n')
+    sut.reload(says="nothing was changed")
+    assert sut.names() == before and "was read again" not in sut.router.process.stderr
 
 
 def test_reload_leaves_out_what_cannot_be_opened(reloadable):

@@ -478,6 +478,19 @@ def test_a_relay_leaves_out_what_the_router_marked_as_copy_or_echo(run, spawn, f
 
 
 @short
+def test_an_echo_in_a_ring_is_no_loss(run, spawn, feed, ring):
+    """The numbers of what comes back are old: sequence 200, then 3 again, would be a loss of 197."""
+    writer = feed(ring)
+    listener = spawn("listen", f"shm://{ring}", "--json", "--count", "6", "--stats")
+    wait_readers(run, ring)
+    told = [(0, 1), (1, 1), (200, 6), (2, 1), (90, 6), (3, 1)]
+    writer.write([(1_700_000_000_000_000, heartbeat(sequence=sequence), f"0/1/{verdict}") for sequence, verdict in told])
+    stats = stats_of(listener.wait())
+    assert stats["totals"]["frames"] == 6
+    assert [(source["lost"], source["late"], source["resync"]) for source in stats["sources"]] == [(0, 0, 0)]
+
+
+@short
 def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, rng):
     path = SHM / f"mavloom.{ring}"
     path.write_bytes(rng.randbytes(16384 + 65536))

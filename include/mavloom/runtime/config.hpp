@@ -72,6 +72,7 @@ struct Section {
     std::string name;   // "router"; "endpoint" once for each
     std::string label;  // of an endpoint
     std::vector<Setting> settings;
+    std::uint32_t line = 0;  // 0: the file has none
 };
 
 struct Config {

@@ -45,8 +45,10 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router() override;
 
-    // The group_mode= of all endpoints that will be there, before the first is added: one that names none takes that of its group. Two modes for
-    // one group are an error, and change nothing.
+    // The group_mode= that these endpoints name, by group. Two modes for one group are an error.
+    using GroupModes = std::map<std::string, GroupMode>;
+    [[nodiscard]] static SetupResult<GroupModes> group_modes_of(std::span<const Endpoint> endpoints);
+    // Of all endpoints that will be there, before the first is added: one that names no mode takes that of its group.
     [[nodiscard]] SetupResult<void> learn_group_modes(std::span<const Endpoint> endpoints);
     // A link endpoint, or tlog://PATH: a recording of every frame that arrives, taken before routing.
     [[nodiscard]] SetupResult<void> add(const Endpoint& endpoint);
@@ -61,7 +63,7 @@ public:
     bool remove(std::string_view label);
     // Other [router] values. Links stay, and so does what was learned and counted.
     void configure(const RouterConfig& config);
-    // The endpoints become these: those that are the same, and the keys in their files, stay as they are. What could not be opened is told and
+    // The endpoints become these, which agree on their groups' modes (group_modes_of): those that are the same, and the keys in their files, stay as they are. What could not be opened is told and
     // left out; one of the same name that was there before is opened again.
     void become(const std::vector<Endpoint>& endpoints);
 
@@ -148,7 +150,7 @@ private:
     std::vector<std::unique_ptr<OpenedEndpoint>> endpoints_;
     std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null: removed
     std::vector<std::string> groups_;     // by GroupId - 1
-    std::map<std::string, GroupMode> group_modes_;
+    GroupModes group_modes_;
     std::vector<std::unique_ptr<Recorder>> recorders_;
     std::vector<std::unique_ptr<Recorder>> ending_recorders_;  // removed, and still writing
     std::vector<Endpoint> recordings_;                         // what each recorder was made from

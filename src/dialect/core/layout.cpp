@@ -57,7 +57,7 @@ void note_target(wire::MessageInfo& info, std::string_view message_name, const F
             info.*target.offset = field.offset;
 }
 
-// A target's owner set the time of a message that has one.
+// Messages with a target are sent by others, so their time is not the vehicle's clock.
 void note_boot_time(wire::MessageInfo& info, std::span<const Field> fields) noexcept {
     if (info.target_system_offset != wire::MessageInfo::no_target) return;
     const auto found = std::ranges::find(fields, std::string_view("time_boot_ms"), &Field::name);

@@ -197,12 +197,12 @@ bool can_be_thinned(MessageId id, const wire::MessageInfo* info) noexcept {
 std::string_view harm_of_thinning(MessageId id, const wire::MessageInfo* info) noexcept {
     if (const Essential* const found = find(essentials, id)) return harm_of(found->use);
     switch (meaning_of(id)) {
-        case piece: return "what lacks a piece is useless";
+        case piece: return "a transfer fails if one piece is missing";
         case event: return "an event may get lost";
         case answer: return "an answer that somebody waits for may get lost";
         default: break;
     }
-    return can_be_thinned(id, info) ? std::string_view{} : "what is addressed to one system may get lost";
+    return can_be_thinned(id, info) ? std::string_view{} : "frames addressed to one system may get lost";
 }
 
 }  // namespace mavloom::dialect

@@ -69,7 +69,7 @@ TEST(RateWarnings, NameWhatBreaks) {
                 ElementsAre(StartsWith("COMMAND_ACK:1 drops"), StartsWith("110:0.5 drops FILE_TRANSFER_PROTOCOL")));
     EXPECT_THAT(warnings_of({{"COMMAND_ACK", 1}}), ElementsAre(HasSubstr("commands and their answers may get lost")));
     EXPECT_THAT(warnings_of({{"PARAM_VALUE", 1}}), ElementsAre(HasSubstr("parameters may fail")));
-    EXPECT_THAT(warnings_of({{"LOG_DATA", 1}}), ElementsAre(HasSubstr("a piece")));
+    EXPECT_THAT(warnings_of({{"LOG_DATA", 1}}), ElementsAre(HasSubstr("one piece")));
 }
 
 }  // namespace

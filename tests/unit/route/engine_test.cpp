@@ -142,6 +142,25 @@ TEST(Engine, RebootForgetsTheRoutesOfASystemAndKeepsTheCount) {
     EXPECT_EQ(sut.engine.routes(sut.now)[0].frames, 2u);
 }
 
+// A second link of the vehicle lags: what was learnt since the restart stays.
+TEST(Engine, OneRestartThatTwoLinksReportIsOneReboot) {
+    Network sut;
+    sut.links(3);
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+    sut.engine.note_reboot(LinkId{1}, vehicle, sut.now);
+    sut.hears(1, {1, 154});
+    sut.wait(5s);
+    sut.hears(2, vehicle);
+    sut.engine.note_reboot(LinkId{2}, vehicle, sut.now);
+
+    EXPECT_EQ(sut.engine.counters().reboots.value(), 1u);
+    EXPECT_THAT(sut.command(3, gcs, {1, 154}), ElementsAre(1));
+
+    sut.engine.note_reboot(LinkId{1}, vehicle, sut.now);
+    EXPECT_EQ(sut.engine.counters().reboots.value(), 2u) << "the same link reports another restart";
+}
+
 TEST(Engine, ARebootOnALinkThatIsGoneForgetsNothing) {
     Network sut;
     sut.links(2);

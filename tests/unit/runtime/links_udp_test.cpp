@@ -378,6 +378,12 @@ TEST(LinksUdp, CallingANameTriesItsNextAddress) {
     const auto out = caller.add(fmt::format("udpout://localhost:{}", listener.port(in)));
     ASSERT_TRUE(until([&] { return caller.links->send(out, view(heartbeat(0))), !listener.recorder.frames.empty(); },
                       listener, caller));
+    const LinkCounters& counters = *caller.links->links().at(0).counters;
+    ASSERT_TRUE(until([&] { return counters.frames_out.value() != 0; }, listener, caller));
+    const auto refused = counters.refused.value(), sent = counters.frames_out.value();
+    caller.links->send(out, view(heartbeat(1)));  // what the first address refused says nothing of this one
+    ASSERT_TRUE(until([&] { return counters.frames_out.value() == sent + 1; }, listener, caller));
+    EXPECT_EQ(counters.refused.value(), refused);
 }
 
 TEST(LinksUdp, ListeningOnANameBindsAllItsAddresses) {
