@@ -189,7 +189,7 @@ public:
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
 
     // A frame of this source, which was routed already, showed that its system has started again (wire::SequenceTracker finds that out): forgets
-    // the system's routes, but for this one.
+    // the system's routes, but for this one. Nothing happens where another link reported a restart of the system in the last 10 s: it is the same one.
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
 
     // Learned routes that are not too old, by system, component and link. Allocates.

@@ -61,6 +61,11 @@ public:
         };
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
         if (source == heard_.end() || !source->known || now - source->time >= timeout(link)) return false;
+        const auto last = reboots_.find(system);  // of one restart two links report
+        const bool is_known = last != reboots_.end() && last->second.link != link &&
+                              now - last->second.time < std::chrono::seconds(10);
+        if (is_known) return true;
+        reboots_[system] = {link, now};
         for (Heard& h : heard_)
             if (h.system == system) h.known = is_it(h);
         source->time = now;
@@ -374,6 +379,11 @@ private:
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
     std::vector<Heard> heard_;
+    struct Reboot {
+        std::uint32_t link;
+        MonoTime time;
+    };
+    std::map<std::uint8_t, Reboot> reboots_;  // the last of each system
     std::vector<Recent> recent_;
     std::vector<Recent> beats_;  // HEARTBEATs of groups
 };
