@@ -29,7 +29,7 @@ target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wsha
 function(mavloom_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;OCCASIONAL" ${ARGN})
   set(target mavloom_${name})
-  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
   set(scope PUBLIC)
   if(NOT sources)
     set(scope INTERFACE)

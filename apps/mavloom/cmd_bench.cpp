@@ -14,9 +14,9 @@
 
 #include "command.hpp"
 #include "counted.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/message/format.hpp"
 #include "mavloom/record/tlog_reader.hpp"
-#include "mavloom/runtime/endpoint.hpp"
 #include "mavloom/shm/ring_reader.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "mavloom/wire/stream_parser.hpp"
@@ -133,7 +133,7 @@ Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const
 
 SetupResult<void> set_chunk(Options& options) {
     constexpr std::uint64_t most = 1u << 30;
-    const auto chunk = runtime::parse_size(options.chunk_text);
+    const auto chunk = endpoint::parse_size(options.chunk_text);
     if (!chunk) return tl::unexpected(SetupError(chunk.error()).within("--chunk"));
     if (*chunk == 0 || *chunk > most)
         return setup_error(SetupCode::usage, fmt::format("--chunk {}: from 1 byte to 1G", options.chunk_text));

@@ -5,8 +5,8 @@
 #include "command.hpp"
 #include "dialect_print.hpp"
 #include "mavloom/base/shown.hpp"
-#include "mavloom/runtime/config.hpp"
-#include "mavloom/runtime/convert.hpp"
+#include "mavloom/config/config.hpp"
+#include "mavloom/config/convert.hpp"
 #include "output.hpp"
 
 namespace mavloom::app {
@@ -19,21 +19,21 @@ struct Options {
     bool convert = false;  // the file is mavlink-router's
 };
 
-std::string_view origin_name(runtime::Origin origin) {
+std::string_view origin_name(config::Origin origin) {
     switch (origin) {
-        case runtime::Origin::by_default: return "default";
-        case runtime::Origin::file: return "file";
-        case runtime::Origin::environment: return "environment";
+        case config::Origin::by_default: return "default";
+        case config::Origin::file: return "file";
+        case config::Origin::environment: return "environment";
     }
     return {};
 }
 
-std::string where(const runtime::Setting& setting, std::string_view file) {
-    if (setting.origin == runtime::Origin::file) return fmt::format("{}:{}", printable(file), setting.line);
-    return setting.origin == runtime::Origin::environment ? setting.variable : "default";
+std::string where(const config::Setting& setting, std::string_view file) {
+    if (setting.origin == config::Origin::file) return fmt::format("{}:{}", printable(file), setting.line);
+    return setting.origin == config::Origin::environment ? setting.variable : "default";
 }
 
-void print_text(message::TextBuffer& out, const runtime::Config& config, std::string_view file) {
+void print_text(message::TextBuffer& out, const config::Config& config, std::string_view file) {
     for (const auto& section : config.sections) {
         const auto heading = section.label.empty() ? fmt::format("[{}]", section.name)
                                                    : fmt::format("[[{}]]  {}", section.name, section.label);
@@ -45,11 +45,11 @@ void print_text(message::TextBuffer& out, const runtime::Config& config, std::st
 }
 
 // {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default","file":null,"line":null,"variable":null}
-void print_json(message::TextBuffer& out, const runtime::Config& config, std::string_view file) {
+void print_json(message::TextBuffer& out, const config::Config& config, std::string_view file) {
     const auto text = [](std::string_view t) { return t.empty() ? std::string("null") : json_quoted(t); };
     for (const auto& section : config.sections) {
         for (const auto& setting : section.settings) {
-            const bool in_file = setting.origin == runtime::Origin::file;
+            const bool in_file = setting.origin == config::Origin::file;
             fmt::format_to(fmt::appender(out),
                            "{{\"section\":{},\"endpoint\":{},\"key\":{},\"value\":{},\"origin\":\"{}\",\"file\":{},"
                            "\"line\":{},\"variable\":{}}}\n",
@@ -63,12 +63,12 @@ void print_json(message::TextBuffer& out, const runtime::Config& config, std::st
 Exit check(const Common& common, const Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
-    const auto config = runtime::load_config(options.file, runtime::environment_of(environ));
+    const auto config = config::load_config(options.file, config::environment_of(environ));
     if (!config) return fail(Exit::bad_input, config.error().text);
-    if (const auto checked = runtime::check_for_router(*config, options.file, *dialect); !checked)
+    if (const auto checked = config::check_for_router(*config, options.file, *dialect); !checked)
         return fail(checked.error());
     for (const auto& note : config->notes) say(common, note);
-    for (const auto& warning : runtime::config_warnings(*config, options.file, *dialect)) say(common, warning);
+    for (const auto& warning : config::config_warnings(*config, options.file, *dialect)) say(common, warning);
     Output output;
     if (options.json) print_json(output.buffer(), *config, options.file);
     else print_text(output.buffer(), *config, options.file);
@@ -77,7 +77,7 @@ Exit check(const Common& common, const Options& options) {
 
 // What cannot be carried over is said even with --quiet: who converts a file has to know.
 Exit convert(const Options& options) {
-    const auto done = runtime::convert_mavlink_router_file(options.file);
+    const auto done = config::convert_mavlink_router_file(options.file);
     if (!done) return fail(of_input_file(done.error()));
     for (const auto& note : done->notes)
         tell(fmt::format("{}:{}: [{}]{}{}: {}", options.file, note.line, shown(note.section),

@@ -7,7 +7,7 @@
 
 #include "command.hpp"
 #include "counted.hpp"
-#include "mavloom/runtime/control.hpp"
+#include "mavloom/control/control.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "output.hpp"
 
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr auto patience = 5s;
 
 SetupResult<std::vector<std::string>> ask(std::string_view name, const Json& request) {
-    return runtime::ask_router(name, request.dump(-1, ' ', false, Json::error_handler_t::replace), patience);
+    return control::ask_router(name, request.dump(-1, ' ', false, Json::error_handler_t::replace), patience);
 }
 
 Exit print_lines(const std::vector<std::string>& lines) {

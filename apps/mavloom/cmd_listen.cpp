@@ -29,13 +29,13 @@ struct Options {
 
 class Listener {
 public:
-    Listener(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Receiver& receiver,
+    Listener(const Common& common, const Options& options, const dialect::Dialect& dialect, feed::Receiver& receiver,
              const dialect::Message* csv)
         : common_(common), options_(options), dialect_(dialect), json_(dialect), receiver_(receiver), csv_(csv) {}
 
     Exit run() {
         if (csv_ != nullptr) message::append_csv_header(output_.buffer(), *csv_);
-        const Signals signals([](void* receiver) noexcept { static_cast<runtime::Receiver*>(receiver)->stop(); },
+        const Signals signals([](void* receiver) noexcept { static_cast<feed::Receiver*>(receiver)->stop(); },
                               &receiver_);
         say_ports(common_, receiver_.endpoints());
         const auto end = options_.receive.end(mono_now());
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    void handle(const runtime::FrameQueue::Entry& entry) {
+    void handle(const record::FrameQueue::Entry& entry) {
         if (!wanted(entry)) return;
         if (Signals::received() && !goes_on_after_signal()) {
             ++unprinted_;
@@ -69,7 +69,7 @@ private:
         if (output_.flush_if_full() != Output::State::open || printed_ == options_.receive.count) going_ = false;
     }
 
-    bool wanted(const runtime::FrameQueue::Entry& entry) const {
+    bool wanted(const record::FrameQueue::Entry& entry) const {
         return options_.selection.takes(entry.frame) && (csv_ == nullptr || entry.frame.id() == csv_->id());
     }
 
@@ -127,7 +127,7 @@ private:
     const Options& options_;
     const dialect::Dialect& dialect_;
     const message::JsonFormatter json_;
-    runtime::Receiver& receiver_;
+    feed::Receiver& receiver_;
     const dialect::Message* csv_;
     Output output_;
     observe::TrafficTable traffic_;

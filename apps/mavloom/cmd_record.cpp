@@ -29,7 +29,7 @@ struct Options {
 // and what finds no room there is counted.
 class Recording {
 public:
-    Recording(const Common& common, const Options& options, runtime::Receiver& receiver, record::RotatingWriter& writer,
+    Recording(const Common& common, const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer,
               MonoTime end)
         : common_(common), options_(options), receiver_(receiver), writer_(writer), end_(end) {}
 
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    SetupResult<void> write(const runtime::FrameQueue::Entry& entry) {
+    SetupResult<void> write(const record::FrameQueue::Entry& entry) {
         auto room = writer_.make_room(entry.frame);
         if (!room) room = flush();
         if (room) return writer_.write(entry.time, entry.frame);
@@ -73,7 +73,7 @@ private:
 
     const Common& common_;
     const Options& options_;
-    runtime::Receiver& receiver_;
+    feed::Receiver& receiver_;
     record::RotatingWriter& writer_;
     MonoTime end_;
 };
@@ -81,28 +81,28 @@ private:
 // FILE, whatever its name; or tlog://PATH or PATH.tlog?rotate_every=... with options.
 SetupResult<record::RotatingWriter> create_output(const Common& common, const std::string& text) {
     const auto query = std::string_view(text).find('?');
-    const bool has_options = query != std::string_view::npos && !runtime::names_recording(text) &&
-                             runtime::names_recording(std::string_view(text).substr(0, query));
+    const bool has_options = query != std::string_view::npos && !endpoint::names_recording(text) &&
+                             endpoint::names_recording(std::string_view(text).substr(0, query));
     const bool is_endpoint = text.find("://") != std::string::npos || has_options;
-    runtime::Endpoint endpoint;
-    endpoint.scheme = runtime::Scheme::tlog;
+    endpoint::Endpoint endpoint;
+    endpoint.scheme = endpoint::Scheme::tlog;
     endpoint.path = text;
     if (!is_endpoint) return create_recording(common, endpoint, "--output");
-    auto parsed = runtime::parse_endpoint(text);
+    auto parsed = endpoint::parse_endpoint(text);
     if (!parsed) return tl::unexpected(std::move(parsed.error()).within("--output"));
-    if (parsed->scheme != runtime::Scheme::tlog)
+    if (parsed->scheme != endpoint::Scheme::tlog)
         return setup_error(SetupCode::usage,
                            fmt::format("--output {}: record writes a .tlog file; relay sends to endpoints", text));
     return create_recording(common, *parsed, "--output");
 }
 
 // What was received and still waits when writing has failed.
-void give_up_the_rest(const Options& options, runtime::Receiver& receiver, record::RotatingWriter& writer) {
+void give_up_the_rest(const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer) {
     while (const auto entry = receiver.next())
         if (options.selection.takes(entry->frame)) writer.give_up();
 }
 
-std::string summary(const record::RotatingWriter& file, const runtime::Totals& heard) {
+std::string summary(const record::RotatingWriter& file, const feed::Totals& heard) {
     Json totals{{"frames", heard.frames}, {"bytes", heard.bytes}};
     totals.update(losses_json(heard));
     return stats_line({{"destinations", Json::array({recorded_json(file)})}, {"totals", std::move(totals)}});
@@ -114,7 +114,7 @@ Exit record(const Common& common, Options& options) {
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     auto receiver = options.receive.open(common, *dialect);
     if (!receiver) return fail(receiver.error());
-    const Signals signals([](void* r) noexcept { static_cast<runtime::Receiver*>(r)->stop(); }, receiver->get());
+    const Signals signals([](void* r) noexcept { static_cast<feed::Receiver*>(r)->stop(); }, receiver->get());
     say_ports(common, (*receiver)->endpoints());
     auto writer = create_output(common, options.file);
     if (!writer) return Signals::received() ? Signals::status(Exit::failed) : fail(writer.error());

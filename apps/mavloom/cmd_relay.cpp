@@ -12,8 +12,8 @@
 #include "counted.hpp"
 #include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
+#include "mavloom/feed/sources.hpp"
 #include "mavloom/net/interfaces.hpp"
-#include "mavloom/runtime/sources.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
 #include "signals.hpp"
@@ -37,9 +37,9 @@ struct Options {
     bool json = false;
 };
 
-class Relay : private runtime::LinkHandler {
+class Relay : private link::LinkHandler {
 public:
-    Relay(const Common& common, runtime::Sources& sources, Destinations& destinations, edit::Stage& stage,
+    Relay(const Common& common, feed::Sources& sources, Destinations& destinations, edit::Stage& stage,
           const Options& options)
         : common_(common),
           sources_(sources),
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    void on_frame(const runtime::RxFrame& rx) override {
+    void on_frame(const link::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) {
             const auto outcome = stage_.backward(rx.frame);
             if (outcome.verdict == edit::Verdict::forward && sources_.send(outcome.frame) == 0) unheard_answers_.add();
@@ -74,19 +74,19 @@ private:
         const auto outcome = stage_.forward(rx.frame, rx.time, signs_ ? wall_now() : WallTime{});
         if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame, rx.time);
     }
-    void on_link_up(LinkId, runtime::EndpointId, std::string_view name) override {
+    void on_link_up(LinkId, link::EndpointId, std::string_view name) override {
         if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
     }
-    void on_link_down(LinkId link, runtime::EndpointId, std::string_view why) override {
+    void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {
         if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", sources_.links().link_name(link), why));
     }
-    void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }
+    void on_notice(link::EndpointId, std::string_view text) override { say(common_, text); }
 
     [[nodiscard]] std::size_t ring_room() const { return std::min(frames_a_turn, destinations_.room_in_frames()); }
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
     void drain() {
-        sources_.drain(*this, [this] { return runtime::Room(0, ring_room(), frames_a_turn); });
+        sources_.drain(*this, [this] { return feed::Room(0, ring_room(), frames_a_turn); });
         const auto begin = mono_now();
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
@@ -143,11 +143,11 @@ private:
     }
 
     const Common& common_;
-    runtime::Sources& sources_;
+    feed::Sources& sources_;
     Destinations& destinations_;
     edit::Stage& stage_;
     const bool signs_, json_;
-    runtime::Totals totals_;
+    feed::Totals totals_;
     Counter unheard_answers_;
     bool started_ = false, waited_ = false;
 };
@@ -161,27 +161,27 @@ SetupResult<void> check_words(Options& options) {
         options.edit.sign_key = *key;
     }
     if (!options.duration.empty())
-        if (auto time = runtime::parse_duration(options.duration); !time)
+        if (auto time = endpoint::parse_duration(options.duration); !time)
             return tl::unexpected(std::move(time.error()).within("--for"));
     return {};
 }
 
-bool is_sent_to(const runtime::Endpoint& ring, const std::vector<std::string>& to) {
+bool is_sent_to(const endpoint::Endpoint& ring, const std::vector<std::string>& to) {
     return std::ranges::any_of(to, [&](const std::string& text) {
-        const auto endpoint = runtime::parse_endpoint(text);
-        return endpoint && endpoint->scheme == runtime::Scheme::shm && endpoint->path == ring.path;
+        const auto endpoint = endpoint::parse_endpoint(text);
+        return endpoint && endpoint->scheme == endpoint::Scheme::shm && endpoint->path == ring.path;
     });
 }
 
-SetupResult<void> open_sources(const Options& options, runtime::Sources& sources) {
+SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
     for (const auto& text : options.sources) {
-        auto endpoint = runtime::parse_endpoint(text);
+        auto endpoint = endpoint::parse_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
-        if (endpoint->scheme == runtime::Scheme::shm && is_sent_to(*endpoint, options.to))
+        if (endpoint->scheme == endpoint::Scheme::shm && is_sent_to(*endpoint, options.to))
             return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring what it holds already; name "
                                                              "another destination",
                                                              endpoint->label()));
-        const bool is_ring = endpoint->scheme == runtime::Scheme::shm;
+        const bool is_ring = endpoint->scheme == endpoint::Scheme::shm;
         if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
         if (auto added = sources.add(*endpoint, mono_now()); !added) return tl::unexpected(std::move(added.error()));
     }
@@ -205,8 +205,8 @@ bool hears(const std::string& bound, const std::string& host, bool broadcast) {
 }
 
 // What is sent to `to` would come in by `source` again.
-bool leads_back(const runtime::EndpointInfo& source, const runtime::Endpoint& to) {
-    using runtime::Scheme;
+bool leads_back(const link::EndpointInfo& source, const endpoint::Endpoint& to) {
+    using endpoint::Scheme;
     const auto in = source.endpoint.scheme;
     const bool broadcast = to.scheme == Scheme::udpbcast;
     const bool same_kind = (in == Scheme::udpin && (to.scheme == Scheme::udpout || broadcast)) ||
@@ -215,9 +215,9 @@ bool leads_back(const runtime::EndpointInfo& source, const runtime::Endpoint& to
            hears(source.endpoint.address.host, to.address.host, broadcast);
 }
 
-SetupResult<void> check_no_loop(const std::vector<runtime::EndpointInfo>& sources, const std::vector<std::string>& to) {
+SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, const std::vector<std::string>& to) {
     for (const auto& text : to) {
-        const auto endpoint = runtime::parse_endpoint(text);
+        const auto endpoint = endpoint::parse_endpoint(text);
         const auto loop = std::ranges::find_if(
             sources, [&](const auto& source) { return endpoint && leads_back(source, *endpoint); });
         if (loop != sources.end())
@@ -237,16 +237,16 @@ Exit relay(const Common& common, Options& options) {
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
     for (const auto& warning : (*stage)->warnings()) say(common, warning);
-    auto sources = runtime::Sources::create(*dialect, runtime::Copies::left_out);
+    auto sources = feed::Sources::create(*dialect, feed::Copies::left_out);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
     if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
-    const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
+    const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
     say_ports(common, sources->links().endpoints());
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()
-                                              : mono_now() + *runtime::parse_duration(options.duration);
+                                              : mono_now() + *endpoint::parse_duration(options.duration);
     return Relay(common, *sources, *destinations, **stage, options).run(end);
 }
 

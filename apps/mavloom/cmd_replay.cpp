@@ -10,8 +10,8 @@
 #include "command.hpp"
 #include "counted.hpp"
 #include "destinations.hpp"
+#include "mavloom/feed/sources.hpp"
 #include "mavloom/record/tlog_index.hpp"
-#include "mavloom/runtime/sources.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
 #include "signals.hpp"
@@ -34,15 +34,15 @@ struct Options {
     bool json = false;
 };
 
-class Replayer : private runtime::LinkHandler {
+class Replayer : private link::LinkHandler {
 public:
-    Replayer(const Common& common, const Options& options, runtime::Sources& sources, Destinations& destinations)
+    Replayer(const Common& common, const Options& options, feed::Sources& sources, Destinations& destinations)
         : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
 
     Exit run(MonoTime end) {
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
-            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), runtime::Room(room));
+            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
             show_progress();
         }
         flush();
@@ -58,14 +58,14 @@ public:
     }
 
 private:
-    void on_frame(const runtime::RxFrame& rx) override {
+    void on_frame(const link::RxFrame& rx) override {
         if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
         ++frames_;
         bytes_ += rx.frame.size();
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
 
-    void on_notice(runtime::EndpointId, std::string_view text) override { say(common_, text); }
+    void on_notice(link::EndpointId, std::string_view text) override { say(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
@@ -89,7 +89,7 @@ private:
 
     std::string summary() const {
         const auto& counters = sources_.recordings().front()->reader.counters();
-        runtime::Totals read;
+        feed::Totals read;
         read.add(counters);
         Json totals{{"frames", frames_}, {"bytes", bytes_}};
         totals.update(losses_json(read));
@@ -119,7 +119,7 @@ private:
 
     const Common& common_;
     const Options& options_;
-    runtime::Sources& sources_;
+    feed::Sources& sources_;
     Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
@@ -127,11 +127,11 @@ private:
 };
 
 // A destination of the recording's own name would rename what is to be read; one that rotates makes names of its own.
-bool is_written_over(const runtime::Endpoint& recording, const std::vector<std::string>& to) {
+bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std::string>& to) {
     return std::ranges::any_of(to, [&](const std::string& text) {
-        const auto endpoint = runtime::parse_endpoint(text);
+        const auto endpoint = endpoint::parse_endpoint(text);
         std::error_code none;
-        if (!endpoint || endpoint->scheme != runtime::Scheme::tlog) return false;
+        if (!endpoint || endpoint->scheme != endpoint::Scheme::tlog) return false;
         const bool rotates = endpoint->options.rotate_bytes != 0 || endpoint->options.rotate_every != Nanoseconds{};
         return !rotates && std::filesystem::equivalent(endpoint->path, recording.path, none);
     });
@@ -141,29 +141,29 @@ Exit replay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
-    const bool is_endpoint = runtime::names_recording(options.file) || options.file.find("://") != std::string::npos;
-    auto endpoint = runtime::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
+    const bool is_endpoint = endpoint::names_recording(options.file) || options.file.find("://") != std::string::npos;
+    auto endpoint = endpoint::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
-    if (endpoint->scheme != runtime::Scheme::tlog)
+    if (endpoint->scheme != endpoint::Scheme::tlog)
         return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
     if (!options.speed.empty())  // before the URL's
-        if (auto set = runtime::set_endpoint_option(*endpoint, "speed", options.speed); !set)
+        if (auto set = endpoint::set_endpoint_option(*endpoint, "speed", options.speed); !set)
             return fail(std::move(set.error()).within("--speed"));
     Nanoseconds start{}, length{};
     for (const auto& [text, value, name] :
          {std::tuple{&options.start, &start, "--start"}, std::tuple{&options.duration, &length, "--for"}}) {
         if (text->empty()) continue;
-        const auto parsed = runtime::parse_duration(*text);
+        const auto parsed = endpoint::parse_duration(*text);
         if (!parsed) return fail(SetupError(parsed.error()).within(name));
         *value = *parsed;
     }
 
-    auto sources = runtime::Sources::create(*dialect);
+    auto sources = feed::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
     if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
     if (is_written_over(*endpoint, options.to))
         return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; name another file", options.file));
-    const Signals signals([](void* s) noexcept { static_cast<runtime::Sources*>(s)->wake(); }, &*sources);
+    const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
     auto destinations = Destinations::open(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const MonoTime forever = MonoTime::max();

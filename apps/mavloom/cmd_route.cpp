@@ -11,11 +11,11 @@
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/base/shown.hpp"
-#include "mavloom/runtime/config.hpp"
-#include "mavloom/runtime/control.hpp"
-#include "mavloom/runtime/router.hpp"
-#include "mavloom/runtime/router_report.hpp"
-#include "mavloom/runtime/service_manager.hpp"
+#include "mavloom/config/config.hpp"
+#include "mavloom/control/control.hpp"
+#include "mavloom/control/service_manager.hpp"
+#include "mavloom/router/report.hpp"
+#include "mavloom/router/router.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 
@@ -40,10 +40,10 @@ struct Options {
 
 // What is routed between: the file's endpoints, then those of the command line, which a reload does not touch.
 struct Plan {
-    runtime::Config config;
-    std::vector<runtime::Endpoint> from_command_line;
+    config::Config config;
+    std::vector<endpoint::Endpoint> from_command_line;
 
-    [[nodiscard]] std::vector<runtime::Endpoint> endpoints() const {
+    [[nodiscard]] std::vector<endpoint::Endpoint> endpoints() const {
         auto all = config.endpoints;
         all.insert(all.end(), from_command_line.begin(), from_command_line.end());
         if (!config.record.path.empty()) all.push_back(recording());
@@ -51,9 +51,9 @@ struct Plan {
     }
 
 private:
-    [[nodiscard]] runtime::Endpoint recording() const {
-        runtime::Endpoint endpoint;
-        endpoint.scheme = runtime::Scheme::tlog;
+    [[nodiscard]] endpoint::Endpoint recording() const {
+        endpoint::Endpoint endpoint;
+        endpoint.scheme = endpoint::Scheme::tlog;
         endpoint.path = config.record.path;
         endpoint.options.rotate_bytes = config.record.rotate_bytes;
         endpoint.options.rotate_every = config.record.rotate_every;
@@ -62,33 +62,33 @@ private:
 };
 
 // The file, with what the command line says instead.
-SetupResult<runtime::Config> read_config(const Options& options, const dialect::Dialect& dialect) {
-    const auto environment = runtime::environment_of(environ);
-    auto config = options.config.empty() ? runtime::parse_config("", "", environment)
-                                         : runtime::load_config(options.config, environment);
+SetupResult<config::Config> read_config(const Options& options, const dialect::Dialect& dialect) {
+    const auto environment = config::environment_of(environ);
+    auto config = options.config.empty() ? config::parse_config("", "", environment)
+                                         : config::load_config(options.config, environment);
     if (!config) return config;
     if (!options.ring.empty()) config->ring.name = options.ring;
-    if (auto checked = runtime::check_for_router(*config, options.config, dialect); !checked)
+    if (auto checked = config::check_for_router(*config, options.config, dialect); !checked)
         return tl::unexpected(std::move(checked.error()));
     return config;
 }
 
-SetupResult<void> check_recordings(std::span<const runtime::Endpoint> endpoints) {
+SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints) {
     std::set<std::filesystem::path> recordings;
     for (const auto& e : endpoints)
-        if (e.scheme == runtime::Scheme::tlog && !recordings.insert(runtime::same_file(e.path)).second)
+        if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::same_file(e.path)).second)
             return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
     return {};
 }
 
 SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
     Plan plan;
-    if (runtime::parse_endpoint(options.explain))
+    if (endpoint::parse_endpoint(options.explain))
         return setup_error(
             SetupCode::usage,
             fmt::format("--explain takes a message's name, not '{}'; put it behind the endpoints", options.explain));
     for (const auto& text : options.endpoints) {
-        auto endpoint = runtime::parse_router_endpoint(text);
+        auto endpoint = router::parse_router_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         plan.from_command_line.push_back(std::move(*endpoint));
     }
@@ -103,9 +103,9 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
 }
 
 // Recordings come last, for an existing file is renamed: not by a router that finds its port in use.
-SetupResult<void> add_endpoints(runtime::Router& router, const Plan& plan, bool recordings) {
+SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool recordings) {
     for (const auto& endpoint : plan.endpoints())
-        if ((endpoint.scheme == runtime::Scheme::tlog) == recordings)
+        if ((endpoint.scheme == endpoint::Scheme::tlog) == recordings)
             if (auto added = router.add(endpoint); !added) return added;
     return {};
 }
@@ -114,12 +114,11 @@ SetupResult<void> add_endpoints(runtime::Router& router, const Plan& plan, bool 
 // that stalls has no room for is left out.
 class ExplainPrinter {
 public:
-    ExplainPrinter(const Common& common, const dialect::Dialect& dialect, runtime::Links& links,
+    ExplainPrinter(const Common& common, const dialect::Dialect& dialect, link::Links& links,
                    std::optional<MessageId> only)
         : common_(common), dialect_(dialect), links_(links), only_(only) {}
 
-    void operator()(const runtime::RxFrame& rx, const route::Decision& decision,
-                    std::span<const route::Explanation> why) {
+    void operator()(const link::RxFrame& rx, const route::Decision& decision, std::span<const route::Explanation> why) {
         if (only_ && rx.frame.id() != *only_) return;
         if (output_.full()) (void)output_.flush_what_fits();
         if (output_.full()) return leave_out(1 + why.size());
@@ -159,7 +158,7 @@ private:
 
     const Common& common_;
     const dialect::Dialect& dialect_;
-    runtime::Links& links_;
+    link::Links& links_;
     std::optional<MessageId> only_;
     Output output_;
     std::uint64_t left_out_ = 0;  // lines
@@ -174,8 +173,8 @@ SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& diale
 
 class Routing {
 public:
-    Routing(const Common& common, const Options& options, const dialect::Dialect& dialect, runtime::Router& router,
-            Plan plan, runtime::LogLevel& log_level)
+    Routing(const Common& common, const Options& options, const dialect::Dialect& dialect, router::Router& router,
+            Plan plan, config::LogLevel& log_level)
         : common_(common),
           options_(options),
           dialect_(dialect),
@@ -186,7 +185,7 @@ public:
     Exit run(std::optional<ExplainPrinter>& explain) {
         if (explain) router_.explain([&](const auto&... args) { (*explain)(args...); });
         const auto end = options_.duration.empty() ? MonoTime::max()
-                                                   : mono_now() + *runtime::parse_duration(options_.duration);
+                                                   : mono_now() + *endpoint::parse_duration(options_.duration);
         manager_.ready();
         while (!Signals::received() && mono_now() < end) {
             router_.turn(std::min({end, manager_.watchdog_due(), explain ? explain->due() : MonoTime::max()}));
@@ -228,7 +227,7 @@ private:
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
             return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
-        if (auto agreed = runtime::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
+        if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
             return tell(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
         const bool same_rules = config->router == plan_.config.router;
         if (config->ring != plan_.config.ring) tell("mavloom: [ring] stays as it is until the router starts anew");
@@ -243,29 +242,29 @@ private:
     const Common& common_;
     const Options& options_;
     const dialect::Dialect& dialect_;
-    runtime::Router& router_;
+    router::Router& router_;
     Plan plan_;
-    runtime::LogLevel& log_level_;  // of what the router tells
+    config::LogLevel& log_level_;  // of what the router tells
     bool explain_failed_ = false;
-    runtime::ServiceManager manager_ = runtime::ServiceManager::from_environment();
+    control::ServiceManager manager_ = control::ServiceManager::from_environment();
 };
 
 // The ring, and the way back from its readers. Without a folder for sockets there is no way back.
-SetupResult<void> open_ring(const Common& common, const runtime::RingConfig& ring, runtime::Router& router) {
+SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring, router::Router& router) {
     if (ring.name.empty()) return {};
     if (auto opened = router.open_ring(ring); !opened) return opened;
-    const auto path = runtime::inlet_path(ring.name);
+    const auto path = link::Links::inlet_path(ring.name);
     if (path) return router.open_inlet(ring, *path);
     say(common, fmt::format("{}; programs cannot send by ring {}", path.error().text, ring.name));
     return {};
 }
 
 // Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.
-SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common, const Options& options,
-                                                            const std::string& ring, runtime::Router& router) {
-    runtime::ControlOptions control;
+SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const Options& options,
+                                                            const std::string& ring, router::Router& router) {
+    control::ControlOptions control;
     if (!options.metrics.empty()) {
-        const auto address = runtime::parse_endpoint("tcpin://" + options.metrics);
+        const auto address = endpoint::parse_endpoint("tcpin://" + options.metrics);
         if (!address)
             return setup_error(
                 SetupCode::usage,
@@ -273,14 +272,14 @@ SetupResult<std::unique_ptr<runtime::Control>> open_control(const Common& common
         control.metrics = address->address;
     }
     const std::string_view usual_name = ring.empty() ? "router" : std::string_view(ring);
-    auto path = runtime::control_path(options.name.empty() ? usual_name : options.name);
+    auto path = control::control_path(options.name.empty() ? usual_name : options.name);
     if (path) control.socket = *path;
     else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
     else say(common, path.error().text);
-    auto opened = runtime::Control::create(router, control);
+    auto opened = control::Control::create(router, control);
     if (opened || !options.name.empty() || opened.error().code != SetupCode::in_use) return opened;
     control.socket.clear();
-    auto without = runtime::Control::create(router, control);  // fails again where it is the port of --metrics
+    auto without = control::Control::create(router, control);  // fails again where it is the port of --metrics
     if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
     return without;
 }
@@ -289,18 +288,18 @@ Exit route(const Common& common, const Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (!options.duration.empty())
-        if (auto time = runtime::parse_duration(options.duration); !time)
+        if (auto time = endpoint::parse_duration(options.duration); !time)
             return fail(std::move(time.error()).within("--for"));
     auto plan = make_plan(options, *dialect);
     if (!plan) return fail(plan.error());
     for (const auto& note : plan->config.notes) say(common, note);
     auto log_level = plan->config.log_level;
-    const auto notice = [&](runtime::LogLevel level, std::string_view text) {
+    const auto notice = [&](config::LogLevel level, std::string_view text) {
         if (level >= log_level || common.verbose > 0) say(common, text);
     };
-    auto router = runtime::Router::create(*dialect, plan->config.router, notice);
+    auto router = router::Router::create(*dialect, plan->config.router, notice);
     if (!router) return fail(router.error());
-    const Signals signals([](void* r) noexcept { static_cast<runtime::Router*>(r)->wake(); }, router->get(),
+    const Signals signals([](void* r) noexcept { static_cast<router::Router*>(r)->wake(); }, router->get(),
                           Signals::OnHangup::remember);
     std::optional<ExplainPrinter> explain;
     if (!options.explain.empty()) {

@@ -11,7 +11,7 @@
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/base/shown.hpp"
-#include "mavloom/runtime/endpoint.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
 #include "mavloom/shm/ring_follower.hpp"
 #include "mavloom/shm/ring_info.hpp"
 #include "mavloom/shm/ring_writer.hpp"
@@ -199,7 +199,7 @@ bool decode_hex(std::string& line) {
 SetupResult<shm::RingOptions> ring_options(const Options& options) {
     shm::RingOptions ring;
     if (!options.capacity.empty()) {
-        const auto capacity = runtime::parse_size(options.capacity);
+        const auto capacity = endpoint::parse_size(options.capacity);
         if (!capacity) return tl::unexpected(SetupError(capacity.error()).within("--capacity"));
         ring.capacity = *capacity;
     } else if (const auto there = shm::ring_status(options.name)) {
@@ -380,7 +380,7 @@ private:
 Exit read(const Common& common, const Options& options) {
     MonoTime end = MonoTime::max();
     if (!options.duration.empty()) {
-        const auto time = runtime::parse_duration(options.duration);
+        const auto time = endpoint::parse_duration(options.duration);
         if (!time) return fail(SetupError(time.error()).within("--for"));
         end = mono_now() + *time;
     }

@@ -11,7 +11,7 @@
 
 namespace mavloom::app {
 
-SetupResult<record::RotatingWriter> create_recording(const Common& common, const runtime::Endpoint& endpoint,
+SetupResult<record::RotatingWriter> create_recording(const Common& common, const endpoint::Endpoint& endpoint,
                                                      std::string_view option) {
     const auto& options = endpoint.options;
     if (options.speed)
@@ -42,16 +42,16 @@ Json recorded_json(const record::RotatingWriter& file) {
 }
 
 SetupResult<Destinations> Destinations::open(const Common& common, const std::vector<std::string>& addresses,
-                                             runtime::Links& links) {
+                                             link::Links& links) {
     Destinations all(links);
-    std::vector<runtime::Endpoint> endpoints;
+    std::vector<endpoint::Endpoint> endpoints;
     for (const auto& address : addresses) {
-        auto endpoint = runtime::parse_endpoint(address);
+        auto endpoint = endpoint::parse_endpoint(address);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within("--to"));
         endpoints.push_back(std::move(*endpoint));
     }
     // Files last: an existing one is not renamed for a command that another address ends.
-    std::ranges::stable_partition(endpoints, [](const auto& e) { return e.scheme != runtime::Scheme::tlog; });
+    std::ranges::stable_partition(endpoints, [](const auto& e) { return e.scheme != endpoint::Scheme::tlog; });
     for (const auto& endpoint : endpoints)
         if (auto added = all.add(common, endpoint); !added) return tl::unexpected(std::move(added.error()));
     for (const auto& info : links.endpoints())
@@ -60,9 +60,9 @@ SetupResult<Destinations> Destinations::open(const Common& common, const std::ve
     return all;
 }
 
-SetupResult<void> Destinations::add(const Common& common, const runtime::Endpoint& endpoint) {
+SetupResult<void> Destinations::add(const Common& common, const endpoint::Endpoint& endpoint) {
     const auto& options = endpoint.options;
-    if (endpoint.scheme != runtime::Scheme::tlog) {
+    if (endpoint.scheme != endpoint::Scheme::tlog) {
         const auto id = links_->add(endpoint);
         if (!id) return tl::unexpected(id.error());
         endpoints_.push_back(*id);
@@ -121,13 +121,13 @@ bool Destinations::all_up() const {
     });
 }
 
-bool Destinations::has(runtime::EndpointId endpoint) const noexcept {
+bool Destinations::has(link::EndpointId endpoint) const noexcept {
     return std::ranges::find(endpoints_, endpoint) != endpoints_.end();
 }
 
 // Of the links that are there and of those that are gone.
-Destinations::Sums Destinations::sums_of(const runtime::EndpointInfo& info) const {
-    runtime::LinkCounters all = info.counters->gone;
+Destinations::Sums Destinations::sums_of(const link::EndpointInfo& info) const {
+    link::LinkCounters all = info.counters->gone;
     for (const auto& link : links_->links())
         if (link.endpoint == info.id) all.add(*link.counters);
     return {all.frames_out.value(),
@@ -157,7 +157,7 @@ bool Destinations::reached_nobody() const {
 void Destinations::say_sums(const Common& common) const {
     const auto endpoints = links_->endpoints();
     for (std::size_t i = 0; i < endpoints_.size(); ++i) {
-        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &runtime::EndpointInfo::id);
+        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &link::EndpointInfo::id);
         const auto sums = sums_of(info);
         const auto name = info.label();
         say(common, fmt::format("{}: {}, {} sent", name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
@@ -181,7 +181,7 @@ Json Destinations::sums_json() const {
     auto all = Json::array();
     const auto endpoints = links_->endpoints();
     for (std::size_t i = 0; i < endpoints_.size(); ++i) {
-        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &runtime::EndpointInfo::id);
+        const auto& info = *std::ranges::find(endpoints, endpoints_[i], &link::EndpointInfo::id);
         const auto sums = sums_of(info);
         all.push_back({{"endpoint", info.label()},
                        {"frames", sums.frames},

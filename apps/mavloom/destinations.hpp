@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "command.hpp"
+#include "mavloom/link/links.hpp"
 #include "mavloom/record/rotating_writer.hpp"
-#include "mavloom/runtime/links.hpp"
 #include "traffic_report.hpp"
 
 namespace mavloom::app {
 
 // The recording that a tlog:// destination names, rotated as its options say. Errors begin with `option`.
 [[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const Common& common,
-                                                                   const runtime::Endpoint& endpoint,
+                                                                   const endpoint::Endpoint& endpoint,
                                                                    std::string_view option);
 // "x.tlog: 12 frames, 348 bytes written", and in how many files.
 void say_recorded(const Common& common, const record::RotatingWriter& file);
@@ -25,7 +25,7 @@ class Destinations {
 public:
     // Opens every address; `links` must outlive the object.
     [[nodiscard]] static SetupResult<Destinations> open(const Common& common, const std::vector<std::string>& addresses,
-                                                        runtime::Links& links);
+                                                        link::Links& links);
 
     // Queues the frame for all that are there, and writes it to the files with its time; false when nobody is there.
     bool send(const wire::FrameView& frame, WallTime time);
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] std::size_t room_in_frames() const;
     // Every endpoint has at least one link.
     [[nodiscard]] bool all_up() const;
-    [[nodiscard]] bool has(runtime::EndpointId endpoint) const noexcept;
+    [[nodiscard]] bool has(link::EndpointId endpoint) const noexcept;
 
     // Frames were dropped, had nobody there, or were left in a queue at the end.
     [[nodiscard]] bool lost_any() const;
@@ -53,16 +53,16 @@ public:
     [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
 
 private:
-    explicit Destinations(runtime::Links& links) : links_(&links) {}
+    explicit Destinations(link::Links& links) : links_(&links) {}
     struct Sums {
         std::uint64_t frames = 0, bytes = 0, dropped = 0, refused = 0, not_sent = 0, came_back = 0;
     };
-    [[nodiscard]] Sums sums_of(const runtime::EndpointInfo& info) const;
-    [[nodiscard]] SetupResult<void> add(const Common& common, const runtime::Endpoint& endpoint);
+    [[nodiscard]] Sums sums_of(const link::EndpointInfo& info) const;
+    [[nodiscard]] SetupResult<void> add(const Common& common, const endpoint::Endpoint& endpoint);
     void keep(SetupResult<void> result);
 
-    runtime::Links* links_;
-    std::vector<runtime::EndpointId> endpoints_;
+    link::Links* links_;
+    std::vector<link::EndpointId> endpoints_;
     std::vector<std::size_t> queue_bytes_;
     std::vector<record::RotatingWriter> files_;
     std::optional<SetupError> failure_;

@@ -72,27 +72,26 @@ void ReceiveOptions::declare(Arguments command) {
         .type_name("BYTES");
 }
 
-void say_ports(const Common& common, const std::vector<runtime::EndpointInfo>& endpoints) {
+void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints) {
     for (const auto& info : endpoints)
         if (info.endpoint.address.port == 0 && info.local_port != 0)
             say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
 }
 
-SetupResult<std::unique_ptr<runtime::Receiver>> ReceiveOptions::open(const Common& common,
-                                                                     const dialect::Dialect& dialect) {
+SetupResult<std::unique_ptr<feed::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) {
     if (auto counted = parse_count(); !counted) return tl::unexpected(std::move(counted.error()));
-    const auto bytes = runtime::parse_size(buffer);
+    const auto bytes = endpoint::parse_size(buffer);
     if (!bytes) return tl::unexpected(SetupError(bytes.error()).within("--buffer"));
     if (*bytes < smallest_buffer)
         return setup_error(SetupCode::usage, fmt::format("--buffer {}: at least 64k", buffer));
     if (!duration.empty())
-        if (auto time = runtime::parse_duration(duration); !time)
+        if (auto time = endpoint::parse_duration(duration); !time)
             return tl::unexpected(std::move(time.error()).within("--for"));
     const auto notice = [&common](std::string_view text) { say(common, text); };
-    auto receiver = runtime::Receiver::create(dialect, *bytes, notice);
+    auto receiver = feed::Receiver::create(dialect, *bytes, notice);
     if (!receiver) return receiver;
     for (const auto& text : sources) {
-        const auto endpoint = runtime::parse_endpoint(text);
+        const auto endpoint = endpoint::parse_endpoint(text);
         if (!endpoint) return tl::unexpected(endpoint.error());
         if (auto added = (*receiver)->add(*endpoint); !added) return tl::unexpected(std::move(added.error()));
     }
@@ -107,7 +106,7 @@ SetupResult<void> ReceiveOptions::parse_count() {
 }
 
 MonoTime ReceiveOptions::end(MonoTime start) const {
-    return duration.empty() ? MonoTime::max() : start + *runtime::parse_duration(duration);
+    return duration.empty() ? MonoTime::max() : start + *endpoint::parse_duration(duration);
 }
 
 }  // namespace mavloom::app

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "mavloom/runtime/receiver.hpp"
+#include "mavloom/feed/receiver.hpp"
 
 namespace mavloom::app {
 
@@ -30,7 +30,7 @@ private:
 };
 
 // Says which ports were given to endpoints that asked for any. Whoever waits for these lines may end the program at once: call it when Signals is there.
-void say_ports(const Common& common, const std::vector<runtime::EndpointInfo>& endpoints);
+void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints);
 
 struct ReceiveOptions {
     std::vector<std::string> sources;
@@ -40,8 +40,8 @@ struct ReceiveOptions {
     std::uint64_t count = 0;  // 0: no bound; set by `open`
 
     void declare(Arguments command);
-    [[nodiscard]] SetupResult<std::unique_ptr<runtime::Receiver>> open(const Common& common,
-                                                                       const dialect::Dialect& dialect);
+    [[nodiscard]] SetupResult<std::unique_ptr<feed::Receiver>> open(const Common& common,
+                                                                    const dialect::Dialect& dialect);
     // When --for ends; the end of time without it. Call after `open`, which has checked the words.
     [[nodiscard]] MonoTime end(MonoTime start) const;
 

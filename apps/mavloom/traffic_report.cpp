@@ -18,7 +18,7 @@ namespace {
 
 double milliseconds(Nanoseconds t) { return std::chrono::duration<double, std::milli>(t).count(); }
 
-double loss_percent(const runtime::SourceLoss& loss) {
+double loss_percent(const feed::SourceLoss& loss) {
     const auto sent = loss.received - loss.duplicate + loss.lost;
     return sent == 0 ? 0 : 100.0 * static_cast<double>(loss.lost) / static_cast<double>(sent);
 }
@@ -37,7 +37,7 @@ struct Named {
 };
 
 // Every counter that is not a good frame handed on, with the words for it.
-auto losses_of(const runtime::Totals& t) {
+auto losses_of(const feed::Totals& t) {
     return std::array{
         Named{"kernel_drop", "datagram", "dropped by the kernel: the receive buffer was full", t.kernel_drop},
         Named{"buffer_full", "frame", "not handed on: the output was slower than --buffer allows", t.buffer_full},
@@ -58,7 +58,7 @@ auto losses_of(const runtime::Totals& t) {
     };
 }
 
-void append_source(std::string& out, const runtime::SourceLoss& loss, std::string_view link) {
+void append_source(std::string& out, const feed::SourceLoss& loss, std::string_view link) {
     fmt::format_to(std::back_inserter(out), "\n{} {}/{}: {}, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n",
                    link, loss.source.system.value, loss.source.component.value, counted(loss.received, "frame"),
                    loss.lost, loss_percent(loss), loss.late, loss.duplicate, loss.resync);
@@ -75,7 +75,7 @@ void append_row(std::string& out, const observe::TrafficRow& row, std::string_vi
 using Rows = std::vector<observe::TrafficRow>;
 
 // The rows of one source. Both lists have the same order: `from` goes on behind them.
-std::span<const observe::TrafficRow> rows_of(const runtime::SourceLoss& loss, const Rows& rows, std::size_t& from) {
+std::span<const observe::TrafficRow> rows_of(const feed::SourceLoss& loss, const Rows& rows, std::size_t& from) {
     const auto key = [](const auto& x) { return std::tuple(x.link, x.source); };
     while (from < rows.size() && key(rows[from]) < key(loss)) ++from;
     const std::size_t begin = from;
@@ -97,7 +97,7 @@ Json row_json(const observe::TrafficRow& row, const dialect::Dialect& dialect) {
 
 }  // namespace
 
-std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+std::string traffic_text(const observe::TrafficTable& traffic, feed::Receiver& receiver,
                          const dialect::Dialect& dialect) {
     std::string out;
     const auto rows = traffic.sorted();
@@ -117,7 +117,7 @@ std::string traffic_text(const observe::TrafficTable& traffic, runtime::Receiver
     return out;
 }
 
-std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver& receiver,
+std::string traffic_json(const observe::TrafficTable& traffic, feed::Receiver& receiver,
                          const dialect::Dialect& dialect, std::uint64_t unprinted) {
     const auto rows = traffic.sorted();
     std::size_t from = 0;
@@ -143,7 +143,7 @@ std::string traffic_json(const observe::TrafficTable& traffic, runtime::Receiver
     return stats_line({{"sources", std::move(sources)}, {"totals", std::move(sums)}});
 }
 
-Json losses_json(const runtime::Totals& totals) {
+Json losses_json(const feed::Totals& totals) {
     Json sums;
     for (const auto& loss : losses_of(totals)) sums[std::string(loss.name)] = loss.value;
     return sums;
@@ -153,7 +153,7 @@ std::string stats_line(Json stats) {
     return Json{{"stats", std::move(stats)}}.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void say_losses(const Common& common, const runtime::Totals& totals) {
+void say_losses(const Common& common, const feed::Totals& totals) {
     for (const auto& loss : losses_of(totals))
         if (loss.value != 0) say(common, loss.text());
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "mavloom/runtime/ring_frames.hpp"
+#include "mavloom/ring/frames.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -21,11 +21,11 @@ constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard con
 constexpr std::uint8_t autopilot_invalid = 8;
 constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // offsets
 
-std::uint8_t verdict_of(const runtime::RxFrame& rx, bool verifies) noexcept {
-    using runtime::FrameSignature;
+std::uint8_t verdict_of(const link::RxFrame& rx, bool verifies) noexcept {
+    using ring::FrameSignature;
     if (rx.ring_verdict != 0) return rx.ring_verdict;
-    if (!rx.frame.is_signed()) return runtime::ring_verdict(FrameSignature::none);
-    return runtime::ring_verdict(verifies ? FrameSignature::good : FrameSignature::unchecked);
+    if (!rx.frame.is_signed()) return ring::ring_verdict(FrameSignature::none);
+    return ring::ring_verdict(verifies ? FrameSignature::good : FrameSignature::unchecked);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ void add_to(Losses& losses, std::string link, const wire::SequenceStats& stats) 
 
 // ---- loop thread
 
-void Channel::on_frame(const runtime::RxFrame& rx, MonoTime now) {
+void Channel::on_frame(const link::RxFrame& rx, MonoTime now) {
     const FrameRing::Head head{
         .time_ns = rx.time.time_since_epoch().count(), .link = rx.link.value, .verdict = verdict_of(rx, verifies_)};
     const auto* definition = rx.info == nullptr ? nullptr : origin_->dialect().find(rx.frame.id());

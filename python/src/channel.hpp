@@ -18,7 +18,7 @@
 #include "filter.hpp"
 #include "frame_batch.hpp"
 #include "frame_ring.hpp"
-#include "mavloom/runtime/links.hpp"
+#include "mavloom/link/links.hpp"
 #include "mavloom/wire/sequence.hpp"
 #include "message.hpp"
 
@@ -46,10 +46,10 @@ public:
         bool always = false;  // no good one was ever heard
     };
 
-    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, const runtime::Endpoint& endpoint)
+    Channel(std::shared_ptr<Origin> origin, std::size_t buffer_bytes, const endpoint::Endpoint& endpoint)
         : origin_(std::move(origin)),
           verifies_(!endpoint.options.verify_key_file.empty()),
-          ring_name_(endpoint.scheme == runtime::Scheme::shm ? endpoint.path : std::string()),
+          ring_name_(endpoint.scheme == endpoint::Scheme::shm ? endpoint.path : std::string()),
           ring_(buffer_bytes) {}
 
     [[nodiscard]] const std::shared_ptr<Origin>& origin() const noexcept { return origin_; }
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Losses losses() const;
 
     // ---- loop thread
-    void on_frame(const runtime::RxFrame& rx, MonoTime now);
+    void on_frame(const link::RxFrame& rx, MonoTime now);
     void on_link_up(LinkId link, std::string_view name);
     void on_link_down(LinkId link, std::span<const wire::SequenceStats> losses);
     void on_bad_checksum(MessageId id);

@@ -18,7 +18,7 @@ public:
         std::uint32_t link = 0;
         std::uint32_t offset = 0;  // in the batch's bytes
         std::uint16_t size = 0;
-        std::uint8_t verdict = 0;  // runtime/ring_frames.hpp
+        std::uint8_t verdict = 0;  // ring/frames.hpp
     };
 
     void clear() noexcept {

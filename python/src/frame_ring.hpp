@@ -18,7 +18,7 @@ public:
         std::int64_t time_ns = 0;
         std::uint32_t link = 0;
         std::uint16_t size = 0;    // of the frame; `padding`: nothing follows before the ring's start
-        std::uint8_t verdict = 0;  // runtime/ring_frames.hpp
+        std::uint8_t verdict = 0;  // ring/frames.hpp
     };
     // A reader: the next byte and the number of the next frame. Never wraps.
     struct Position {

@@ -5,7 +5,6 @@
 
 #include "gil.hpp"
 #include "mavloom/base/thread.hpp"
-#include "mavloom/runtime/control.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -23,8 +22,8 @@ std::vector<std::weak_ptr<Hub>>& registry() {
 
 std::atomic<std::uint64_t> fork_count{0};
 
-bool listens(runtime::Scheme scheme) noexcept {
-    return scheme == runtime::Scheme::udpin || scheme == runtime::Scheme::tcpin;
+bool listens(endpoint::Scheme scheme) noexcept {
+    return scheme == endpoint::Scheme::udpin || scheme == endpoint::Scheme::tcpin;
 }
 
 }  // namespace
@@ -47,7 +46,7 @@ SetupResult<std::shared_ptr<Hub>> Hub::get() {
     std::erase_if(registry(), [](const auto& hub) { return hub.expired(); });
     for (const auto& known : registry())
         if (auto hub = known.lock(); hub && !hub->stopping_) return hub;
-    auto sources = runtime::Sources::create(dialect::default_dialect());
+    auto sources = feed::Sources::create(dialect::default_dialect());
     if (!sources) return tl::unexpected(std::move(sources.error()));
     const std::shared_ptr<Hub> hub(new Hub(std::move(*sources)));
     registry().push_back(hub);
@@ -64,7 +63,7 @@ void Hub::stop_all() {
     for (const auto& hub : hubs) hub->stop();
 }
 
-Hub::Hub(runtime::Sources sources) : sources_(std::move(sources)) {
+Hub::Hub(feed::Sources sources) : sources_(std::move(sources)) {
     links().let_repeat();
     thread_ = thread_without_signals([this] { run(); });
 }
@@ -128,29 +127,29 @@ void Hub::send_outgoing() {
         links().send(frame.endpoint, wire::FrameView::unchecked({frame.bytes.data(), frame.size}));
 }
 
-Hub::Served* Hub::served_by(runtime::EndpointId endpoint) noexcept {
+Hub::Served* Hub::served_by(link::EndpointId endpoint) noexcept {
     const auto found = served_.find(endpoint);
     return found == served_.end() ? nullptr : &found->second;
 }
 
-void Hub::on_frame(const runtime::RxFrame& rx) {
+void Hub::on_frame(const link::RxFrame& rx) {
     if (auto* served = served_by(rx.endpoint)) served->channel->on_frame(rx, links().now());
     else pass_answer(rx);
 }
-void Hub::on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) {
+void Hub::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
     auto* served = served_by(endpoint);
     if (served == nullptr) return;
     if (served->is_ring) served->channel->name_link(link, name);
     else served->channel->on_link_up(link, name);
 }
-void Hub::on_link_down(LinkId link, runtime::EndpointId endpoint, std::string_view) {
+void Hub::on_link_down(LinkId link, link::EndpointId endpoint, std::string_view) {
     auto* served = served_by(endpoint);
     if (served == nullptr) return;
     if (!served->is_ring) return served->channel->on_link_down(link, links().sources(link));
     const auto name = served->channel->origin()->link_name(link.value);
     served->channel->forget_link(link, sources_.ring_losses(endpoint, name));
 }
-void Hub::on_bad_checksum(LinkId, runtime::EndpointId endpoint, MessageId id) {
+void Hub::on_bad_checksum(LinkId, link::EndpointId endpoint, MessageId id) {
     if (auto* served = served_by(endpoint)) served->channel->on_bad_checksum(id);
 }
 
@@ -178,7 +177,7 @@ void Hub::wait_on_loop(std::function<bool()> over, Nanoseconds limit) {
     changed_.wait(lock, [&] { return ended || ended_; });
 }
 
-SetupResult<Hub::Opened> Hub::open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+SetupResult<Hub::Opened> Hub::open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                    const Consumer& reader) {
     SetupResult<Opened> opened = setup_error(SetupCode::system, "the loop thread has ended");
     on_loop([&] { opened = open_now(endpoint, channel, reader); });
@@ -190,9 +189,9 @@ SetupResult<Hub::Opened> Hub::open(const runtime::Endpoint& endpoint, const std:
     return opened;
 }
 
-SetupResult<Hub::Opened> Hub::open_now(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+SetupResult<Hub::Opened> Hub::open_now(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                        const Consumer& reader) {
-    const bool is_ring = endpoint.scheme == runtime::Scheme::shm;
+    const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
     const auto* own = &channel->origin()->dialect();
     const auto added = is_ring ? sources_.add_ring(endpoint, own) : links().add(endpoint, own);
     if (!added) return tl::unexpected(added.error());
@@ -209,7 +208,7 @@ SetupResult<Hub::Opened> Hub::open_now(const runtime::Endpoint& endpoint, const 
     return opened;
 }
 
-bool Hub::is_up(runtime::EndpointId endpoint) {
+bool Hub::is_up(link::EndpointId endpoint) {
     const auto links = sources_.links().links();
     return std::ranges::any_of(links, [&](const auto& link) { return link.endpoint == endpoint && link.up; });
 }
@@ -231,8 +230,8 @@ std::optional<SetupError> Hub::wait_for_far_side(const Opened& opened) {
     return failure;
 }
 
-SetupResult<runtime::EndpointId> Hub::inlet(runtime::EndpointId ring) {
-    SetupResult<runtime::EndpointId> opened = setup_error(SetupCode::system, "the loop thread has ended");
+SetupResult<link::EndpointId> Hub::inlet(link::EndpointId ring) {
+    SetupResult<link::EndpointId> opened = setup_error(SetupCode::system, "the loop thread has ended");
     on_loop([&] {
         opened = open_way_out(ring);
         turn(MonoTime{});
@@ -240,7 +239,7 @@ SetupResult<runtime::EndpointId> Hub::inlet(runtime::EndpointId ring) {
     return opened;
 }
 
-SetupResult<runtime::EndpointId> Hub::open_way_out(runtime::EndpointId ring) {
+SetupResult<link::EndpointId> Hub::open_way_out(link::EndpointId ring) {
     const auto opened = sources_.inlet(ring);
     if (!opened || served_.contains(*opened)) return opened;
     auto& served = served_.at(ring);
@@ -249,16 +248,16 @@ SetupResult<runtime::EndpointId> Hub::open_way_out(runtime::EndpointId ring) {
     return opened;
 }
 
-SetupResult<void> Hub::serve_inlet(runtime::EndpointId endpoint, const std::string& ring, unsigned mode) {
+SetupResult<void> Hub::serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode) {
     SetupResult<void> opened = setup_error(SetupCode::system, "the loop thread has ended");
     on_loop([&] { opened = serve_now(endpoint, ring, mode); });
     return opened;
 }
 
-SetupResult<void> Hub::serve_now(runtime::EndpointId endpoint, const std::string& ring, unsigned mode) {
+SetupResult<void> Hub::serve_now(link::EndpointId endpoint, const std::string& ring, unsigned mode) {
     auto& served = served_.at(endpoint);
     if (served.served_inlet) return setup_error(SetupCode::usage, "this link serves a ring's inlet already");
-    const auto path = runtime::inlet_path(ring);
+    const auto path = link::Links::inlet_path(ring);
     if (!path) return tl::unexpected(path.error());
     const auto opened = links().add_inlet(ring, *path, mode);
     if (!opened) return tl::unexpected(opened.error());
@@ -268,7 +267,7 @@ SetupResult<void> Hub::serve_now(runtime::EndpointId endpoint, const std::string
 }
 
 // Unrouted: a program that fills a ring has vehicles of one kind behind it, all of which hear what is said.
-void Hub::pass_answer(const runtime::RxFrame& rx) {
+void Hub::pass_answer(const link::RxFrame& rx) {
     const auto filled = filled_from_.find(rx.endpoint);
     if (filled == filled_from_.end()) return;
     auto& served = served_.at(filled->second);
@@ -277,9 +276,9 @@ void Hub::pass_answer(const runtime::RxFrame& rx) {
 }
 
 // What is sent goes there.
-runtime::EndpointId Hub::way_out(runtime::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
+link::EndpointId Hub::way_out(link::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
 
-LinkStats Hub::stats_now(runtime::EndpointId endpoint) {
+LinkStats Hub::stats_now(link::EndpointId endpoint) {
     links().refresh_kernel_drops();
     const auto& served = served_.at(endpoint);
     const auto out = way_out(endpoint);
@@ -308,7 +307,7 @@ LinkStats Hub::stats_now(runtime::EndpointId endpoint) {
 }
 
 // Over the senders that are there and those that are gone.
-std::uint64_t Hub::frames_in(runtime::EndpointId endpoint) {
+std::uint64_t Hub::frames_in(link::EndpointId endpoint) {
     std::uint64_t sum = 0;
     for (const auto& link : links().links())
         if (link.endpoint == endpoint) sum += link.counters->frames_in.value();
@@ -317,17 +316,17 @@ std::uint64_t Hub::frames_in(runtime::EndpointId endpoint) {
     return sum;
 }
 
-LinkStats Hub::stats(runtime::EndpointId endpoint) {
+LinkStats Hub::stats(link::EndpointId endpoint) {
     LinkStats stats;
     on_loop([&] { stats = stats_now(endpoint); });
     return stats;
 }
 
-bool Hub::is_flushed(runtime::EndpointId endpoint) {
+bool Hub::is_flushed(link::EndpointId endpoint) {
     return links().queued_bytes(way_out(endpoint)) == 0 || served_.at(endpoint).channel->peers() == 0;
 }
 
-void Hub::remove(runtime::EndpointId endpoint) {
+void Hub::remove(link::EndpointId endpoint) {
     auto served = std::move(served_.at(endpoint));
     served_.erase(endpoint);
     if (served.inlet) served_.erase(*served.inlet);
@@ -340,7 +339,7 @@ void Hub::remove(runtime::EndpointId endpoint) {
     served.channel->close();
 }
 
-LinkStats Hub::close(runtime::EndpointId endpoint) {
+LinkStats Hub::close(link::EndpointId endpoint) {
     LinkStats stats;
     on_loop([&] {
         send_outgoing();
@@ -354,7 +353,7 @@ LinkStats Hub::close(runtime::EndpointId endpoint) {
     return stats;
 }
 
-void Hub::send(runtime::EndpointId endpoint, const wire::FrameView& frame) {
+void Hub::send(link::EndpointId endpoint, const wire::FrameView& frame) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return outgoing_.size() < most_outgoing || ended_; });
     if (ended_) return;

@@ -14,16 +14,16 @@
 #include <vector>
 
 #include "channel.hpp"
-#include "mavloom/runtime/sources.hpp"
+#include "mavloom/feed/sources.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 
 namespace mavloom::python {
 
 // Sums over the peers of one endpoint, those that went included.
 struct LinkStats {
-    runtime::LinkCounters links;
-    runtime::EndpointCounters endpoint;
-    runtime::Totals ring;
+    link::LinkCounters links;
+    link::EndpointCounters endpoint;
+    feed::Totals ring;
     std::uint64_t missed = 0, not_kept = 0, no_peer = 0, peers = 0;
     std::uint64_t answers = 0, unheard_answers = 0;  // of programs that read a ring which is filled from here
     Losses losses;
@@ -31,7 +31,7 @@ struct LinkStats {
     std::vector<std::string> hints;
 };
 
-class Hub : private runtime::LinkHandler {
+class Hub : private link::LinkHandler {
 public:
     // The one that is running, or a new one.
     [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
@@ -45,46 +45,46 @@ public:
     ~Hub() override;
 
     struct Opened {
-        runtime::EndpointId endpoint;
+        link::EndpointId endpoint;
         std::uint16_t port = 0;
         std::string name;
         bool is_ring = false;
     };
     // `channel` gets what arrives from the first frame on. What can be opened at once is open when this returns; with `required=true` it waits up to 5 s for
     // the far side and fails without it. A ring that is lossless is held for `reader`.
-    [[nodiscard]] SetupResult<Opened> open(const runtime::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
+    [[nodiscard]] SetupResult<Opened> open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                            const Consumer& reader);
     // Where what is sent to a ring's router goes, opened at the first call.
-    [[nodiscard]] SetupResult<runtime::EndpointId> inlet(runtime::EndpointId ring);
+    [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
     // Opens the way back of the ring `ring`, which is filled from this endpoint: what programs send to the socket RUN/`ring`.in goes to every peer
     // of the endpoint. In use where somebody serves it; closed with the endpoint.
-    [[nodiscard]] SetupResult<void> serve_inlet(runtime::EndpointId endpoint, const std::string& ring, unsigned mode);
+    [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     // What was sent goes out first, for at most a second, in which others are served as ever. Returns the last counters.
-    LinkStats close(runtime::EndpointId endpoint);
-    [[nodiscard]] LinkStats stats(runtime::EndpointId endpoint);
+    LinkStats close(link::EndpointId endpoint);
+    [[nodiscard]] LinkStats stats(link::EndpointId endpoint);
     // Queues a frame for every peer of the endpoint. Waits while too much is queued already.
-    void send(runtime::EndpointId endpoint, const wire::FrameView& frame);
+    void send(link::EndpointId endpoint, const wire::FrameView& frame);
 
 private:
     struct Outgoing {
-        runtime::EndpointId endpoint;
+        link::EndpointId endpoint;
         std::uint16_t size = 0;
         wire::FrameBuffer bytes;
     };
     static constexpr std::size_t most_outgoing = 4096;
 
-    explicit Hub(runtime::Sources sources);
+    explicit Hub(feed::Sources sources);
 
-    void on_frame(const runtime::RxFrame& rx) override;
-    void on_link_up(LinkId link, runtime::EndpointId endpoint, std::string_view name) override;
-    void on_link_down(LinkId link, runtime::EndpointId endpoint, std::string_view why) override;
-    void on_bad_checksum(LinkId link, runtime::EndpointId endpoint, MessageId id) override;
+    void on_frame(const link::RxFrame& rx) override;
+    void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override;
+    void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
+    void on_bad_checksum(LinkId link, link::EndpointId endpoint, MessageId id) override;
 
     struct Served {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
-        std::optional<runtime::EndpointId> inlet{};         // of a ring that is read: where what is sent goes
-        std::optional<runtime::EndpointId> served_inlet{};  // of a ring that is filled
+        std::optional<link::EndpointId> inlet{};         // of a ring that is read: where what is sent goes
+        std::optional<link::EndpointId> served_inlet{};  // of a ring that is filled
         std::uint64_t unheard_answers = 0;
     };
     struct Wait {
@@ -96,32 +96,32 @@ private:
     void run();
     void turn(MonoTime deadline);
     void end_waits();
-    [[nodiscard]] runtime::Links& links() noexcept { return sources_.links(); }
-    [[nodiscard]] SetupResult<Opened> open_now(const runtime::Endpoint& endpoint,
+    [[nodiscard]] link::Links& links() noexcept { return sources_.links(); }
+    [[nodiscard]] SetupResult<Opened> open_now(const endpoint::Endpoint& endpoint,
                                                const std::shared_ptr<Channel>& channel, const Consumer& reader);
-    [[nodiscard]] bool is_up(runtime::EndpointId endpoint);
+    [[nodiscard]] bool is_up(link::EndpointId endpoint);
     // Null where what is required is there.
     [[nodiscard]] std::optional<SetupError> wait_for_far_side(const Opened& opened);
-    void remove(runtime::EndpointId endpoint);
-    [[nodiscard]] bool is_flushed(runtime::EndpointId endpoint);
-    [[nodiscard]] runtime::EndpointId way_out(runtime::EndpointId endpoint);
-    [[nodiscard]] SetupResult<runtime::EndpointId> open_way_out(runtime::EndpointId ring);
-    [[nodiscard]] SetupResult<void> serve_now(runtime::EndpointId endpoint, const std::string& ring, unsigned mode);
-    void pass_answer(const runtime::RxFrame& rx);
+    void remove(link::EndpointId endpoint);
+    [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
+    [[nodiscard]] link::EndpointId way_out(link::EndpointId endpoint);
+    [[nodiscard]] SetupResult<link::EndpointId> open_way_out(link::EndpointId ring);
+    [[nodiscard]] SetupResult<void> serve_now(link::EndpointId endpoint, const std::string& ring, unsigned mode);
+    void pass_answer(const link::RxFrame& rx);
     void send_outgoing();
     void stop();
-    [[nodiscard]] Served* served_by(runtime::EndpointId endpoint) noexcept;
-    [[nodiscard]] std::uint64_t frames_in(runtime::EndpointId endpoint);
-    [[nodiscard]] LinkStats stats_now(runtime::EndpointId endpoint);
+    [[nodiscard]] Served* served_by(link::EndpointId endpoint) noexcept;
+    [[nodiscard]] std::uint64_t frames_in(link::EndpointId endpoint);
+    [[nodiscard]] LinkStats stats_now(link::EndpointId endpoint);
     // Runs `work` on the loop thread and waits for it; false when that has ended.
     bool on_loop(std::function<void()> work);
     // Waits until the loop thread finds it over, which it asks after each turn, or the limit.
     void wait_on_loop(std::function<bool()> over, Nanoseconds limit);
 
     // The loop thread's. Channels have the dialects that the sources read by, and go after them.
-    std::unordered_map<runtime::EndpointId, Served> served_;
-    std::unordered_map<runtime::EndpointId, runtime::EndpointId> filled_from_;  // by served inlet
-    runtime::Sources sources_;
+    std::unordered_map<link::EndpointId, Served> served_;
+    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // by served inlet
+    feed::Sources sources_;
     std::vector<Wait> waits_;
 
     std::mutex mutex_;

@@ -17,7 +17,7 @@
 #include "hub.hpp"
 #include "iteration.hpp"
 #include "link_stats.hpp"
-#include "mavloom/runtime/ring_frames.hpp"
+#include "mavloom/ring/frames.hpp"
 #include "ring_alarm.hpp"
 #include "ring_writer.hpp"
 #include "waiting.hpp"
@@ -160,7 +160,7 @@ private:
         const auto frame = batch_.frame(item);
         const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
                                    .link = LinkId{item.link},
-                                   .kind = runtime::ring_kind_frame,
+                                   .kind = ring::ring_kind_frame,
                                    .verdict = item.verdict};
         const auto written = writer.put(frame.bytes(), info, deadline);
         pumped.full = !written && written.error() == shm::WriteError::full;
@@ -205,9 +205,9 @@ private:
 
 // ---- class Port
 
-runtime::Endpoint endpoint_of(const std::string& url) {
-    auto endpoint = value_or_raise(runtime::parse_endpoint(url));
-    if (endpoint.scheme == runtime::Scheme::tlog)
+endpoint::Endpoint endpoint_of(const std::string& url) {
+    auto endpoint = value_or_raise(endpoint::parse_endpoint(url));
+    if (endpoint.scheme == endpoint::Scheme::tlog)
         raise_usage(fmt::format("'{}' is a recording: mavloom.read() and mavloom.columns() read it", url));
     return endpoint;
 }
@@ -373,7 +373,7 @@ private:
     std::mutex mutex_;
     // Guarded by mutex_.
     std::shared_ptr<Hub> hub_;  // null: closed
-    runtime::EndpointId to_;    // where sending goes: of a ring another, from the first time on
+    link::EndpointId to_;       // where sending goes: of a ring another, from the first time on
     LinkStats last_;
     std::uint64_t no_peer_ = 0;
     std::uint8_t sequence_ = 0;

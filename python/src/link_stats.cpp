@@ -87,9 +87,9 @@ void bind_source_stats(nb::module_& module) {
 }  // namespace
 
 void bind_link_stats(nb::module_& module) {
-    using L = runtime::LinkCounters;
-    using E = runtime::EndpointCounters;
-    using T = runtime::Totals;
+    using L = link::LinkCounters;
+    using E = link::EndpointCounters;
+    using T = feed::Totals;
     bind_source_stats(module);
     nb::class_<LinkStats>(module, "LinkStats", nb::is_final(),
                           "A link's counters, over all its peers, those that went included. Every loss has a name.")

@@ -16,7 +16,7 @@
 #include "mavloom/message/format.hpp"
 #include "mavloom/message/view.hpp"
 #include "mavloom/message/visit.hpp"
-#include "mavloom/runtime/ring_frames.hpp"
+#include "mavloom/ring/frames.hpp"
 
 namespace mavloom::python {
 
@@ -199,17 +199,17 @@ bool same_frame(const Message& a, const Message& b) noexcept {
 }
 
 bool is_verified(const Message& message) noexcept {
-    return runtime::signature_of(message.verdict) == runtime::FrameSignature::good;
+    return ring::signature_of(message.verdict) == ring::FrameSignature::good;
 }
 
 const char* signature_verdict(const Message& message) noexcept {
     if (!message.frame().is_signed()) return "none";
     if (is_verified(message)) return "good";
-    return runtime::signature_of(message.verdict) == runtime::FrameSignature::bad ? "bad" : "unchecked";
+    return ring::signature_of(message.verdict) == ring::FrameSignature::bad ? "bad" : "unchecked";
 }
 
 nb::object route_verdict(const Message& message) {
-    const auto verdict = runtime::verdict_of(message.verdict);
+    const auto verdict = ring::verdict_of(message.verdict);
     if (!verdict) return nb::none();
     const auto name = route::verdict_name(*verdict);
     return nb::str(name.data(), name.size());

@@ -46,7 +46,7 @@ struct Message {
     std::int64_t time_ns = 0;                      // Unix time
     std::uint32_t link = 0;
     std::uint16_t size = 0;
-    std::uint8_t verdict = 0;  // of its signature, and of the router whose ring it comes from: runtime/ring_frames.hpp
+    std::uint8_t verdict = 0;  // of its signature, and of the router whose ring it comes from: ring/frames.hpp
     std::unique_ptr<const std::uint8_t[]> bytes;
 
     [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }

@@ -14,18 +14,13 @@
 #include <cerrno>
 #include <utility>
 
+#include "mavloom/base/name.hpp"
 #include "mavloom/base/shown.hpp"
 #include "shm/lock_file.hpp"
 
 namespace mavloom::shm {
 
 namespace {
-
-constexpr std::size_t longest_name = 64;
-
-bool is_name_letter(char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-}
 
 // The same file once more, with a description of its own.
 std::string path_of_descriptor(int fd) { return fmt::format("/proc/self/fd/{}", fd); }
@@ -70,7 +65,7 @@ int allocate(int fd, std::size_t size) {
 }  // namespace
 
 SetupResult<void> check_name(std::string_view name) {
-    if (!name.empty() && name.size() <= longest_name && std::ranges::all_of(name, is_name_letter)) return {};
+    if (is_name(name)) return {};
     return setup_error(SetupCode::usage, fmt::format("{} is no name of a ring: 1 to {} letters, digits, _ and -",
                                                      in_quotes(name), longest_name));
 }

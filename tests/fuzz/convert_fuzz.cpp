@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "mavloom/runtime/config.hpp"
-#include "mavloom/runtime/convert.hpp"
+#include "mavloom/config/config.hpp"
+#include "mavloom/config/convert.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace mavloom::runtime;
+    using namespace mavloom::config;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto conversion = convert_mavlink_router(text, "main.conf");
     if (conversion) {

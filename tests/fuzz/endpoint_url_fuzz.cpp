@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "mavloom/runtime/endpoint.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace mavloom::runtime;
+    using namespace mavloom::endpoint;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     (void)parse_duration(text);
     (void)parse_size(text);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// The router's end of a ring: every good frame once, as it was received, with link and verdict; and the ring's counter page. Nobody who reads can
+// hold up or end the routing. One owner thread. Per frame it neither allocates, locks nor makes a system call, but for
+// one a millisecond while a reader sleeps.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "mavloom/link/links.hpp"
+#include "mavloom/ring/frames.hpp"
+#include "mavloom/ring/page.hpp"
+#include "mavloom/shm/ring_writer.hpp"
+
+namespace mavloom::ring {
+
+class RingTap {
+public:
+    // Carries on in a ring whose writer was killed. Errors as of RingWriter::open. `ready` is called by a thread of the tap's when look_after() has
+    // something to do.
+    [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
+        const std::string& name, const shm::RingOptions& options, std::function<void()> ready = [] {});
+    // The last link number of whoever wrote the ring before: readers that lag behind must not find other links under them.
+    [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
+    RingTap(const RingTap&) = delete;
+    RingTap& operator=(const RingTap&) = delete;
+    ~RingTap();  // removes the ring and its page; a router that could not start leaves a ring that was there before
+
+    // `verified`: came by an endpoint with verify=.
+    void write(const link::RxFrame& rx, route::Verdict verdict, bool verified) noexcept {
+        const auto signature = !rx.frame.is_signed() ? FrameSignature::none
+                               : verified            ? FrameSignature::good
+                                                     : FrameSignature::unchecked;
+        const shm::RecordInfo info{rx.time, rx.link, ring_kind_frame, ring_verdict(verdict, signature)};
+        if (!writer_.write(rx.frame.bytes(), info, MonoTime{})) [[unlikely]]
+            dropped_.add();
+    }
+
+    void on_link_up(LinkId link, std::string_view name) {
+        links_changed_ = true;
+        if (page_) page_->name_link(link, name);
+    }
+    void on_link_down(LinkId link) {
+        links_changed_ = true;
+        if (page_) page_->link_went(link);
+    }
+
+    // Behind each turn: the page is due soon where there is something new.
+    void note_turn(std::size_t frames, MonoTime now) noexcept {
+        ran_ = true;
+        const bool is_new = std::exchange(links_changed_, false) || frames != 0;
+        if (is_new && page_due_ == MonoTime::max()) page_due_ = now + page_interval;
+    }
+    [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
+    void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet);
+
+    // About once a second: a ring or page that somebody removed is made anew, the ring on another thread. What is to be said.
+    [[nodiscard]] std::vector<std::string> look_after(const link::Links& links);
+
+private:
+    static constexpr std::chrono::milliseconds page_interval{250};
+
+    RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, RingPage page,
+            std::function<void()> ready);
+    void make_ring_anew();
+    void take_new_ring(std::vector<std::string>& notices);
+    template <class Work>
+    void work_beside(Work work);
+    void carry_on(const std::map<LinkId, std::string>& names);
+    void make_page_anew(const link::Links& links, std::vector<std::string>& notices);
+
+    std::string name_;
+    shm::RingOptions options_;
+    std::function<void()> ready_;
+    shm::RingWriter writer_;
+    std::future<SetupResult<shm::RingWriter>> making_;  // valid while a ring is made anew
+    std::jthread beside_;
+    std::optional<RingPage> page_;
+    Counter dropped_;  // frames that are not in the ring
+    MonoTime page_due_{};
+    LinkId last_link_{};
+    bool ran_ = false, links_changed_ = false;
+    bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
+};
+
+}  // namespace mavloom::ring

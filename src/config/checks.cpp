@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Checks that only a router needs. `mavloom check` and `route` both run them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "config/places.hpp"
+#include "mavloom/base/shown.hpp"
+#include "mavloom/endpoint/checks.hpp"
+
+namespace mavloom::config {
+
+namespace {
+
+tl::unexpected<SetupError> bad(std::string_view file_name, std::uint32_t line, std::string_view what) {
+    return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}", file_name, line, what));
+}
+
+SetupResult<void> check_no_rings(const Config& config, std::string_view file_name) {
+    return detail::each_endpoint(
+        config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+            static constexpr std::array<std::string_view, 3> own{"ring", "url", "scheme"};
+            if (endpoint.scheme != endpoint::Scheme::shm) return {};
+            return bad(file_name, detail::line_of(section, own), endpoint::ring_is_no_endpoint(endpoint));
+        });
+}
+
+// Where the file has this section; 0 where it has none.
+std::uint32_t line_of_section(const Config& config, std::string_view name) {
+    const auto section = std::ranges::find(config.sections, name, &Section::name);
+    return section == config.sections.end() ? 0 : section->line;
+}
+
+// Without its name or path a section would be ignored silently.
+SetupResult<void> check_sections(const Config& config, std::string_view file_name) {
+    if (const auto line = line_of_section(config, "ring"); line != 0 && config.ring.name.empty())
+        return bad(file_name, line, "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
+    if (const auto line = line_of_section(config, "record"); line != 0 && config.record.path.empty())
+        return bad(file_name, line, "[record] has no path: write path = \"flight.tlog\"");
+    return {};
+}
+
+// What Links::add would refuse at once.
+SetupResult<void> check_links(const Config& config, std::string_view file_name) {
+    return detail::each_endpoint(
+        config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+            static constexpr std::array<std::string_view, 2> own{"url", "scheme"};
+            if (endpoint.scheme == endpoint::Scheme::tlog) return {};
+            auto good = endpoint::check_link(endpoint, endpoint::RoutingOptions::by_owner);
+            return good ? good : bad(file_name, detail::line_of(section, own), good.error().text);
+        });
+}
+
+SetupResult<void> check_groups(const Config& config, std::string_view file_name) {
+    struct Chosen {
+        endpoint::GroupMode mode;
+        std::uint32_t line;
+    };
+    std::map<std::string, Chosen> chosen;
+    return detail::each_endpoint(
+        config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+            static constexpr std::array<std::string_view, 1> own{"group_mode"};
+            const auto& o = endpoint.options;
+            if (o.group.empty() || !o.names_group_mode) return {};
+            const auto line = detail::line_of(section, own);
+            const auto [first, is_first] = chosen.try_emplace(o.group, Chosen{o.group_mode, line});
+            if (is_first || first->second.mode == o.group_mode) return {};
+            return bad(file_name, line,
+                       fmt::format("group {} has group_mode \"{}\" in line {}, and \"{}\" here: a group has one",
+                                   in_quotes(o.group), endpoint::group_mode_name(first->second.mode),
+                                   first->second.line, endpoint::group_mode_name(o.group_mode)));
+        });
+}
+
+}  // namespace
+
+SetupResult<void> check_for_router(const Config& config, std::string_view file_name, const dialect::Dialect& dialect) {
+    if (auto good = check_no_rings(config, file_name); !good) return good;
+    if (auto good = check_links(config, file_name); !good) return good;
+    if (auto good = check_sections(config, file_name); !good) return good;
+    if (auto good = check_groups(config, file_name); !good) return good;
+    if (auto good = check_message_names(config, file_name, dialect); !good) return good;
+    return check_key_files(config, file_name);
+}
+
+}  // namespace mavloom::config

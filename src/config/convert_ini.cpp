@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "config/convert_ini.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mavloom/endpoint/grammar.hpp"
+
+namespace mavloom::config::detail {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+std::string_view trimmed(std::string_view text) noexcept {
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+constexpr char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+class IniReader {
+public:
+    explicit IniReader(std::string_view file) : file_(file) {}
+
+    SetupResult<std::vector<IniSection>> read(std::string_view text) {
+        while (!text.empty()) {
+            const auto end = text.find('\n');
+            ++line_;
+            if (auto done = read_line(trimmed(text.substr(0, end))); !done)
+                return tl::unexpected(std::move(done.error()));
+            text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+        }
+        return std::move(sections_);
+    }
+
+private:
+    [[nodiscard]] tl::unexpected<SetupError> bad(std::string_view what) const {
+        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}", file_, line_, what));
+    }
+
+    SetupResult<void> read_line(std::string_view line) {
+        if (line.empty() || line.front() == '#' || line.front() == ';') return {};
+        return line.front() == '[' ? open_section(line) : add_entry(line);
+    }
+
+    SetupResult<void> open_section(std::string_view line) {
+        const auto end = line.find(']');
+        if (end == std::string_view::npos) return bad("the bracket of the section is not closed");
+        if (end + 1 != line.size())
+            return bad(fmt::format("{} stands behind the section's bracket", in_quotes(trimmed(line.substr(end + 1)))));
+        const auto name = line.substr(1, end - 1);
+        if (name.empty() || trimmed(name).size() != name.size())
+            return bad("a section's name begins and ends without blanks, as in [UdpEndpoint ground]");
+        current_ = std::ranges::find_if(sections_, [&](const IniSection& s) { return same_word(s.name, name); }) -
+                   sections_.begin();
+        if (current_ == static_cast<std::ptrdiff_t>(sections_.size()))
+            sections_.push_back({std::string(name), line_, {}});
+        return {};
+    }
+
+    SetupResult<void> add_entry(std::string_view line) {
+        if (sections_.empty()) return bad(fmt::format("{} stands before the first section", in_quotes(line)));
+        const auto equals = line.find('=');
+        if (equals == std::string_view::npos)
+            return bad(fmt::format("{} is neither [Section] nor key = value", in_quotes(line)));
+        const auto key = trimmed(line.substr(0, equals)), value = trimmed(line.substr(equals + 1));
+        if (key.empty()) return bad("there is no key before '='");
+        if (value.empty()) return bad(fmt::format("{} has no value", shown(key)));
+        auto& entries = sections_[static_cast<std::size_t>(current_)].entries;
+        const auto before = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_word(e.key, key); });
+        if (before != entries.end()) entries.erase(before);
+        entries.push_back({std::string(key), std::string(value), line_});
+        return {};
+    }
+
+    std::string_view file_;
+    std::uint32_t line_ = 0;
+    std::vector<IniSection> sections_;
+    std::ptrdiff_t current_ = 0;
+};
+
+}  // namespace
+
+bool same_word(std::string_view a, std::string_view b) noexcept {
+    return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
+}
+
+const IniEntry* IniSection::find(std::string_view key) const noexcept {
+    const auto found = std::ranges::find_if(entries, [&](const IniEntry& e) { return same_word(e.key, key); });
+    return found == entries.end() ? nullptr : &*found;
+}
+
+SetupResult<std::vector<IniSection>> parse_ini(std::string_view text, std::string_view file_name) {
+    return IniReader(file_name).read(text);
+}
+
+}  // namespace mavloom::config::detail

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "config/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <ranges>
+
+#include "mavloom/base/name.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+
+namespace mavloom::config::detail {
+
+namespace {
+
+template <class E, std::size_t n>
+SetupResult<void> put_choice(std::string_view text, const std::array<std::string_view, n>& choices, E& target) {
+    const auto choice = std::find(choices.begin(), choices.end(), text);
+    if (choice == choices.end())
+        return endpoint::usage(
+            fmt::format("{} is none of {}{}", in_quotes(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
+    target = static_cast<E>(choice - choices.begin());
+    return {};
+}
+
+SetupResult<void> set_heartbeat(Config& config, std::string_view text) {
+    if (text == "off") {
+        config.router.heartbeat.reset();
+        return {};
+    }
+    const auto slash = text.find('/');
+    const auto system = endpoint::parse_integer(text.substr(0, slash), 1, 255);
+    const auto component = slash == std::string_view::npos ? system
+                                                           : endpoint::parse_integer(text.substr(slash + 1), 1, 255);
+    if (slash == std::string_view::npos || !system || !component)
+        return endpoint::usage(fmt::format("{} is neither off nor SYS/COMP, each from 1 to 255", in_quotes(text)));
+    config.router.heartbeat.emplace(static_cast<std::uint8_t>(*system), static_cast<std::uint8_t>(*component));
+    return {};
+}
+
+SetupResult<void> set_request_streams(Config& config, std::string_view text) {
+    if (text == "off") {
+        config.router.request_streams_hz = 0;
+        return {};
+    }
+    const auto rate = endpoint::parse_integer(text, 1, 1000);
+    if (!rate) return endpoint::usage(fmt::format("{} is neither off nor a rate from 1 to 1000 Hz", in_quotes(text)));
+    config.router.request_streams_hz = static_cast<std::uint16_t>(*rate);
+    return {};
+}
+
+SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
+    const auto timeout = endpoint::parse_duration(text);
+    if (timeout && timeout->count() <= 0) return endpoint::usage("a route needs some time above 0");
+    return endpoint::put(timeout, config.router.route_timeout);
+}
+
+SetupResult<void> set_capacity(Config& config, std::string_view text) {
+    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 36;
+    const auto size = endpoint::parse_size(text);
+    if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
+        return endpoint::usage(fmt::format("{} is no power of two from 64k to 64G", in_quotes(text)));
+    return endpoint::put(size, config.ring.capacity_bytes);
+}
+
+SetupResult<void> set_ring_name(Config& config, std::string_view text) {
+    if (!is_name(text))
+        return endpoint::usage(
+            fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
+    config.ring.name = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_full(Config& config, std::string_view text) {
+    if (text == "wait")
+        return endpoint::usage(
+            "a router waits for no reader: type evict, which tells the reader what it missed, or drop_newest");
+    constexpr std::array<std::string_view, 2> choices{"evict", "drop_newest"};
+    bool drops = false;
+    if (auto chosen = put_choice(text, choices, drops); !chosen) return chosen;
+    config.ring.full = drops ? WhenFull::drop_newest : WhenFull::evict;
+    return {};
+}
+
+SetupResult<void> set_mode(Config& config, std::string_view text) {
+    std::uint32_t mode = 0;
+    const bool octal = text.size() == 4 && text[0] == '0' &&
+                       text.find_first_not_of("01234567") == std::string_view::npos;
+    for (const char c : text) mode = mode * 8 + static_cast<std::uint32_t>(c - '0');
+    if (!octal)
+        return endpoint::usage(
+            fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", in_quotes(text)));
+    config.ring.mode = static_cast<std::uint16_t>(mode);
+    return {};
+}
+
+SetupResult<void> set_record_path(Config& config, std::string_view text) {
+    if (auto good = endpoint::check_path(endpoint::Scheme::tlog, text); !good) return good;
+    config.record.path = std::string(text);
+    return {};
+}
+
+constexpr std::array<std::string_view, 2> components{"system", "drop"};
+constexpr std::array<std::string_view, 2> targets{"drop", "flood"};
+constexpr std::array<std::string_view, 4> levels{"debug", "info", "warning", "error"};
+
+constexpr std::array keys{
+    ConfigKey{"router", "dedup_ms", "0",
+              [](Config& c, std::string_view t) {
+                  return endpoint::put(endpoint::parse_integer(t, 0, 60'000), c.router.dedup_ms);
+              }},
+    ConfigKey{"router", "unknown_component", "system",
+              [](Config& c, std::string_view t) { return put_choice(t, components, c.router.unknown_component); }},
+    ConfigKey{"router", "unknown_target", "drop",
+              [](Config& c, std::string_view t) { return put_choice(t, targets, c.router.unknown_target); }},
+    ConfigKey{"router", "route_timeout", "60", set_route_timeout},
+    ConfigKey{"router", "heartbeat", "off", set_heartbeat},
+    ConfigKey{"router", "request_streams", "off", set_request_streams},
+    ConfigKey{"ring", "name", "", set_ring_name},
+    ConfigKey{"ring", "capacity", "8MiB", set_capacity},
+    ConfigKey{"ring", "full", "evict", set_full},
+    ConfigKey{"ring", "mode", "0600", set_mode},
+    ConfigKey{"record", "path", "", set_record_path},
+    ConfigKey{"record", "rotate_bytes", "",
+              [](Config& c, std::string_view t) {
+                  return endpoint::put(endpoint::parse_rotate_bytes(t), c.record.rotate_bytes);
+              }},
+    ConfigKey{"record", "rotate_every", "",
+              [](Config& c, std::string_view t) {
+                  return endpoint::put(endpoint::parse_rotate_every(t), c.record.rotate_every);
+              }},
+    ConfigKey{"log", "level", "info", [](Config& c, std::string_view t) { return put_choice(t, levels, c.log_level); }},
+    ConfigKey{
+        "web", "listen", "127.0.0.1:8088",
+        [](Config& c, std::string_view t) { return endpoint::put(endpoint::parse_host_port(t, {}), c.web.listen); }},
+};
+
+constexpr bool is_router_key(const ConfigKey& key) { return key.section == "router"; }
+static_assert(std::ranges::equal(keys | std::views::filter(is_router_key), endpoint::router_keys, {}, &ConfigKey::name));
+
+constexpr std::array<std::string_view, 5> sections{"router", "ring", "record", "log", "web"};
+
+}  // namespace
+
+std::span<const ConfigKey> config_keys() noexcept { return keys; }
+std::span<const std::string_view> config_sections() noexcept { return sections; }
+
+}  // namespace mavloom::config::detail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The asking side of control.hpp.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <nlohmann/json.hpp>
+
+#include "mavloom/control/control.hpp"
+#include "mavloom/net/run_folder.hpp"
+
+namespace mavloom::control {
+
+namespace asio = boost::asio;
+using Local = asio::local::stream_protocol;
+using boost::system::error_code;
+
+SetupResult<std::filesystem::path> control_path(std::string_view name) {
+    return net::run_path(name, "ctl", "control socket");
+}
+
+namespace {
+
+SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        lines.emplace_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    const auto last = lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
+    if (!last.is_object() || !last.value("/ok"_json_pointer, nlohmann::json()).is_boolean())
+        return setup_error(SetupCode::unreachable, "the router's answer was cut off");
+    if (!last["ok"].get<bool>()) {
+        const auto why = last.value("/error"_json_pointer, nlohmann::json());
+        return setup_error(SetupCode::unreachable, why.is_string() ? why.get<std::string>() : "the router refused");
+    }
+    lines.pop_back();
+    return lines;
+}
+
+}  // namespace
+
+SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::string_view request,
+                                                 std::chrono::milliseconds limit) {
+    const auto path = control_path(name);
+    if (!path) return tl::unexpected(path.error());
+    asio::io_context context;
+    Local::socket socket(context);
+    error_code error;
+    socket.connect(Local::endpoint(path->string()), error);
+    if (error)
+        return setup_error(SetupCode::not_found, fmt::format("no router called '{}' runs here ({}: {})", name,
+                                                             path->string(), error.message()));
+    // The router closes behind the answer, because nothing more is asked.
+    std::string input, output = std::string(request) + "\n";
+    bool done = false;
+    asio::async_write(
+        socket, asio::buffer(output), [&](error_code e, std::size_t) {  // who turns us away may still say why
+            socket.shutdown(Local::socket::shutdown_send, e);
+            asio::async_read(socket, asio::dynamic_buffer(input), [&](error_code, std::size_t) { done = true; });
+        });
+    context.run_for(limit);
+    if (!done)
+        return setup_error(SetupCode::unreachable,
+                           fmt::format("router '{}' gave no answer within {} ms", name, limit.count()));
+    return answer_of(input);
+}
+
+}  // namespace mavloom::control

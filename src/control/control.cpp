@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/control/control.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <boost/asio/io_context.hpp>
+#include <cerrno>
+#include <system_error>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "control/sessions.hpp"
+#include "mavloom/base/thread.hpp"
+#include "mavloom/net/fd.hpp"
+
+namespace mavloom::control {
+
+namespace {
+
+constexpr std::size_t most_sessions = 64;  // of each kind: more are turned away
+constexpr auto socket_mode = S_IRUSR | S_IWUSR;
+
+// 0: there is nothing.
+ino_t inode_of(const std::filesystem::path& path) noexcept {
+    struct stat status {};
+    return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+}
+
+tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
+    return setup_error(
+        SetupCode::in_use,
+        fmt::format("{} is served by a router that runs; --name gives this one another name", socket.string()));
+}
+
+// NAME.ctl.lock beside the socket, locked for as long as a router serves the name; the kernel frees it whatever end the router meets. Mode 0600: nobody
+// else can open it, and so hold it. Whoever gets the lock may take away a socket that is left, for its router is gone.
+class NameLock {
+public:
+    NameLock() = default;
+    NameLock(const NameLock&) = delete;
+    NameLock& operator=(const NameLock&) = delete;
+    ~NameLock() {
+        if (fd_ && is_named(fd_.get())) ::unlink(path_.c_str());
+    }
+
+    [[nodiscard]] SetupResult<void> take(const std::filesystem::path& socket) {
+        path_ = socket.string() + ".lock";
+        while (!fd_) {
+            net::Fd fd(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, socket_mode));
+            const bool is_others = !fd && errno == EACCES &&
+                                   inode_of(path_) != 0;  // who left or holds it is another user
+            if (is_others) return served(socket);
+            if (!fd) return system_error(fmt::format("control socket {}", path_), errno);
+            if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
+                return errno == EWOULDBLOCK ? served(socket)
+                                            : system_error(fmt::format("control socket {}", path_), errno);
+            if (is_named(fd.get())) fd_ = std::move(fd);
+        }
+        return {};
+    }
+
+private:
+    // Not so once the router that locked it before has ended meanwhile, and taken the file with it.
+    [[nodiscard]] bool is_named(int fd) const {
+        struct stat held {};
+        return ::fstat(fd, &held) == 0 && held.st_ino == inode_of(path_);
+    }
+
+    std::string path_;
+    net::Fd fd_;
+};
+
+// Accepts for as long as it lives. Sessions keep a share of `places_`: its use count tells how many there are.
+template <class Protocol, class Session>
+class Acceptor {
+public:
+    Acceptor(asio::io_context& context, Served& served) : acceptor_(context), retry_(context), served_(served) {}
+
+    void open(const typename Protocol::endpoint& endpoint) {
+        acceptor_.open(endpoint.protocol());
+        if constexpr (std::is_same_v<Protocol, Local>) ::fchmod(acceptor_.native_handle(), socket_mode);
+        if constexpr (std::is_same_v<Protocol, Tcp>) acceptor_.set_option(asio::socket_base::reuse_address(true));
+        acceptor_.bind(endpoint);
+        acceptor_.listen();
+    }
+    void accept() {
+        acceptor_.async_accept([this](error_code error, typename Protocol::socket socket) {
+            if (error == asio::error::operation_aborted) return;
+            if (error) return accept_later();  // no descriptors are left, say
+            if (static_cast<std::size_t>(places_.use_count()) <= most_sessions)
+                std::make_shared<Session>(std::move(socket), served_, places_)->read();
+            else Session::turn_away(socket);
+            accept();
+        });
+    }
+    [[nodiscard]] auto local() const { return acceptor_.local_endpoint(); }
+
+private:
+    void accept_later() {
+        retry_.expires_after(std::chrono::seconds(1));
+        retry_.async_wait([this](error_code error) {
+            if (!error) accept();
+        });
+    }
+
+    typename Protocol::acceptor acceptor_;
+    asio::steady_timer retry_;
+    Served& served_;
+    std::shared_ptr<void> places_ = std::make_shared<char>();
+};
+
+tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::system_error& error) {
+    return system_error(what, error.code().value());
+}
+
+}  // namespace
+
+class Control::Impl {
+public:
+    explicit Impl(Served& served) : served_(served), control_(context_, served), metrics_(context_, served) {}
+    // What a session has posted holds that session, whose socket needs the context.
+    ~Impl() {
+        context_.stop();
+        if (thread_.joinable()) thread_.join();
+        served_.drop_posted();
+        if (!socket_.empty() && inode_of(socket_) == inode_) ::unlink(socket_.c_str());
+    }
+
+    SetupResult<void> open(const ControlOptions& options) {
+        if (!options.socket.empty())
+            if (auto opened = open_socket(options.socket); !opened) return opened;
+        return options.metrics ? open_metrics(*options.metrics) : SetupResult<void>{};
+    }
+
+    void start() {
+        if (!socket_.empty()) control_.accept();
+        if (metrics_port() != 0) metrics_.accept();
+        thread_ = thread_without_signals([this] { context_.run(); });
+    }
+
+    [[nodiscard]] std::uint16_t metrics_port() const noexcept { return metrics_port_; }
+
+private:
+    SetupResult<void> open_socket(const std::filesystem::path& path) {
+        if (auto taken = name_.take(path); !taken) return taken;
+        if (auto free = remove_left_over(path); !free) return free;
+        try {
+            control_.open(Local::endpoint(path.string()));
+            socket_ = path;
+            inode_ = inode_of(path);
+        } catch (const boost::system::system_error& error) {
+            return error_of(fmt::format("control socket {}", path.string()), error);
+        }
+        return {};
+    }
+
+    // Looks without waiting: at a socket whose backlog is full somebody listens, too.
+    static SetupResult<void> remove_left_over(const std::filesystem::path& path) {
+        const Local::endpoint there(path.string());
+        const net::Fd probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+        const int error = ::connect(probe.get(), there.data(), static_cast<socklen_t>(there.size())) == 0 ? 0 : errno;
+        if (error == 0 || error == EAGAIN) return served(path);
+        struct stat status {};
+        const bool is_left = error == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
+        if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
+        return {};
+    }
+
+    SetupResult<void> open_metrics(const endpoint::HostPort& address) {
+        try {
+            error_code error;
+            const auto host = asio::ip::make_address(address.host, error);
+            if (error)
+                return setup_error(SetupCode::usage, fmt::format("--metrics takes an address of this machine in "
+                                                                 "numbers, not '{}'",
+                                                                 address.host));
+            metrics_.open(Tcp::endpoint(host, address.port));
+            metrics_port_ = metrics_.local().port();
+            return {};
+        } catch (const boost::system::system_error& error) {
+            return error_of(fmt::format("metrics on {}:{}", address.host, address.port), error);
+        }
+    }
+
+    Served& served_;
+    asio::io_context context_{1};
+    Acceptor<Local, ControlSession> control_;
+    Acceptor<Tcp, MetricsSession> metrics_;
+    std::uint16_t metrics_port_ = 0;
+    NameLock name_;  // outlives the socket
+    std::filesystem::path socket_;
+    ino_t inode_ = 0;  // its own: somebody may have removed it, and another router have made one
+    std::thread thread_;
+};
+
+Control::Control(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Control::~Control() = default;
+std::uint16_t Control::metrics_port() const noexcept { return impl_->metrics_port(); }
+
+SetupResult<std::unique_ptr<Control>> Control::create(Served& served, const ControlOptions& options) {
+    try {
+        auto impl = std::make_unique<Impl>(served);
+        if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
+        impl->start();
+        return std::unique_ptr<Control>(new Control(std::move(impl)));
+    } catch (const boost::system::system_error& error) {  // no descriptors are left, say
+        return error_of("control socket and metrics", error);
+    } catch (const std::system_error& error) {  // no thread
+        return system_error("control socket and metrics", error.code().value());
+    }
+}
+
+}  // namespace mavloom::control

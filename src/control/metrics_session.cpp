@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "control/sessions.hpp"
+
+namespace mavloom::control {
+
+namespace http = boost::beast::http;
+
+constexpr auto http_patience = std::chrono::seconds(10);
+
+struct MetricsSession::Request {
+    http::verb method;
+    std::string target;
+    unsigned version;  // 10 or 11
+    bool keep_alive;
+};
+
+void MetricsSession::turn_away(Tcp::socket& socket) {
+    error_code error;
+    socket.non_blocking(true, error);
+    socket.write_some(asio::buffer(std::string_view("HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\n\r\n")),
+                      error);
+}
+
+void MetricsSession::read() {
+    hang_up_later();
+    asio::async_read_until(socket_, input_, "\r\n\r\n", [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->handle();
+    });
+}
+
+// What waits on the socket then fails, and the last to hold the session lets it go. A wait that has ended but not been told yet is not
+// cancelled by a new one: it looks at the time.
+void MetricsSession::hang_up_later() {
+    deadline_.expires_after(http_patience);
+    deadline_.async_wait([weak = weak_from_this()](error_code error) {
+        const auto self = weak.lock();
+        const bool is_over = !error && self && self->deadline_.expiry() <= std::chrono::steady_clock::now();
+        if (is_over) self->socket_.close(error);
+    });
+}
+
+void MetricsSession::handle() {
+    deadline_.expires_at(asio::steady_timer::time_point::max());  // the router's time is not the client's
+    http::request_parser<http::empty_body> parser;
+    error_code error;
+    input_.consume(parser.put(input_.data(), error));
+    if (error || !parser.is_done()) return;
+    const auto& head = parser.get();
+    answer({head.method(), std::string(head.target()), head.version(), parser.keep_alive()});
+}
+
+void MetricsSession::answer(const Request& request) {
+    if (request.method != http::verb::get && request.method != http::verb::head)
+        return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", "GET and HEAD only\n");
+    if (std::string_view(request.target).substr(0, request.target.find('?')) != "/metrics")
+        return write(request, "404 Not Found", "metrics are at /metrics\n");
+    ask_served(
+        served_, socket_.get_executor(), [](Served& served) { return served.metrics(); },
+        [self = shared_from_this(), request](const Later<std::string>& text) { self->write(request, "200 OK", text()); });
+}
+
+void MetricsSession::write(const Request& request, std::string_view status, std::string_view body) {
+    output_ = fmt::format(
+        "HTTP/{}.{} {}\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nContent-Length: {}\r\n"
+        "Connection: {}\r\n\r\n{}",
+        request.version / 10, request.version % 10, status, body.size(), request.keep_alive ? "keep-alive" : "close",
+        request.method == http::verb::head ? "" : body);
+    hang_up_later();
+    const auto then = [self = shared_from_this(), goes_on = request.keep_alive](error_code error, std::size_t) {
+        if (!error && goes_on) self->read();
+    };
+    asio::async_write(socket_, asio::buffer(output_), then);
+}
+
+}  // namespace mavloom::control

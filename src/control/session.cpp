@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "control/sessions.hpp"
+
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+#include <istream>
+
+namespace mavloom::control {
+
+void ControlSession::turn_away(Local::socket& socket) {
+    error_code error;
+    socket.non_blocking(true, error);
+    socket.write_some(asio::buffer(std::string_view(R"({"ok":false,"error":"too many clients are connected"})"
+                                                    "\n")),
+                      error);
+}
+
+void ControlSession::read() {
+    asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->ask();
+    });
+}
+
+void ControlSession::ask() {
+    std::string line;
+    std::istream stream(&input_);
+    std::getline(stream, line);
+    ask_served(
+        served_, socket_.get_executor(), [line](Served& served) { return served.answer(line); },
+        [self = shared_from_this()](const Later<Lines>& answer) { self->write(answer()); });
+}
+
+void ControlSession::write(const Lines& lines) {
+    output_.clear();
+    for (const auto& line : lines) output_.append(line).push_back('\n');
+    asio::async_write(socket_, asio::buffer(output_), [self = shared_from_this()](error_code error, std::size_t) {
+        if (!error) self->read();
+    });
+}
+
+}  // namespace mavloom::control

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/endpoint/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mavloom::endpoint {
+
+static tl::unexpected<SetupError> refused(const Endpoint& endpoint, std::string_view text) {
+    return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), text));
+}
+
+SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing) {
+    switch (endpoint.scheme) {
+        case Scheme::udpin:
+        case Scheme::udpout:
+        case Scheme::udpbcast:
+        case Scheme::udpmcast:
+        case Scheme::tcpin:
+        case Scheme::tcpout:
+        case Scheme::serial: break;
+        case Scheme::shm:
+            if (routing == RoutingOptions::by_owner)
+                return refused(
+                    endpoint,
+                    "a ring is no link of a router: route --ring NAME writes one and takes what is sent to its "
+                    "inlet; listen, relay and record read it");
+            break;
+        case Scheme::tlog:
+            return refused(endpoint,
+                           "a recording is no link: it is read and written by listen, relay, record and replay");
+    }
+    const EndpointOptions& o = endpoint.options;
+    const std::pair<std::string_view, bool> routed[] = {
+        {"group", !o.group.empty() || o.names_group_mode},
+        {"max_rate", !o.max_rate.empty()},
+        {"max_bytes", o.max_bytes_per_s.has_value()},
+        {"in_allow", !o.in_allow.empty()},
+        {"in_block", !o.in_block.empty()},
+        {"out_allow", !o.out_allow.empty()},
+        {"out_block", !o.out_block.empty()},
+        {"tap", o.tap},
+        {"private", o.is_private},
+        {"heartbeat", o.heartbeat.has_value()},
+    };
+    for (const auto& [name, set] : routed) {
+        if (set && routing == RoutingOptions::refused)
+            return refused(endpoint,
+                           fmt::format("option {}= is for mavloom route, which decides what goes where", name));
+    }
+    if (endpoint.scheme == Scheme::shm && !o.verify_key_file.empty())
+        return refused(
+            endpoint,
+            "verify= belongs to the endpoint that the frames came in by; who wrote the ring has checked them");
+    if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
+        return refused(endpoint, "ttl=0 keeps the datagrams of a group on this machine; others need 1 to 255");
+    const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);
+    if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
+        return refused(endpoint, "all who are heard here are one link; max_peers= has no meaning");
+    constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // offsets within a queue have 32 bits
+    if (o.queue_bytes > most_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
+    return {};
+}
+
+SetupResult<void> check_destination(const Endpoint& endpoint) {
+    const auto& [host, port] = endpoint.address;
+    const bool broadcast = endpoint.scheme == Scheme::udpbcast;
+    const bool udp = endpoint.scheme == Scheme::udpout || broadcast;
+    if (host.empty()) return refused(endpoint, "a destination needs a host, as in 127.0.0.1");
+    if (port == 0) return refused(endpoint, "port 0 is no destination; name the port that the far side listens on");
+    const auto address = net::Address::parse(host, port);
+    if (!address) return {};
+    if (address->is_any()) {
+        return refused(
+            endpoint,
+            fmt::format(
+                "{} is no destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}",
+                host, udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
+                address->is_v4() ? "127.0.0.1" : "[::1]", port));
+    }
+    if (address->is_multicast())
+        return refused(endpoint, fmt::format("{} is a multicast group: udpmcast://{}", host, address->text()));
+    if (address->is_broadcast() && !broadcast)
+        return refused(endpoint, fmt::format("{} is the broadcast address: udpbcast://{}", host, address->text()));
+    return {};
+}
+
+SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint) {
+    const auto& bind = endpoint.options.bind;
+    if (!bind) return std::nullopt;
+    const auto address = net::Address::parse(bind->host, bind->port);
+    if (!address)
+        return refused(endpoint, fmt::format("bind= takes an address of this machine in numbers, not '{}'", bind->host));
+    return address;
+}
+
+SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
+    if (auto good = check_supported(endpoint, routing); !good) return good;
+    const auto scheme = endpoint.scheme;
+    if (scheme != Scheme::udpout && scheme != Scheme::udpbcast && scheme != Scheme::tcpout) return {};
+    if (auto good = check_destination(endpoint); !good) return good;
+    const auto local = local_address(endpoint);
+    if (!local) return tl::unexpected(local.error());
+    const auto far = net::Address::parse(endpoint.address.host, endpoint.address.port);
+    if (*local && far && (*local)->family() != far->family())
+        return refused(endpoint, fmt::format("bind={} is of another family than {}", (*local)->text(), far->text()));
+    return {};
+}
+
+}  // namespace mavloom::endpoint

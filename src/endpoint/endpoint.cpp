@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/endpoint/endpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "mavloom/base/name.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+
+namespace mavloom::endpoint {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> names{"udpin",  "udpout", "udpbcast", "udpmcast", "tcpin",
+                                                "tcpout", "serial", "shm",      "tlog"};
+
+// Spellings of other programs, with what they are here. pymavlink's `udp:` listens, other programs' sends: it has to be said.
+struct Foreign {
+    std::string_view scheme;
+    std::string_view advice;
+};
+
+constexpr std::array foreign_schemes{
+    Foreign{"udp", "does not say which side listens; type udpin://{0} to listen, udpout://{1} to send"},
+    Foreign{"tcp", "does not say which side listens; type tcpout://{1} to connect, tcpin://{0} to listen"},
+    Foreign{"udpserver", "is written udpin://{0}"},
+    Foreign{"udps", "is written udpin://{0}"},
+    Foreign{"udpclient", "is written udpout://{1}"},
+    Foreign{"udpc", "is written udpout://{1}"},
+    Foreign{"tcpserver", "is written tcpin://{0}"},
+    Foreign{"tcps", "is written tcpin://{0}"},
+    Foreign{"tcpclient", "is written tcpout://{1}"},
+    Foreign{"tcpc", "is written tcpout://{1}"},
+    Foreign{"udpb", "is written udpbcast://{1}"},
+    Foreign{"mcast", "is written udpmcast://239.255.145.50:14550"},
+    Foreign{"uart", "is written serial:///dev/ttyACM0?baud=57600"},
+    Foreign{"file", "is written tlog://PATH for a recording"},
+};
+
+// pymavlink's way to write addresses: no slashes. Its `tcp:` connects.
+struct Short {
+    std::string_view prefix;
+    Scheme scheme;
+};
+
+constexpr std::array short_forms{Short{"udpin:", Scheme::udpin}, Short{"udpout:", Scheme::udpout},
+                                 Short{"tcpin:", Scheme::tcpin}, Short{"tcp:", Scheme::tcpout}};
+
+struct Split {
+    Scheme scheme = Scheme::udpin;
+    std::string_view rest;   // address or path
+    std::string_view query;  // behind '?'
+    bool has_query = false;
+    bool plain_path = false;      // a path as the shell gives it: percent signs are percent signs
+    std::string_view comma_baud;  // "/dev/ttyACM0,57600"
+};
+
+// What to put into the advice for "udp://:14540": the user's own host and port where he typed them.
+std::string advice_for(std::string_view advice, std::string_view rest) {
+    while (!rest.empty() && rest.front() == '/') rest.remove_prefix(1);
+    const auto colon = rest.rfind(':');
+    const auto host = colon == std::string_view::npos ? std::string_view{} : rest.substr(0, colon);
+    const auto tail = colon == std::string_view::npos ? rest : rest.substr(colon + 1);
+    const bool has_port = parse_integer(tail, 0, 65535).has_value();
+    const auto port = has_port ? tail : std::string_view("14550");
+    const auto given = !host.empty() ? host : has_port ? std::string_view{} : rest;
+    const bool anywhere = given.empty() || given == "0.0.0.0" || given == "[::]";
+    const std::string listening = fmt::format("{}:{}", given.empty() ? "0.0.0.0" : shown(given), port);
+    const std::string calling = fmt::format("{}:{}", anywhere ? "HOST" : shown(given), port);
+    return fmt::format(fmt::runtime(advice), listening, calling);
+}
+
+tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_view rest) {
+    for (const Foreign& foreign : foreign_schemes)
+        if (foreign.scheme == scheme) return usage(fmt::format("'{}' {}", scheme, advice_for(foreign.advice, rest)));
+    auto hint = did_you_mean(scheme, names);
+    if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(names, ", "));
+    return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
+}
+
+// Whether `text` begins with SCHEME://, known or not.
+bool names_scheme(std::string_view text) {
+    const auto slashes = text.find("://");
+    return slashes != std::string_view::npos && text.substr(0, slashes).find('?') == std::string_view::npos &&
+           text.front() != '/' && text.front() != '.';
+}
+
+bool is_short_form(std::string_view text) {
+    return std::any_of(short_forms.begin(), short_forms.end(),
+                       [&](const Short& form) { return text.starts_with(form.prefix); });
+}
+
+// "127.0.0.1:14550" and everything else that names no scheme.
+tl::unexpected<SetupError> no_scheme(std::string_view text) {
+    const auto address = parse_host_port(text, {});
+    if (address && check_address(Scheme::udpout, *address))
+        return usage(
+            fmt::format("it does not say how to get there; type udpout://{0} to send, udpin://{0} to listen, or "
+                        "tcpout://{0} to connect",
+                        text));
+    if (address) return usage(fmt::format("it does not say how to get there; type udpin://{} to listen", text));
+    const bool port = text.size() > 1 && text.front() == ':' && parse_port(text.substr(1)).has_value();
+    if (port || (parse_integer(text, 1, 65535).has_value()))
+        return usage(fmt::format("it does not say how to get there; type udpin://0.0.0.0:{} to listen",
+                                 port ? text.substr(1) : text));
+    const auto colon = text.find(':');
+    if (colon != std::string_view::npos && colon != 0) {
+        const auto prefix = text.substr(0, colon);
+        if (std::find(names.begin(), names.end(), prefix) != names.end())
+            return usage(fmt::format("the slashes are missing; type {}://{}", prefix, shown(text.substr(colon + 1))));
+        return unknown_scheme(prefix, text.substr(colon + 1));
+    }
+    if (text.find('/') != std::string_view::npos || text.find('.') != std::string_view::npos)
+        return usage(fmt::format(
+            "it names no scheme; type tlog://{0} if it is a recording, udpout://{0}:14550 if it is a host", shown(text)));
+    return usage(fmt::format("it names no scheme; type for example udpin://0.0.0.0:14550 or shm://{}",
+                             is_name(text) ? shown(text) : "NAME"));
+}
+
+SetupResult<Split> split(std::string_view text) {
+    Split result;
+    const auto query = query_of(text);
+    result.has_query = query.has_value();
+    result.query = query.value_or(std::string_view{});
+    result.rest = query ? text.substr(0, text.size() - query->size() - 1) : text;
+    if (names_scheme(text)) {
+        const auto slashes = text.find("://");
+        const auto scheme = text.substr(0, slashes);
+        const auto found = std::find(names.begin(), names.end(), scheme);
+        result.rest.remove_prefix(slashes + 3);
+        if (found == names.end()) return unknown_scheme(scheme, result.rest);
+        result.scheme = static_cast<Scheme>(found - names.begin());
+        return result;
+    }
+    if (!is_short_form(text) && names_recording(result.rest)) {
+        result.scheme = Scheme::tlog;
+        result.plain_path = true;
+        return result;
+    }
+    const auto comma = result.rest.rfind(',');
+    const bool has_comma = comma != std::string_view::npos;
+    if (result.rest.starts_with("/dev/") || (result.rest.starts_with('/') && has_comma)) {
+        result.scheme = Scheme::serial;
+        result.plain_path = true;
+        if (!has_comma) return result;
+        result.comma_baud = result.rest.substr(comma + 1);
+        if (result.comma_baud.empty())
+            return usage(fmt::format("the baud rate behind the comma is missing; type {}57600", shown(result.rest)));
+        result.rest = result.rest.substr(0, comma);
+        return result;
+    }
+    for (const Short& form : short_forms) {
+        if (!result.rest.starts_with(form.prefix)) continue;
+        result.scheme = form.scheme;
+        result.rest.remove_prefix(form.prefix.size());
+        return result;
+    }
+    return no_scheme(result.rest);
+}
+
+SetupResult<void> set_place(Endpoint& endpoint, const Split& parts) {
+    if ((set_of(endpoint.scheme) & address_schemes) != 0) {
+        auto address = parse_host_port(parts.rest, scheme_name(endpoint.scheme));
+        if (!address) return tl::unexpected(std::move(address.error()));
+        endpoint.address = std::move(*address);
+        return check_address(endpoint.scheme, endpoint.address);
+    }
+    auto path = parts.plain_path ? SetupResult<std::string>(std::string(parts.rest)) : percent_decoded(parts.rest);
+    if (!path) return tl::unexpected(std::move(path.error()));
+    endpoint.path = std::move(*path);
+    return check_path(endpoint.scheme, endpoint.path);
+}
+
+SetupResult<void> set_options(Endpoint& endpoint, const Split& parts) {
+    std::vector<OptionText> options;
+    if (parts.has_query) {
+        auto query = split_query(parts.query);
+        if (!query) return tl::unexpected(std::move(query.error()));
+        options = std::move(*query);
+    }
+    if (!parts.comma_baud.empty()) {
+        const auto is_baud = [](const OptionText& option) { return option.key == "baud"; };
+        if (std::any_of(options.begin(), options.end(), is_baud)) return usage("the baud rate stands there twice");
+        options.push_back({"baud", std::string(parts.comma_baud)});
+    }
+    for (const OptionText& option : options)
+        if (auto done = set_endpoint_option(endpoint, option.key, option.value); !done) return done;
+    return {};
+}
+
+SetupResult<Endpoint> parse(std::string_view text) {
+    constexpr std::size_t longest = 8192;
+    if (text.empty()) return usage("it is empty; type for example udpin://0.0.0.0:14550");
+    if (text.size() > longest) return usage(fmt::format("it is longer than {} bytes", longest));
+    const auto parts = split(text);
+    if (!parts) return tl::unexpected(parts.error());
+    Endpoint endpoint;
+    endpoint.scheme = parts->scheme;
+    if (auto done = set_place(endpoint, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = set_options(endpoint, *parts); !done) return tl::unexpected(std::move(done.error()));
+    if (auto good = check_options(endpoint); !good) return tl::unexpected(std::move(good.error()));
+    return endpoint;
+}
+
+}  // namespace
+
+std::string ring_is_no_endpoint(const Endpoint& endpoint) {
+    return fmt::format(
+        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
+        "send there",
+        endpoint.label(), endpoint.path);
+}
+
+bool calls_somebody(Scheme scheme) noexcept {
+    return scheme == Scheme::udpout || scheme == Scheme::udpbcast || scheme == Scheme::udpmcast ||
+           scheme == Scheme::tcpout || scheme == Scheme::serial;
+}
+
+std::string_view scheme_name(Scheme scheme) noexcept { return names[static_cast<std::size_t>(scheme)]; }
+
+std::span<const std::string_view> scheme_names() noexcept { return names; }
+
+std::optional<std::string_view> query_of(std::string_view endpoint) {
+    const auto question = endpoint.find('?');
+    if (question == std::string_view::npos) return std::nullopt;
+    const bool is_path = !names_scheme(endpoint) && !is_short_form(endpoint) && !endpoint.starts_with("/dev/");
+    if (is_path && names_recording(endpoint) && !names_recording(endpoint.substr(0, question))) return std::nullopt;
+    return endpoint.substr(question + 1);
+}
+
+bool names_recording(std::string_view path) noexcept {
+    const auto end = path.find_last_not_of("0123456789");  // of .tlog.12
+    if (end != std::string_view::npos && end + 1 < path.size() && path[end] == '.') path = path.substr(0, end);
+    constexpr std::string_view suffix = ".tlog";
+    if (path.size() <= suffix.size()) return false;
+    return std::ranges::equal(path.substr(path.size() - suffix.size()), suffix, {},
+                              [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+}
+
+std::filesystem::path same_file(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const auto whole = std::filesystem::absolute(path, unknown);
+    const auto real = std::filesystem::weakly_canonical(whole, unknown);
+    return unknown ? path : real;
+}
+
+std::string Endpoint::label() const {
+    if (!options.name.empty()) return options.name;
+    const bool has_address = (set_of(scheme) & address_schemes) != 0;
+    return fmt::format("{}://{}", scheme_name(scheme), has_address ? to_text(address) : path);
+}
+
+SetupResult<Endpoint> parse_endpoint(std::string_view text) {
+    auto endpoint = parse(text);
+    if (!endpoint)
+        return tl::unexpected(std::move(endpoint.error()).within(fmt::format("endpoint {}", in_quotes(text))));
+    return endpoint;
+}
+
+}  // namespace mavloom::endpoint

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "link/local/inlet.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
+
+#include "link/peer_room.hpp"
+#include "mavloom/base/shown.hpp"
+#include "mavloom/net/local.hpp"
+#include "mavloom/net/local_sender.hpp"
+#include "mavloom/wire/datagram_parser.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+struct Sender final : Link {
+    Sender(EndpointId owner, const wire::MessageTable& table, std::string_view from)
+        : Link(owner, {}), address(from), parser(table) {
+        finds_in_ring = true;
+    }
+    void schedule() override {}
+
+    std::string address;  // empty: of all that are not bound
+    wire::DatagramParser parser;
+    MonoTime last_heard{};  // a good frame
+    std::uint64_t datagrams = 0;
+};
+
+struct HashText {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view text) const noexcept { return std::hash<std::string_view>{}(text); }
+};
+
+// What is bound there: the socket's own descriptor does not say.
+struct Place {
+    dev_t device = 0;
+    ino_t number = 0;
+
+    [[nodiscard]] static Place of(const std::filesystem::path& path) noexcept {
+        struct stat status {};
+        return ::lstat(path.c_str(), &status) == 0 ? Place{status.st_dev, status.st_ino} : Place{};
+    }
+    friend bool operator==(const Place&, const Place&) = default;
+};
+
+class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
+public:
+    explicit Inlet(Opening& opening)
+        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table(opening.id)) {}
+    ~Inlet() override;
+
+    SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
+    std::size_t send(const wire::FrameView& frame) override;
+    [[nodiscard]] std::size_t queued_bytes() const override { return 0; }
+    bool close_link(LinkId link) override;
+    void on_io(net::IoEvents events) override;
+    void on_timer(MonoTime now) override;
+
+private:
+    SetupResult<void> bind();
+    void look_at_place();
+    void expire(MonoTime now);
+    void take(const net::LocalDatagram& datagram);
+    [[nodiscard]] Sender* sender_of(const net::LocalDatagram& datagram);
+    [[nodiscard]] Sender* newcomer(const net::LocalDatagram& datagram);
+    [[nodiscard]] bool holds_frame(ByteView datagram);
+    [[nodiscard]] bool make_room();
+    void drop(std::size_t index, std::string_view why);
+
+    static constexpr std::chrono::seconds idle{60}, look_interval{1};
+
+    Core& core_;
+    std::optional<net::LocalSocket> socket_;
+    net::WatchId watch_;
+    std::filesystem::path path_;
+    unsigned mode_ = 0;
+    Place place_;
+    bool told_ = false;  // that it cannot be made anew
+    wire::DatagramParser stranger_;
+    std::vector<std::unique_ptr<Sender>> senders_;
+    std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
+    Sender* last_ = nullptr;  // datagrams come in runs
+    net::TimerId timer_;
+};
+
+// ---- the socket ------------------------------------------------------------------------------------------------------
+
+// Nothing happens where there is no socket, or one of another kind.
+SetupResult<void> take_over(const std::filesystem::path& path) {
+    const auto probe = net::LocalSender::connect(path);
+    if (probe) {
+        const auto process = net::process_serving(path);
+        return setup_error(SetupCode::in_use,
+                           fmt::format("{} is served by {} already; end it, or take another ring", path.string(),
+                                       process ? fmt::format("process {}", *process) : "another process"));
+    }
+    struct stat status {};
+    const bool is_left = probe.error().sys_errno == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
+    if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
+    return {};
+}
+
+SetupResult<void> Inlet::open(const std::filesystem::path& path, unsigned mode) {
+    path_ = path;
+    mode_ = mode;
+    auto bound = bind();
+    if (bound) timer_ = core_.loop().start_timer(core_.now() + look_interval, *this);
+    return bound;
+}
+
+SetupResult<void> Inlet::bind() {
+    if (auto taken = take_over(path_); !taken) return taken;
+    auto socket = net::LocalSocket::open(path_, mode_);
+    if (!socket) return tl::unexpected(std::move(socket).error());
+    place_ = Place::of(path_);
+    auto watch = core_.loop().watch(socket->fd(), true, false, *this);
+    if (!watch) return tl::unexpected(std::move(watch).error());
+    core_.loop().unwatch(watch_);
+    socket_ = std::move(*socket);
+    watch_ = *watch;
+    return {};
+}
+
+Inlet::~Inlet() {
+    core_.loop().cancel_timer(timer_);
+    core_.loop().unwatch(watch_);
+    while (!senders_.empty()) drop(senders_.size() - 1, "closed");
+    if (place_ != Place{} && place_ == Place::of(path_)) ::unlink(path_.c_str());
+}
+
+// Somebody may have removed the socket, or the folder.
+void Inlet::look_at_place() {
+    if (place_ == Place::of(path_)) return;
+    const auto anew = bind();
+    if (anew) core_.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
+    else if (!told_) core_.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
+    told_ = !anew;
+}
+
+void Inlet::on_io(net::IoEvents) {
+    const auto count = socket_->receive();
+    if (!count) return;
+    if (*count == net::LocalSocket::slots) core_.note_more_waits();
+    for (std::size_t i = 0; i < *count; ++i) take((*socket_)[i]);
+}
+
+// ---- senders ---------------------------------------------------------------------------------------------------------
+
+// "/run/app.sock", "@abstract", "unbound".
+std::string name_of(std::string_view address) {
+    if (address.empty()) return "unbound";
+    return address.front() == '\0' ? fmt::format("@{}", printable(address.substr(1))) : printable(address);
+}
+
+void Inlet::take(const net::LocalDatagram& datagram) {
+    Sender* const sender = sender_of(datagram);
+    if (sender == nullptr) return;
+    const WallTime time = datagram.time == WallTime{} ? wall_now() : datagram.time;
+    const std::uint64_t frames_before = sender->counters.frames_in.value();
+    sender->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*sender, event, time); });
+    sender->counters.junk_bytes.add(datagram.cut);
+    sender->counters.implausible_unknown.set(sender->parser.counters().implausible_unknown.value());
+    if (sender->counters.frames_in.value() == frames_before) return;
+    sender->last_heard = core_.now();
+    ++sender->datagrams;
+}
+
+Sender* Inlet::sender_of(const net::LocalDatagram& datagram) {
+    if (last_ != nullptr && last_->address == datagram.from) return last_;
+    const auto known = by_address_.find(datagram.from);
+    last_ = known != by_address_.end() ? known->second : newcomer(datagram);
+    return last_;
+}
+
+Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
+    if (!holds_frame(datagram.bytes)) {
+        counters.stray_bytes.add(datagram.bytes.size() + datagram.cut);
+        return nullptr;
+    }
+    if (!make_room()) {
+        counters.peers_refused.add();
+        return nullptr;
+    }
+    auto sender = std::make_unique<Sender>(info.id, core_.table(info.id), datagram.from);
+    sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
+    sender->last_heard = core_.now();
+    core_.add_link(*sender);
+    by_address_.emplace(sender->address, sender.get());
+    senders_.push_back(std::move(sender));
+    core_.set_up(*senders_.back());
+    return senders_.back().get();
+}
+
+// The checksum of a defined message vouches for the sender; an id without definition alone does not.
+bool Inlet::holds_frame(ByteView datagram) {
+    bool found = false;
+    stranger_.parse(datagram, [&](const wire::ParseEvent& event) {
+        found = found || (event.kind == wire::ParseEvent::Kind::frame && event.info != nullptr);
+    });
+    return found;
+}
+
+bool Inlet::make_room() {
+    if (senders_.size() < info.endpoint.options.max_peers) return true;
+    const auto first = gives_way(senders_, core_.now());
+    if (first == senders_.end()) return false;
+    counters.peers_evicted.add();
+    drop(static_cast<std::size_t>(first - senders_.begin()),
+         "more senders than there may be, and this one was silent for longest");
+    return true;
+}
+
+void Inlet::drop(std::size_t index, std::string_view why) {
+    Sender& sender = *senders_[index];
+    core_.remove_link(sender, why);
+    count_gone(sender);
+    by_address_.erase(sender.address);
+    last_ = nullptr;
+    core_.bury(std::move(senders_[index]));
+    senders_[index] = std::move(senders_.back());
+    senders_.pop_back();
+}
+
+void Inlet::on_timer(MonoTime now) {
+    timer_ = core_.loop().start_timer(now + look_interval, *this);
+    expire(now);
+    look_at_place();
+}
+
+void Inlet::expire(MonoTime now) {
+    for (std::size_t i = senders_.size(); i-- > 0;)
+        if (now - senders_[i]->last_heard >= idle) drop(i, "idle");
+}
+
+bool Inlet::close_link(LinkId link) {
+    const auto sender = std::ranges::find_if(senders_, [&](const auto& s) { return s->id == link; });
+    if (sender == senders_.end()) return false;
+    drop(static_cast<std::size_t>(sender - senders_.begin()), "closed");
+    return true;
+}
+
+std::size_t Inlet::send(const wire::FrameView& frame) {
+    std::size_t taken = 0;
+    for (const auto& sender : senders_) taken += core_.send(*sender, frame) ? 1 : 0;
+    return taken;
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path, unsigned mode) {
+    auto inlet = std::make_unique<Inlet>(opening);
+    if (auto done = inlet->open(path, mode); !done) return tl::unexpected(std::move(done.error()).within("inlet"));
+    return inlet;
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// The inlet is the Unix datagram socket RUN/NAME.in: whole frames, one a datagram. It comes and goes with its router, and what is queued for it outlives
+// that as long as its frames are young enough.
+#include "link/local/shm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "link/local/inlet.hpp"
+#include "link/retry.hpp"
+#include "mavloom/endpoint/checks.hpp"
+#include "mavloom/net/run_folder.hpp"
+#include "mavloom/shm/ring_info.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+constexpr std::size_t one_frame = 1;  // a datagram has room for no second one
+// What a frame can lie in: the queue's memory is one piece.
+constexpr std::size_t most_pieces = 2;
+
+class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
+public:
+    explicit InletSender(Opening& opening)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          peer_(*this, opening.id, queue_limits(opening.endpoint.options)),
+          retry_(core_, *this, *this) {
+        peer_.name = opening.endpoint.label();
+        peer_.signature = signature.get();
+        core_.add_link(peer_);
+    }
+    ~InletSender() override {
+        core_.forget(static_cast<Outlet&>(*this));
+        core_.loop().unwatch(watch_);
+        core_.remove_link(peer_, "closed");
+    }
+
+    SetupResult<void> connect();
+    void connect_or_retry();
+
+    std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
+
+    void flush() override;
+    [[nodiscard]] bool blocked() const override { return !peer_.queue.empty(); }
+    void expire(MonoTime now) override { peer_.counters.queue_age.add(peer_.queue.expire(now)); }
+    void on_io(net::IoEvents events) override;
+    void on_timer(MonoTime now) override {
+        if (retry_.fired(now) && !socket_) connect_or_retry();
+    }
+
+private:
+    struct Peer final : Link {
+        Peer(InletSender& o, EndpointId owner, const net::BlockQueue::Limits& limits) : Link(owner, limits), inlet(o) {}
+        void schedule() override { inlet.core_.schedule(inlet); }
+        InletSender& inlet;
+    };
+
+    [[nodiscard]] bool fill(net::SendBatch& batch);
+    [[nodiscard]] bool submit(net::SendBatch& batch);
+    void took(std::size_t frames);
+    void skip_one();
+    void wait_for_room(bool waits);
+    void lose();
+
+    Core& core_;
+    Peer peer_;
+    net::LocalSender socket_;
+    net::WatchId watch_;
+    Retry retry_;
+    bool full_ = false, was_up_ = false, told_no_way_ = false;
+};
+
+SetupResult<void> InletSender::connect() {
+    auto socket = net::connect_in_run_folder(info.endpoint.path, inlet_suffix);
+    if (!socket) return tl::unexpected(std::move(socket.error()));
+    auto watch = core_.loop().watch(socket->fd(), false, false, *this);
+    if (!watch) return tl::unexpected(std::move(watch.error()));
+    socket_ = std::move(*socket);
+    watch_ = *watch;
+    full_ = false;
+    retry_.settle();
+    retry_.begin_anew();
+    if (std::exchange(was_up_, true)) counters.reconnects.add();
+    if (std::exchange(told_no_way_, false))
+        core_.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
+    peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());  // as its router calls it
+    core_.set_up(peer_);
+    if (!peer_.queue.empty()) core_.schedule(*this);
+    return {};
+}
+
+bool ring_exists(const std::string& name) {
+    const auto names = shm::ring_names();
+    return std::ranges::find(names, name) != names.end();
+}
+
+// The writer of a ring that is there may never serve an inlet: that is said once, as what it is.
+void InletSender::connect_or_retry() {
+    auto done = connect();
+    if (done) return;
+    const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
+    if (!is_absent || (!told_no_way_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
+    if (!std::exchange(told_no_way_, true))
+        core_.notice(info.id,
+                     fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "
+                                 "dropped until somebody does",
+                                 info.endpoint.label()));
+    retry_.fail_silently(done.error());
+}
+
+// The far side went: its router ended, and another may come.
+void InletSender::lose() {
+    core_.loop().unwatch(watch_);
+    socket_ = {};
+    core_.set_down(peer_, "the router went");
+    retry_.later();
+}
+
+void InletSender::on_io(net::IoEvents events) {
+    if (!events.writable) return;
+    wait_for_room(false);
+    core_.schedule(*this);
+}
+
+void InletSender::wait_for_room(bool waits) {
+    if (std::exchange(full_, waits) != waits) core_.loop().change(watch_, false, waits);
+}
+
+void InletSender::flush() {
+    net::SendBatch& batch = core_.send_batch();
+    while (socket_ && !full_ && fill(batch))
+        if (!submit(batch)) break;
+    peer_.queued = !peer_.queue.empty();
+}
+
+bool InletSender::fill(net::SendBatch& batch) {
+    batch.clear();
+    auto position = peer_.queue.front();
+    while (!batch.full() && batch.room().size() >= most_pieces) {
+        const auto gathered = peer_.queue.gather(position, one_frame, batch.room());
+        if (gathered.blocks == 0) break;
+        batch.add(nullptr, gathered.pieces);
+    }
+    return batch.size() != 0;
+}
+
+// False when no more can go now.
+bool InletSender::submit(net::SendBatch& batch) {
+    const auto sent = socket_.send(batch, 0);
+    if (sent) {
+        took(*sent);
+        return true;
+    }
+    if (sent.error() == net::IoError::would_block) {
+        wait_for_room(true);
+    } else if (sent.error() == net::IoError::refused || sent.error() == net::IoError::closed) {
+        lose();
+    } else {
+        skip_one();
+        return true;
+    }
+    return false;
+}
+
+void InletSender::took(std::size_t frames) {
+    std::array<iovec, most_pieces> pieces;
+    auto position = peer_.queue.front();
+    for (; frames != 0; --frames) {
+        const auto gathered = peer_.queue.gather(position, one_frame, pieces);
+        peer_.counters.frames_out.add(gathered.blocks);
+        peer_.counters.bytes_out.add(gathered.bytes);
+    }
+    peer_.queue.pop(position);
+}
+
+// The kernel refuses this one.
+void InletSender::skip_one() {
+    std::array<iovec, most_pieces> pieces;
+    auto position = peer_.queue.front();
+    peer_.counters.frames_not_sent.add(peer_.queue.gather(position, one_frame, pieces).blocks);
+    peer_.queue.pop(position);
+    counters.send_errors.add();
+}
+
+SetupResult<void> check_inlet(const endpoint::Endpoint& endpoint) {
+    const auto& options = endpoint.options;
+    if (!options.from_oldest && !options.lossless) return {};
+    return setup_error(SetupCode::usage, fmt::format("{}: '{}' is for a ring that is read; this one is sent to",
+                                                     endpoint.label(), options.lossless ? "lossless" : "from"));
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_shm(Opening opening) {
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    if (auto checked = check_inlet(endpoint); !checked) return tl::unexpected(std::move(checked.error()));
+    auto inlet = std::make_unique<InletSender>(opening);
+    if (!endpoint.options.required) inlet->connect_or_retry();
+    else if (auto done = inlet->connect(); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    return inlet;
+}
+
+}  // namespace mavloom::link::detail

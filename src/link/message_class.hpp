@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// How important a message is to a full queue, and which newer frame makes an older one worthless (DESIGN.md rule 2, docs/guide/queues.md).
+// Immutable after construction; look-ups allocate nothing. Private to module link.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/wire/frame.hpp"
+#include "mavloom/wire/message_table.hpp"
+
+namespace mavloom::link {
+
+class MessageClasses {
+public:
+    struct Rule {
+        std::uint8_t block_class = 2;
+        bool replaceable = false;
+        std::uint8_t instance_offset = 0, instance_size = 0;  // size 0: the message has no instance field
+    };
+
+    // Without a dialect nobody knows the instance fields: nothing is replaced.
+    explicit MessageClasses(const wire::MessageTable& table);
+    explicit MessageClasses(const dialect::Dialect& dialect);
+
+    // An id without definition is telemetry that is never replaced.
+    [[nodiscard]] Rule of(MessageId id) const noexcept { return id.value < direct_size ? direct_[id.value] : find(id); }
+    // Source, id and instance as one word, never 0 for a replaceable message; 0 for the others.
+    [[nodiscard]] static std::uint64_t key(const wire::FrameView& frame, Rule rule) noexcept;
+
+private:
+    static constexpr std::uint32_t direct_size = 512;
+    struct Far {
+        std::uint32_t id;
+        Rule rule;
+    };
+
+    void set(const wire::MessageInfo& info, const dialect::Field* instance, bool instances_known);
+    [[nodiscard]] Rule find(MessageId id) const noexcept;
+
+    std::array<Rule, direct_size> direct_{};
+    std::vector<Far> far_;  // by id
+};
+
+}  // namespace mavloom::link

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// sign= and verify= of an endpoint: what comes in unsigned or wrongly signed is dropped, what goes out is signed anew.
+#include <algorithm>
+
+#include "link/core.hpp"
+#include "mavloom/wire/crc.hpp"
+
+namespace mavloom::link::detail {
+
+SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::EndpointOptions& options, EndpointId signs_as,
+                                                        KeyStates& states, std::vector<std::string>& notices) {
+    if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
+    auto signature = std::make_unique<Signature>(states);
+    if (!options.verify_key_file.empty()) {
+        auto opened = signature->open(options.verify_key_file, notices);
+        if (!opened) return tl::unexpected(std::move(opened).error());
+        signature->verify_with_.emplace(std::move(*opened));
+        signature->judge(*signature->verify_with_, !options.group.empty());
+    }
+    if (!options.sign_key_file.empty()) {
+        auto opened = signature->open(options.sign_key_file, notices);
+        if (!opened) return tl::unexpected(std::move(opened).error());
+        const auto& [path, key, times] = signature->sign_with_.emplace(std::move(*opened));
+        KeyStates::begin_signing(*times);
+        signature->signer_.emplace(key, static_cast<std::uint8_t>(signs_as.value), times->state.last_signed);
+    }
+    return signature;
+}
+
+SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::vector<std::string>& notices) {
+    auto key = wire::SigningKey::load(path);
+    if (!key) return tl::unexpected(std::move(key).error());
+    return OpenKey{path, *key, states_.open(path, *key, notices)};
+}
+
+// What one endpoint took is a replay at the others with its key. In a group the same frame comes by several links, and late by one of them: there each
+// judges for itself, and together they tell what is too late.
+void Signature::judge(const OpenKey& with, bool in_group) {
+    judge_ = states_.judge_of(with.key);
+    if (!in_group) return;
+    own_.emplace(with.key);
+    for (const auto& stream : judge_->verifier.streams()) own_->restore(stream);
+}
+
+bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
+    using enum wire::Verifier::Verdict;
+    if (!own_) return judge_->verifier.verify(frame, now) == good;
+    if (own_->verify(frame, now) != good) return false;
+    const auto stream = wire::Verifier::stream_of(frame);
+    const auto newest = judge_->verifier.last(stream.key);
+    judge_->verifier.restore(stream);
+    const bool has_no_place = judge_->verifier.last(stream.key) == wire::SigningTime{};
+    return !has_no_place && !judge_->late.is_too_late(stream.key, stream.last, newest, mono_now());
+}
+
+Signature::~Signature() {
+    keep_times();
+    states_.remove(*this);
+}
+
+bool Signature::has_other_keys() const {
+    bool other = false;
+    for (const auto* with : {&verify_with_, &sign_with_}) {
+        if (!*with) continue;
+        const auto now = wire::SigningKey::load((*with)->path);
+        if (!now) return false;
+        other = other || *now != (*with)->key;
+    }
+    return other;
+}
+
+// Another endpoint may have been opened meanwhile with another key from the same file.
+void Signature::keep_times() const {
+    if (judge_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(judge_->verifier.streams()))
+        verify_with_->times->changed = true;
+    if (signer_ && signer_->last() > sign_with_->times->state.last_signed) {
+        sign_with_->times->state.last_signed = signer_->last();
+        sign_with_->times->changed = true;
+    }
+}
+
+bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
+    if (!judge_) return true;
+    if (vouched_ == frame.bytes().data()) {
+        vouched_ = nullptr;
+        return true;
+    }
+    return takes(frame, wire::SigningTime::from(now));
+}
+
+bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {
+    if (!accepts(frame, now)) return false;
+    vouched_ = frame.bytes().data();
+    return true;
+}
+
+// The byte that makes this frame's checksum right: the dialect knows it, else it can be found from the checksum. -1: there is none.
+static int crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
+                        const wire::MessageTable& table) noexcept {
+    if (const wire::MessageInfo* info = table.find(frame.id())) return info->crc_extra;
+    return wire::crc_extra_between(before_extra, frame.checksum());
+}
+
+wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::MessageTable& table, WallTime now) noexcept {
+    if (!signer_ || !frame.is_v2()) return frame;
+    const std::size_t covered = frame.header_length() + frame.payload_length();
+    const ByteView header_and_payload = frame.bytes().first(covered);
+    const int extra = crc_extra_of(frame, wire::crc_update(wire::crc_seed, header_and_payload.subspan(1)), table);
+    if (extra < 0) return frame;
+    std::copy(header_and_payload.begin(), header_and_payload.end(), buffer_.begin());
+    buffer_[2] |= wire::incompat_signed;
+    const ByteView now_covered = ByteView(buffer_).subspan(1, covered - 1);
+    const std::uint16_t before_extra = wire::crc_update(wire::crc_seed, now_covered);
+    store_le(buffer_.data() + covered, wire::crc_update(before_extra, static_cast<std::uint8_t>(extra)));
+    const std::size_t size = signer_->sign(buffer_, covered + wire::checksum_length, wire::SigningTime::from(now));
+    return wire::FrameView::unchecked(ByteView(buffer_).first(size));
+}
+
+}  // namespace mavloom::link::detail

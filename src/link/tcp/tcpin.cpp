@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// tcpin: every client is a link of its own.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "link/retry.hpp"
+#include "link/tcp/tcp.hpp"
+#include "mavloom/endpoint/checks.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+constexpr int accepts_per_turn = 64;
+// Without descriptors a waiting client cannot be taken, and would keep the loop awake.
+constexpr std::chrono::milliseconds accept_pause{100};
+
+class TcpIn;
+
+class Listening final : public net::IoHandler {
+public:
+    Listening(Core& core, TcpIn& owner, net::TcpListener listener)
+        : core_(core), owner_(owner), listener_(std::move(listener)) {}
+    ~Listening() override { core_.loop().unwatch(watch_); }
+    [[nodiscard]] SetupResult<void> start() {
+        auto watch = core_.loop().watch(listener_.fd(), true, false, *this);
+        if (!watch) return tl::unexpected(std::move(watch).error());
+        watch_ = *watch;
+        return {};
+    }
+    void listen(bool on) noexcept { core_.loop().change(watch_, on, false); }
+    void on_io(net::IoEvents events) override;
+
+private:
+    Core& core_;
+    TcpIn& owner_;
+    net::TcpListener listener_;
+    net::WatchId watch_;
+};
+
+class TcpIn final : public OpenEndpoint, public TcpOwner, public net::TimerHandler {
+public:
+    explicit TcpIn(Opening& opening) : OpenEndpoint(opening), core_(opening.core), retry_(opening.core, *this, *this) {}
+    ~TcpIn() override {
+        core_.loop().cancel_timer(pause_);
+        core_.loop().cancel_timer(expiry_);
+        for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
+        core_.forget(static_cast<const OpenEndpoint&>(*this));
+    }
+
+    SetupResult<void> open(const std::vector<net::Address>& addresses);
+    void accept_from(net::TcpListener& listener);
+
+    std::size_t send(const wire::FrameView& frame) override {
+        std::size_t taken = 0;
+        for (const auto& peer : peers_) taken += core_.send(*peer, frame) ? 1 : 0;
+        return taken;
+    }
+    [[nodiscard]] std::size_t queued_bytes() const override {
+        std::size_t sum = 0;
+        for (const auto& peer : peers_) sum += peer->queue.bytes();
+        return sum;
+    }
+    bool close_link(LinkId link) override;
+    void on_resolved(net::Resolver::Answer&& answer) override;
+    void on_closed(TcpPeer& peer, std::string_view why) override;
+    void on_timer(MonoTime now) override;
+
+private:
+    void admit(net::TcpStream stream);
+    void pause();
+    void expire(MonoTime now);
+
+    Core& core_;
+    std::vector<std::unique_ptr<Listening>> listeners_;
+    std::vector<std::unique_ptr<TcpPeer>> peers_;
+    net::TimerId pause_, expiry_;
+    Retry retry_;  // to look the name up again
+    bool told_full_ = false;
+};
+
+void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
+
+SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
+    for (const net::Address& address : addresses) {
+        const bool any_port = address.port() == 0 && info.local_port != 0;
+        auto listener = net::TcpListener::open(any_port ? address.with_port(info.local_port) : address,
+                                               addresses.size() > 1);
+        if (!listener) return tl::unexpected(std::move(listener).error());
+        info.local_port = listener->local().port();
+        auto listening = std::make_unique<Listening>(core_, *this, std::move(*listener));
+        if (auto done = listening->start(); !done) return done;
+        listeners_.push_back(std::move(listening));
+    }
+    core_.notice(info.id, info.label() + ": listening");
+    if (const auto idle = info.endpoint.options.idle) expiry_ = core_.loop().start_timer(core_.now() + *idle, *this);
+    return {};
+}
+
+// Only when the look-up took longer than `add` waits.
+void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
+    auto done = answer ? open(*answer) : tl::unexpected(answer.error());
+    if (done) return;
+    listeners_.clear();
+    retry_.fail(done.error());
+}
+
+void TcpIn::accept_from(net::TcpListener& listener) {
+    for (int i = 0; i < accepts_per_turn; ++i) {
+        auto stream = listener.accept();
+        if (stream) {
+            admit(std::move(*stream));
+        } else {
+            if (stream.error() == net::IoError::no_descriptors || stream.error() == net::IoError::no_buffers) pause();
+            if (stream.error() != net::IoError::closed)
+                return;  // one that gave up while it waited says nothing about the next
+        }
+    }
+}
+
+void TcpIn::admit(net::TcpStream stream) {
+    if (peers_.size() >= info.endpoint.options.max_peers) {
+        counters.peers_refused.add();
+        if (!std::exchange(told_full_, true)) {
+            core_.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
+                                              info.endpoint.label(), peers_.size()));
+        }
+        return;
+    }
+    auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
+    peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
+    peer->signature = signature.get();
+    if (!peer->attach(std::move(stream))) return;
+    core_.add_link(*peer);
+    peers_.push_back(std::move(peer));
+    core_.set_up(*peers_.back());
+}
+
+void TcpIn::pause() {
+    for (const auto& listening : listeners_) listening->listen(false);
+    if (!pause_.valid()) pause_ = core_.loop().start_timer(core_.now() + accept_pause, *this);
+    if (!std::exchange(told_full_, true)) {
+        core_.notice(info.id, fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
+    }
+}
+
+void TcpIn::on_closed(TcpPeer& peer, std::string_view why) {
+    core_.remove_link(peer, why);
+    count_gone(peer);
+    const auto at = std::find_if(peers_.begin(), peers_.end(), [&](const auto& p) { return p.get() == &peer; });
+    core_.bury(std::move(*at));
+    *at = std::move(peers_.back());
+    peers_.pop_back();
+}
+
+bool TcpIn::close_link(LinkId link) {
+    const auto peer = std::ranges::find_if(peers_, [&](const auto& p) { return p->id == link; });
+    if (peer == peers_.end()) return false;
+    (*peer)->drop("closed");
+    return true;
+}
+
+void TcpIn::on_timer(MonoTime now) {
+    if (pause_.valid() && pause_.when <= now) {
+        pause_ = {};
+        for (const auto& listening : listeners_) listening->listen(true);
+    }
+    if (expiry_.valid() && expiry_.when <= now) expire(now);
+    if (retry_.fired(now)) core_.resolve(*this, info.endpoint.address);
+}
+
+void TcpIn::expire(MonoTime now) {
+    const Nanoseconds idle = *info.endpoint.options.idle;
+    MonoTime oldest = now;
+    for (std::size_t i = peers_.size(); i-- > 0;) {
+        if (now - peers_[i]->last_heard >= idle) {
+            peers_[i]->close("idle");
+        } else {
+            oldest = std::min(oldest, peers_[i]->last_heard);
+        }
+    }
+    expiry_ = core_.loop().start_timer(oldest + idle, *this);
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening) {
+    Core& core = opening.core;
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    auto opened = std::make_unique<TcpIn>(opening);
+    constexpr std::chrono::seconds look_up_limit{1};
+    auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
+    if (!answer) return opened;
+    if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
+    if (auto done = opened->open(**answer); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    return opened;
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// tcpout: connects, and connects again, for ever; one link whose queue outlives a lost connection as long as its frames are young enough.
+#include <fmt/format.h>
+
+#include "link/retry.hpp"
+#include "link/tcp/tcp.hpp"
+#include "mavloom/endpoint/checks.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+// A black hole never answers: the next address gets its turn.
+constexpr std::chrono::seconds connect_limit{5};
+constexpr std::chrono::seconds required_limit{5};
+// A connection that lasted this long was a good one: the next failure is a new story.
+constexpr std::chrono::seconds lasting{5};
+
+class TcpOut final : public OpenEndpoint, public TcpOwner, public net::IoHandler, public net::TimerHandler {
+public:
+    TcpOut(Opening& opening, std::optional<net::Address> local)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          local_(local),
+          peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
+          retry_(core_, *this, *this) {
+        peer_.name = opening.endpoint.label();
+        peer_.signature = signature.get();
+        core_.add_link(peer_);
+    }
+    ~TcpOut() override {
+        core_.loop().unwatch(connecting_watch_);
+        core_.remove_link(peer_, "closed");
+        core_.forget(static_cast<const OpenEndpoint&>(*this));
+    }
+
+    // Resolves and connects in the background.
+    void begin() {
+        if (auto answer = core_.resolve_now(info.endpoint.address, std::chrono::milliseconds(250), *this))
+            on_resolved(std::move(*answer));
+    }
+    // The same, but waits for the outcome.
+    SetupResult<void> begin_and_wait();
+
+    std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_.queue.bytes(); }
+    void on_resolved(net::Resolver::Answer&& answer) override;
+    void on_closed(TcpPeer& peer, std::string_view why) override;
+    void on_io(net::IoEvents events) override;
+    void on_timer(MonoTime now) override;
+
+private:
+    SetupResult<void> connect_to(const net::Address& address);
+    SetupResult<void> finish();
+    void fail(const SetupError& error);
+    void on_up_timer(MonoTime now);
+
+    Core& core_;
+    std::optional<net::Address> local_;
+    TcpPeer peer_;
+    std::vector<net::Address> addresses_;  // still to be tried, the next one last
+    net::TcpStream connecting_;
+    net::WatchId connecting_watch_;
+    Retry retry_;  // connecting: give up; down: try again; up: look whether the far side is idle
+    MonoTime up_since_{};
+    bool was_up_ = false;
+};
+
+void TcpOut::on_resolved(net::Resolver::Answer&& answer) {
+    if (!answer) return fail(answer.error());
+    addresses_.assign(answer->rbegin(), answer->rend());
+    if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
+    if (addresses_.empty()) return fail({SetupCode::not_found, 0, "the host has no address of the family of bind="});
+    const net::Address next = addresses_.back();
+    addresses_.pop_back();
+    if (auto done = connect_to(next); !done) fail(done.error());
+}
+
+SetupResult<void> TcpOut::connect_to(const net::Address& address) {
+    auto stream = net::TcpStream::start_connect(address, local_);
+    if (!stream) return tl::unexpected(std::move(stream).error());
+    auto watch = core_.loop().watch(stream->fd(), false, true, *this);
+    if (!watch) return tl::unexpected(std::move(watch).error());
+    connecting_ = std::move(*stream);
+    connecting_watch_ = *watch;
+    retry_.after(connect_limit);
+    return {};
+}
+
+void TcpOut::on_io(net::IoEvents) {
+    if (auto done = finish(); !done) fail(done.error());
+}
+
+SetupResult<void> TcpOut::finish() {
+    core_.loop().unwatch(connecting_watch_);
+    retry_.cancel();
+    auto stream = std::move(connecting_);
+    if (auto done = stream.finish_connect(); !done) return done;
+    if (auto done = peer_.attach(std::move(stream)); !done) return done;
+    addresses_.clear();
+    up_since_ = core_.now();
+    retry_.settle();
+    if (std::exchange(was_up_, true)) counters.reconnects.add();
+    if (const auto idle = info.endpoint.options.idle) retry_.after(*idle);
+    core_.set_up(peer_);
+    return {};
+}
+
+// The next address at once, else all again after a pause; a name is looked up anew.
+void TcpOut::fail(const SetupError& error) {
+    retry_.tell(error.text, "trying again");
+    while (!addresses_.empty()) {
+        const net::Address next = addresses_.back();
+        addresses_.pop_back();
+        if (connect_to(next)) return;
+    }
+    retry_.fail_silently(error);
+}
+
+void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
+    const bool lasted = core_.now() - up_since_ >= lasting || peer.last_heard > up_since_;
+    core_.set_down(peer, why);
+    if (lasted) retry_.begin_anew();
+    retry_.later();
+}
+
+void TcpOut::on_timer(MonoTime now) {
+    if (peer_.up) return on_up_timer(now);
+    if (connecting_) {
+        core_.loop().unwatch(connecting_watch_);
+        const net::Address silent = connecting_.remote();
+        connecting_ = {};
+        return fail({SetupCode::unreachable, 0, fmt::format("{} does not answer", silent.text())});
+    }
+    if (const auto numeric = net::Address::parse(info.endpoint.address.host, info.endpoint.address.port)) {
+        on_resolved(std::vector<net::Address>{*numeric});
+    } else {
+        core_.resolve(*this, info.endpoint.address);
+    }
+}
+
+void TcpOut::on_up_timer(MonoTime now) {
+    const Nanoseconds idle = *info.endpoint.options.idle;
+    if (now - peer_.last_heard >= idle) return peer_.close("idle");
+    retry_.after(peer_.last_heard + idle - now);
+}
+
+SetupResult<void> TcpOut::begin_and_wait() {
+    auto answer = core_.resolve_now(info.endpoint.address, required_limit, *this);
+    if (!answer) return setup_error(SetupCode::unreachable, "no answer about the host's address within 5 s");
+    if (!*answer) return tl::unexpected(std::move(answer->error()));
+    SetupError last{SetupCode::not_found, 0, "the host has no address of the family of bind="};
+    for (const net::Address& address : **answer) {
+        if (local_ && address.family() != local_->family()) continue;
+        auto done = connect_to(address);
+        if (done && !connecting_.wait_connected(required_limit)) {
+            core_.loop().unwatch(connecting_watch_);
+            retry_.cancel();
+            connecting_ = {};
+            done = setup_error(SetupCode::unreachable, fmt::format("{} does not answer", address.text()));
+        } else if (done) {
+            done = finish();
+        }
+        if (done) return {};
+        last = std::move(done).error();
+    }
+    return tl::unexpected(std::move(last));
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening) {
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    if (auto checked = endpoint::check_destination(endpoint); !checked)
+        return tl::unexpected(std::move(checked).error());
+    auto local = endpoint::local_address(endpoint);
+    if (!local) return tl::unexpected(std::move(local).error());
+    auto opened = std::make_unique<TcpOut>(opening, *local);
+    if (!endpoint.options.required || opening.core.running()) {
+        opened->begin();
+    } else if (auto done = opened->begin_and_wait(); !done) {
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    }
+    return opened;
+}
+
+}  // namespace mavloom::link::detail

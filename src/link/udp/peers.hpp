@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The peers of an endpoint that anybody may join: who sends a valid frame is one, a link of its own, until it is silent for `idle`; at most
+// max_peers of them. Private to module link; one owner thread.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "link/udp/udp.hpp"
+
+namespace mavloom::link::detail {
+
+class UdpPeers final : public net::TimerHandler {
+public:
+    // Their endpoint, which has the sockets.
+    class Owner : public UdpOwner {
+    public:
+        // The first is about to come; its link is not up yet.
+        virtual void on_first_peer(const net::Address&) {}
+        virtual void on_last_peer_gone() {}
+    };
+
+    static constexpr std::chrono::seconds default_idle{60};
+
+    UdpPeers(Core& core, OpenEndpoint& endpoint, Owner& owner)
+        : core_(core),
+          endpoint_(endpoint),
+          owner_(owner),
+          idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
+          stranger_(core.table(endpoint.info.id)) {}
+    ~UdpPeers() override;
+
+    // Whose datagram this is, a newcomer's also; null: a stranger's without a valid frame, or there is no room.
+    [[nodiscard]] UdpPeer* of(UdpPort& port, const net::Datagram& datagram) {
+        if (endpoint_.signature) endpoint_.signature->forget_vouched();
+        if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;
+        return newcomer(port, datagram);
+    }
+    std::size_t send(const wire::FrameView& frame);
+    bool close(LinkId link);
+    [[nodiscard]] std::size_t queued_bytes() const;
+    [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
+    void on_timer(MonoTime now) override;
+
+private:
+    UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
+    [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
+    [[nodiscard]] bool make_room();
+    void drop(std::size_t index, std::string_view why);
+
+    Core& core_;
+    OpenEndpoint& endpoint_;
+    Owner& owner_;
+    Nanoseconds idle_;
+    wire::DatagramParser stranger_;
+    std::vector<std::unique_ptr<UdpPeer>> peers_;
+    net::TimerId expiry_;
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+
+#include "link/udp/udp.hpp"
+
+namespace mavloom::link::detail {
+
+// A datagram needs few pieces, for frames lie one behind the other; one of very many would be cut short here and is complete again after a
+// submit.
+static constexpr std::size_t fewest_pieces = 64;
+// ICMP errors of earlier datagrams make a send fail without having been tried; one more of them may come in between.
+static constexpr int most_refusals = 3;
+static constexpr std::chrono::milliseconds retry_after{1};
+
+void UdpPeer::schedule() { port->schedule(*this); }
+
+void UdpPeer::note_heard(MonoTime now) noexcept {
+    last_heard = now;
+    ++datagrams;
+    listens_ = true;
+    refuses_until_ = {};
+}
+
+void UdpPeer::move_to(const net::Address& where) noexcept {
+    if (where == address) return;
+    address = where;
+    listens_ = false;
+    refuses_until_ = {};
+}
+
+void UdpPeer::note_refusal(MonoTime now) noexcept {
+    listens_ = false;
+    refuses_until_ = now + refusal_holds;
+    counters.refused.add(std::exchange(unsettled_frames_, 0));
+    unsettled_bytes_ = 0;
+}
+
+void UdpPeer::count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept {
+    if (now < refuses_until_) return counters.refused.add(frames);
+    unsettled_frames_ += frames;
+    unsettled_bytes_ += bytes;
+    if (listens_) settle();
+}
+
+void UdpPeer::settle() noexcept {
+    counters.frames_out.add(std::exchange(unsettled_frames_, 0));
+    counters.bytes_out.add(std::exchange(unsettled_bytes_, 0));
+}
+
+UdpPeer* UdpOwner::find_peer(UdpPort& port, const net::Address& address) const { return port.peers().find(address); }
+
+UdpPort::~UdpPort() {
+    core_.forget(*this);
+    core_.loop().cancel_timer(retry_);
+    core_.loop().unwatch(watch_);
+}
+
+SetupResult<void> UdpPort::open(const net::Address& local, const net::UdpOptions& options) {
+    auto socket = net::UdpSocket::open(local, options);
+    if (!socket) return tl::unexpected(std::move(socket).error());
+    auto watch = core_.loop().watch(socket->fd(), true, false, *this);
+    if (!watch) return tl::unexpected(std::move(watch).error());
+    core_.loop().unwatch(watch_);
+    refresh_kernel_drops();
+    socket_ = std::move(*socket);
+    watch_ = *watch;
+    last_drops_ = 0;
+    blocked_ = false;
+    return {};
+}
+
+void UdpPort::forget(UdpPeer& peer) noexcept {
+    peers_.remove(peer.address);
+    std::erase(waiting_, &peer);
+    std::erase(unsettled_, &peer);
+    for (Part& part : parts_)
+        if (part.peer == &peer) part.peer = nullptr;
+}
+
+void UdpPort::refresh_kernel_drops() noexcept {
+    if (!socket_) return;
+    const std::uint32_t drops = socket_.kernel_drops();
+    counters_.kernel_drop.add(drops - last_drops_);  // the kernel's counter wraps at 2^32, and so does the difference
+    last_drops_ = drops;
+}
+
+void UdpPort::on_io(net::IoEvents events) {
+    if (events.failed) take_failures();
+    if (events.writable && blocked_) {
+        blocked_ = false;
+        core_.loop().change(watch_, true, false);
+        core_.schedule(*this);
+    }
+    if (events.readable) receive();
+}
+
+void UdpPort::take_failures() {
+    while (const auto failure = socket_.take_failure()) {
+        counters_.send_errors.add();
+        const bool nobody_there = failure->error == net::IoError::refused || failure->error == net::IoError::unreachable;
+        UdpPeer* const peer = nobody_there ? owner_.find_peer(*this, failure->to) : nullptr;
+        if (peer != nullptr) peer->note_refusal(core_.now());
+        owner_.on_send_error(failure->error);
+    }
+}
+
+// A refusal of what was sent in one turn is read in the next.
+void UdpPort::settle_sent() noexcept {
+    for (UdpPeer* const peer : unsettled_) peer->settle();
+    unsettled_.clear();
+    unsettled_turn_ = core_.turns();
+}
+
+void UdpPort::settle() {
+    if (unsettled_.empty()) return;
+    take_failures();
+    settle_sent();
+}
+
+void UdpPort::on_timer(MonoTime) {
+    retry_ = {};
+    for (UdpPeer* peer : waiting_) peer->held = false;
+    core_.schedule(*this);
+}
+
+void UdpPort::receive() {
+    net::ReceiveBatch& batch = core_.receive_batch();
+    const auto count = socket_.receive(batch);
+    if (!count) return;  // would_block, or an ICMP error that `failed` reports as well
+    if (*count == net::ReceiveBatch::slots) core_.note_more_waits();
+    for (std::size_t i = 0; i < *count; ++i) {
+        const net::Datagram datagram = batch[i];
+        UdpPeer* const peer = owner_.peer_of(*this, datagram);
+        if (peer == nullptr) continue;
+        const WallTime time = receive_time(datagram);
+        const std::uint64_t frames_before = peer->counters.frames_in.value();
+        peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
+        peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
+        if (peer->counters.frames_in.value() == frames_before) continue;
+        peer->note_heard(core_.now());
+    }
+}
+
+void UdpPort::expire(MonoTime now) {
+    for (UdpPeer* peer : waiting_) peer->counters.queue_age.add(peer->queue.expire(now));
+}
+
+void UdpPort::flush() {
+    if (blocked_) return;
+    net::SendBatch& batch = core_.send_batch();
+    batch.clear();
+    parts_.clear();
+    for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
+        UdpPeer& peer = *waiting_[i];
+        auto position = peer.queue.front();
+        while (!peer.held) {
+            if ((batch.full() || batch.room().size() < fewest_pieces) && (!submit() || peer.held)) break;
+            const auto gathered = peer.queue.gather(position, mtu_bytes_, batch.room());
+            if (gathered.blocks == 0) break;
+            batch.add(&peer.address, gathered.pieces);
+            parts_.push_back({&peer, position, static_cast<std::uint32_t>(gathered.blocks),
+                              static_cast<std::uint32_t>(gathered.bytes)});
+        }
+    }
+    if (!blocked_) submit();
+    std::erase_if(waiting_, [](UdpPeer* peer) {
+        peer->queued = !peer->queue.empty();
+        peer->held = peer->held && peer->queued;
+        return !peer->queued;
+    });
+}
+
+// Sends the batch; false when the kernel will take no more for now. What was not sent is still queued.
+bool UdpPort::submit() {
+    net::SendBatch& batch = core_.send_batch();
+    int refusals = 0;
+    for (std::size_t first = 0; first < batch.size();) {
+        const auto sent = socket_.send(batch, first);
+        if (!sent) {
+            recover(first, sent.error(), refusals);
+            if (blocked_) break;
+            continue;
+        }
+        for (std::size_t i = first; i < first + *sent; ++i) account(parts_[i]);
+        first += *sent;
+        refusals = 0;
+    }
+    batch.clear();
+    parts_.clear();
+    return !blocked_;
+}
+
+void UdpPort::account(const Part& part) noexcept {
+    if (part.peer == nullptr) return;
+    UdpPeer& peer = *part.peer;
+    peer.queue.pop(part.until);
+    if (unsettled_turn_ != core_.turns()) settle_sent();
+    const bool was_settled = peer.is_settled();
+    peer.count_sent(part.frames, part.bytes, core_.now());
+    if (was_settled && !peer.is_settled()) unsettled_.push_back(&peer);
+}
+
+// Leaves in `index` the datagram to go on with.
+void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
+    if (error == net::IoError::would_block) return block();
+    if (error == net::IoError::no_buffers) return hold(index);
+    if (error == net::IoError::refused) take_failures();
+    if (error == net::IoError::refused && ++refusals < most_refusals) return;
+    refusals = 0;
+    counters_.send_errors.add();
+    if (const Part& part = parts_[index]; part.peer != nullptr) {
+        part.peer->counters.frames_not_sent.add(part.frames);
+        part.peer->queue.pop(part.until);
+    }
+    ++index;
+    owner_.on_send_error(error);
+}
+
+void UdpPort::block() {
+    blocked_ = true;
+    core_.loop().change(watch_, true, true);
+}
+
+// ENOBUFS comes from a full device queue, and no event tells when it has room again. Other peers may be reached through another device; a
+// peer's datagrams stand together, and the rest of them keep their order by waiting too.
+void UdpPort::hold(std::size_t& index) {
+    UdpPeer* const peer = parts_[index].peer;
+    if (peer != nullptr) peer->held = true;
+    while (index < parts_.size() && parts_[index].peer == peer) ++index;
+    if (!retry_.valid()) retry_ = core_.loop().start_timer(core_.now() + retry_after, *this);
+}
+
+}  // namespace mavloom::link::detail

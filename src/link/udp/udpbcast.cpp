@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// udpbcast: one link that is everybody, until somebody answers; who answers is then fed alone, each a link of its own, until the last of
+// them has been silent for `idle`. With fixed=true the one link stays, sends to everybody and hears everybody.
+#include <fmt/format.h>
+
+#include "link/retry.hpp"
+#include "link/udp/peers.hpp"
+#include "mavloom/endpoint/checks.hpp"
+#include "mavloom/net/interfaces.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+class UdpBroadcast final : public OpenEndpoint, public UdpPeers::Owner, public net::TimerHandler {
+public:
+    UdpBroadcast(Opening& opening, std::optional<net::Address> local)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          local_(local),
+          port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
+          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(opening.id), port_,
+                     net::Address{}),
+          peers_(opening.core, *this, *this),
+          retry_(opening.core, *this, *this) {
+        everybody_.name = opening.endpoint.label();
+        everybody_.signature = signature.get();
+        core_.add_link(everybody_);
+    }
+    ~UdpBroadcast() override {
+        core_.remove_link(everybody_, "closed");
+        port_.forget(everybody_);
+        core_.forget(static_cast<const OpenEndpoint&>(*this));
+    }
+
+    SetupResult<void> start(const net::Resolver::Answer& answer);
+    void fail(const SetupError& error) { retry_.fail(error); }
+
+    std::size_t send(const wire::FrameView& frame) override {
+        if (everybody_.up) return core_.send(everybody_, frame) ? 1 : 0;
+        return peers_.send(frame);
+    }
+    [[nodiscard]] std::size_t queued_bytes() const override { return everybody_.queue.bytes() + peers_.queued_bytes(); }
+    bool close_link(LinkId link) override { return peers_.close(link); }
+    void settle_sent() override { port_.settle(); }
+    void refresh_kernel_drops() override { port_.refresh_kernel_drops(); }
+    void on_resolved(net::Resolver::Answer&& answer) override;
+
+    UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
+    void on_send_error(net::IoError error) override;
+    void on_first_peer(const net::Address& from) override {
+        core_.set_down(everybody_, fmt::format("{} answers", from.text()));
+    }
+    void on_last_peer_gone() override { core_.set_up(everybody_); }
+    void on_timer(MonoTime now) override;
+
+private:
+    Core& core_;
+    std::optional<net::Address> local_;
+    net::OwnAddresses own_;
+    UdpPort port_;
+    UdpPeer everybody_;
+    UdpPeers peers_;
+    Retry retry_;
+    bool told_unreachable_ = false;
+};
+
+SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
+    if (!answer) return tl::unexpected(answer.error());
+    const auto to = std::find_if(answer->begin(), answer->end(), [](const net::Address& a) { return a.is_v4(); });
+    if (to == answer->end()) return setup_error(SetupCode::usage, "IPv6 has no broadcast; udpmcast:// has groups");
+    net::UdpOptions options = udp_options(info.endpoint.options);
+    options.broadcast = true;
+    if (auto done = port_.open(local_.value_or(*net::Address::parse("0.0.0.0", 0)), options); !done) return done;
+    info.local_port = port_.socket().local().port();
+    info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();
+    everybody_.address = *to;
+    core_.set_up(everybody_);
+    return {};
+}
+
+void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
+    if (auto done = start(answer); !done) fail(done.error());
+}
+
+void UdpBroadcast::on_timer(MonoTime) {
+    if (const auto numeric = net::Address::parse(info.endpoint.address.host, info.endpoint.address.port)) {
+        on_resolved(std::vector<net::Address>{*numeric});
+    } else {
+        core_.resolve(*this, info.endpoint.address);
+    }
+}
+
+// A socket on the port that is broadcast to hears itself.
+UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
+    if (datagram.from->port() == info.local_port && own_.contains(*datagram.from, core_.now())) return nullptr;
+    return info.endpoint.options.fixed ? &everybody_ : peers_.of(port, datagram);
+}
+
+void UdpBroadcast::on_send_error(net::IoError error) {
+    if (error == net::IoError::refused) return;  // a peer's port that was closed
+    if (std::exchange(told_unreachable_, true)) return;
+    core_.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
+                                      everybody_.address.text()));
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
+    Core& core = opening.core;
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    if (auto checked = endpoint::check_destination(endpoint); !checked)
+        return tl::unexpected(std::move(checked).error());
+    auto local = endpoint::local_address(endpoint);
+    if (!local) return tl::unexpected(std::move(local).error());
+    const bool required = endpoint.options.required && !core.running();
+    auto opened = std::make_unique<UdpBroadcast>(opening, *local);
+    const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
+    auto answer = core.resolve_now(endpoint.address, limit, *opened);
+    if (!answer && !required) return opened;
+    if (!answer)
+        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
+                                                               endpoint.label(), endpoint.address.host));
+    auto done = opened->start(*answer);
+    if (done) return opened;
+    const bool may_come = !*answer || done.error().code == SetupCode::not_found;
+    if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    opened->fail(done.error());
+    return opened;
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// udpmcast: a group is one link, for whoever is in it hears all that is sent to it. One socket hears the group on its port, which other
+// programs of this machine may share; another sends, from a port of its own, so that own datagrams are known by their source when they loop
+// back, and hears those who answer to that source.
+#include <fmt/format.h>
+
+#include "link/retry.hpp"
+#include "link/udp/peers.hpp"
+#include "mavloom/endpoint/checks.hpp"
+#include "mavloom/net/interfaces.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+class UdpMulticast final : public OpenEndpoint, public UdpOwner, public net::TimerHandler {
+public:
+    UdpMulticast(Opening& opening, const net::Address& group)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
+          hearing_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
+          sending_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
+          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(opening.id), sending_, group),
+          retry_(opening.core, *this, *this) {
+        group_.name = opening.endpoint.label();
+        group_.signature = signature.get();
+        core_.add_link(group_);
+    }
+    ~UdpMulticast() override {
+        core_.remove_link(group_, "closed");
+        sending_.forget(group_);
+    }
+
+    SetupResult<void> join();
+    void fail(const SetupError& error) { retry_.fail(error); }
+
+    std::size_t send(const wire::FrameView& frame) override { return group_.up && core_.send(group_, frame) ? 1 : 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return group_.queue.bytes(); }
+    void settle_sent() override { sending_.settle(); }
+    void refresh_kernel_drops() override {
+        hearing_.refresh_kernel_drops();
+        sending_.refresh_kernel_drops();
+    }
+    UdpPeer* peer_of(UdpPort&, const net::Datagram& datagram) override {
+        const bool own = datagram.from->port() == own_port_ && own_.contains(*datagram.from, core_.now());
+        return own ? nullptr : &group_;
+    }
+    void on_send_error(net::IoError error) override;
+    void on_timer(MonoTime now) override;
+
+private:
+    Core& core_;
+    Nanoseconds idle_;
+    net::OwnAddresses own_;
+    std::uint16_t own_port_ = 0;
+    UdpPort hearing_, sending_;
+    UdpPeer group_;
+    Retry retry_;  // to join, or to join again
+    bool failing_ = false;
+};
+
+SetupResult<void> UdpMulticast::join() {
+    net::UdpOptions options = udp_options(info.endpoint.options);
+    options.device.clear();
+    options.group_interface = group_.address.scope();
+    if (const auto& name = info.endpoint.options.iface; !name.empty()) {
+        const auto index = net::interface_index(name);
+        if (!index) return tl::unexpected(index.error());
+        options.group_interface = *index;
+    }
+    if (!sending_.socket() || failing_) {
+        const auto any = net::Address::parse(group_.address.is_v4() ? "0.0.0.0" : "::", 0);
+        if (auto done = sending_.open(*any, options); !done) return done;
+        own_port_ = sending_.socket().local().port();
+    }
+    options.group = group_.address.with_scope(options.group_interface);
+    if (auto done = hearing_.open(*options.group, options); !done) return done;
+    info.local_port = group_.address.port();
+    info.rcvbuf_bytes = hearing_.socket().receive_buffer_bytes();
+    failing_ = false;
+    retry_.after(idle_);
+    core_.set_up(group_);
+    return {};
+}
+
+void UdpMulticast::on_send_error(net::IoError error) {
+    if (error == net::IoError::refused) return;
+    if (std::exchange(failing_, true)) return;
+    fail({SetupCode::unreachable, 0, "no network reaches the group now"});
+}
+
+// A membership ends with its interface, and the route to a group may lead elsewhere by now: neither is told.
+void UdpMulticast::on_timer(MonoTime now) {
+    const bool heard = group_.last_heard != MonoTime{} && now - group_.last_heard < idle_;
+    if (heard && !failing_) {
+        retry_.begin_anew();
+        retry_.settle();
+        retry_.after(group_.last_heard + idle_ - now);
+    } else if (auto done = join(); !done) {
+        fail(done.error());
+    }
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    const auto group = net::Address::parse(endpoint.address.host, endpoint.address.port);
+    if (!group || !group->is_multicast() || group->port() == 0) {
+        return setup_error(SetupCode::usage,
+                           fmt::format("{}: '{}' is no multicast group with a port, or its interface is not there",
+                                       endpoint.label(), endpoint.address.host));
+    }
+    auto opened = std::make_unique<UdpMulticast>(opening, *group);
+    auto done = opened->join();
+    if (done) return opened;
+    const bool may_come = done.error().code == SetupCode::not_found || done.error().code == SetupCode::unreachable;
+    const bool required = endpoint.options.required && !opening.core.running();
+    if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    opened->fail(done.error());
+    return opened;
+}
+
+}  // namespace mavloom::link::detail

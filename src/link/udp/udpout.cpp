@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// udpout: one far side, one link. The socket is not connected, so that datagrams from elsewhere can be counted; closed ports are learnt of
+// by ICMP.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "link/retry.hpp"
+#include "link/udp/udp.hpp"
+#include "mavloom/endpoint/checks.hpp"
+
+namespace mavloom::link::detail {
+
+namespace {
+
+class UdpOut final : public OpenEndpoint, public UdpOwner, public net::TimerHandler {
+public:
+    UdpOut(Opening& opening, std::optional<net::Address> local)
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          local_(local),
+          idle_(opening.endpoint.options.idle.value_or(std::chrono::seconds(60))),
+          is_name_(!net::Address::parse(opening.endpoint.address.host, 0)),
+          retry_(opening.core, *this, *this) {}
+    ~UdpOut() override {
+        if (peer_) core_.remove_link(*peer_, "closed");
+        if (peer_) port_->forget(*peer_);
+        core_.forget(static_cast<const OpenEndpoint&>(*this));
+    }
+
+    SetupResult<void> start(net::Resolver::Answer answer);
+
+    std::size_t send(const wire::FrameView& frame) override { return peer_ && core_.send(*peer_, frame) ? 1 : 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peer_ ? peer_->queue.bytes() : 0; }
+    void settle_sent() override {
+        if (port_) port_->settle();
+    }
+    void refresh_kernel_drops() override {
+        if (port_) port_->refresh_kernel_drops();
+    }
+    void on_resolved(net::Resolver::Answer&& answer) override;
+
+    UdpPeer* peer_of(UdpPort&, const net::Datagram& datagram) override {
+        if (peer_ && *datagram.from == peer_->address) return peer_.get();
+        counters.wrong_peer.add();
+        return nullptr;
+    }
+    UdpPeer* find_peer(UdpPort&, const net::Address& address) const override {
+        return peer_ && address == peer_->address ? peer_.get() : nullptr;
+    }
+    void on_send_error(net::IoError error) override;
+    void on_timer(MonoTime now) override;
+
+private:
+    SetupResult<void> aim_at(const net::Address& address);
+    SetupResult<void> open_port(const net::Address& address);
+
+    Core& core_;
+    std::optional<net::Address> local_;
+    Nanoseconds idle_;
+    bool is_name_;
+    std::vector<net::Address> addresses_;
+    std::size_t current_ = 0;
+    std::unique_ptr<UdpPort> port_;
+    std::unique_ptr<UdpPeer> peer_;
+    Retry retry_;
+};
+
+SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
+    if (!answer) return tl::unexpected(std::move(answer).error());
+    addresses_ = std::move(*answer);
+    if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
+    if (addresses_.empty()) {
+        return setup_error(SetupCode::usage, fmt::format("'{}' has no address of the family of bind={}",
+                                                         info.endpoint.address.host, local_->text()));
+    }
+    current_ = 0;
+    if (auto done = aim_at(addresses_[0]); !done) return done;
+    if (is_name_ && !retry_.waits()) retry_.after(idle_);
+    return {};
+}
+
+SetupResult<void> UdpOut::open_port(const net::Address& address) {
+    if (port_ && port_->socket().local().family() == address.family()) return {};
+    const net::UdpOptions options = udp_options(info.endpoint.options);
+    const auto any = net::Address::parse(address.is_v4() ? "0.0.0.0" : "::", 0);
+    if (!port_) port_ = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);
+    if (auto done = port_->open(local_.value_or(*any), options); !done) return done;
+    info.local_port = port_->socket().local().port();
+    info.rcvbuf_bytes = port_->socket().receive_buffer_bytes();
+    return {};
+}
+
+// The link stays the same whatever address the far side has.
+SetupResult<void> UdpOut::aim_at(const net::Address& address) {
+    if (auto done = open_port(address); !done) return done;
+    if (!peer_) {
+        peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(info.id), *port_,
+                                          address);
+        peer_->name = info.endpoint.label();
+        peer_->signature = signature.get();
+        core_.add_link(*peer_);
+    }
+    peer_->move_to(address);
+    core_.set_up(*peer_);
+    return {};
+}
+
+void UdpOut::on_resolved(net::Resolver::Answer&& answer) {
+    const bool aimed = peer_ != nullptr;
+    if (aimed && answer && std::find(answer->begin(), answer->end(), peer_->address) != answer->end()) {
+        const auto at = std::find(answer->begin(), answer->end(), peer_->address);
+        current_ = static_cast<std::size_t>(at - answer->begin());
+        addresses_ = std::move(*answer);
+        return;
+    }
+    auto done = start(std::move(answer));
+    if (done) return;
+    retry_.fail(done.error());
+}
+
+void UdpOut::on_send_error(net::IoError error) {
+    if (!peer_) return;
+    const bool refused = error == net::IoError::refused;
+    if (!retry_.failing())
+        retry_.tell(peer_->address.text() + (refused ? " refuses (nobody listens there yet)" : " cannot be reached"),
+                    "sending goes on");
+    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.begin_anew();
+    const bool choice = is_name_ || addresses_.size() > 1;
+    if (choice && !retry_.within(Retry::longest)) retry_.later();
+}
+
+// After a failure the next address, and behind the last one a new look-up; without failure a new look-up when nothing was heard for `idle`.
+void UdpOut::on_timer(MonoTime now) {
+    retry_.fired(now);
+    const bool heard = peer_ && peer_->last_heard != MonoTime{} && now - peer_->last_heard < idle_;
+    if (heard && now - peer_->last_heard < Retry::first) {
+        retry_.settle();
+        retry_.begin_anew();
+    } else if (retry_.failing() && current_ + 1 < addresses_.size()) {
+        ++current_;
+        if (auto done = aim_at(addresses_[current_]); !done) retry_.later();
+    } else if (is_name_ && !heard) {
+        core_.resolve(*this, info.endpoint.address);
+    } else if (retry_.failing() && addresses_.size() > 1) {
+        current_ = 0;
+        if (auto done = aim_at(addresses_[0]); !done) retry_.later();
+    }
+    if (is_name_ && !retry_.waits()) retry_.after(idle_);
+}
+
+}  // namespace
+
+SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
+    Core& core = opening.core;
+    const endpoint::Endpoint& endpoint = opening.endpoint;
+    if (auto checked = endpoint::check_destination(endpoint); !checked)
+        return tl::unexpected(std::move(checked).error());
+    auto local = endpoint::local_address(endpoint);
+    if (!local) return tl::unexpected(std::move(local).error());
+    const bool required = endpoint.options.required;
+    auto opened = std::make_unique<UdpOut>(opening, *local);
+    const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
+    auto answer = core.resolve_now(endpoint.address, limit, *opened);
+    if (!answer) {
+        if (!required || core.running()) return opened;
+        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
+                                                               endpoint.label(), endpoint.address.host));
+    }
+    if (!*answer && !required) {
+        opened->on_resolved(std::move(*answer));
+        return opened;
+    }
+    if (auto done = opened->start(std::move(*answer)); !done)
+        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
+    return opened;
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/name.hpp"
+
+namespace mavloom::net {
+
+namespace {
+
+std::optional<std::filesystem::path> absolute_path_in(const char* variable) {
+    const char* value = std::getenv(variable);
+    if (value == nullptr || *value != '/') return std::nullopt;
+    return value;
+}
+
+// The first that serves is taken.
+std::vector<std::filesystem::path> run_folders() {
+    if (auto only = absolute_path_in("MAVLOOM_RUN")) return {std::move(*only)};
+    std::vector<std::filesystem::path> folders{"/run/mavloom"};
+    if (auto own = absolute_path_in("XDG_RUNTIME_DIR")) folders.push_back(*own / "mavloom");
+    return folders;
+}
+
+SetupResult<void> check_name(std::string_view name) {
+    if (is_name(name)) return {};
+    return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
+}
+
+}  // namespace
+
+SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix, std::string_view what) {
+    constexpr std::size_t most = sizeof(sockaddr_un::sun_path) - 1;
+    if (auto checked = check_name(name); !checked) return tl::unexpected(std::move(checked.error()));
+    for (const auto& folder : run_folders()) {
+        ::mkdir(folder.c_str(), 0755);
+        if (::access(folder.c_str(), W_OK | X_OK) != 0) continue;
+        auto path = folder / fmt::format("{}.{}", name, suffix);
+        if (path.native().size() <= most) return path;
+        return setup_error(SetupCode::permission,
+                           fmt::format("{} {}: a socket's path has at most {} bytes; a shorter name or XDG_RUNTIME_DIR "
+                                       "helps",
+                                       what, path.string(), most));
+    }
+    if (const auto only = absolute_path_in("MAVLOOM_RUN"))
+        return setup_error(SetupCode::permission,
+                           fmt::format("no folder for the {}: MAVLOOM_RUN is {}, which cannot be made or written", what,
+                                       only->string()));
+    return setup_error(
+        SetupCode::permission,
+        fmt::format("no folder for the {}: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set", what));
+}
+
+SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix) {
+    if (auto checked = check_name(name); !checked) return tl::unexpected(std::move(checked.error()));
+    std::string looked_at;
+    std::optional<SetupError> why_not;
+    for (const auto& folder : run_folders()) {
+        const auto path = folder / fmt::format("{}.{}", name, suffix);
+        auto sender = LocalSender::connect(path);
+        if (sender) return sender;
+        if (!why_not && sender.error().code != SetupCode::not_found) why_not = std::move(sender.error());
+        looked_at += fmt::format("{}{}", looked_at.empty() ? "" : " or ", path.string());
+    }
+    if (why_not) return tl::unexpected(std::move(*why_not));
+    return setup_error(SetupCode::not_found, fmt::format("cannot send to {}: {}", looked_at, std::strerror(ENOENT)));
+}
+
+}  // namespace mavloom::net

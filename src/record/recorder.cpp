@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/record/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mavloom::record {
+
+Recorder::Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice)
+    : label_(std::move(label)),
+      renamed_to_(writer.renamed_to()),
+      writer_(std::move(writer)),
+      queue_(std::move(queue)),
+      notice_(std::move(notice)) {}
+
+SetupResult<std::unique_ptr<Recorder>> Recorder::create(std::string label, const std::filesystem::path& path,
+                                                        record::Rotation rotation, Notice notice,
+                                                        std::size_t buffer_bytes) {
+    auto queue = FrameQueue::create(buffer_bytes);
+    if (!queue) return tl::unexpected(std::move(queue.error()));
+    auto writer = record::RotatingWriter::create(path, rotation);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    std::unique_ptr<Recorder> recorder(
+        new Recorder(std::move(label), std::move(*writer), std::move(*queue), std::move(notice)));
+    recorder->thread_ = std::thread([r = recorder.get()] { r->run(); });
+    return recorder;
+}
+
+Recorder::~Recorder() { stop(); }
+
+void Recorder::stop() {
+    if (!thread_.joinable()) return;
+    end();
+    thread_.join();
+}
+
+// What is written goes to the system whenever the queue runs empty: whoever reads the file meanwhile sees it.
+void Recorder::run() {
+    while (queue_->wait()) {
+        SetupResult<void> worst;
+        while (const auto entry = queue_->next())
+            if (auto written = write(*entry); !written) worst = std::move(written);
+        const auto flushed = writer_.flush();
+        count();
+        tell(worst ? flushed : worst);
+    }
+    const auto closed = writer_.close();
+    count();
+    tell(closed);
+    if (const auto lost = writer_.lost_records(); lost != 0)
+        notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
+    finished_.store(true, std::memory_order_release);
+}
+
+SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
+    auto taken = writer_.write(entry.time, entry.frame);
+    count();
+    return taken;
+}
+
+void Recorder::count() noexcept {
+    counters_.frames.set(writer_.written_records());
+    counters_.bytes.set(writer_.written_bytes() - record::time_length * writer_.written_records());
+    counters_.write_error.set(writer_.lost_records());
+}
+
+void Recorder::tell(const SetupResult<void>& result) {
+    if (failing_ == !result.has_value()) return;
+    failing_ = !failing_;
+    notice_(failing_ ? fmt::format("{}: {}; what finds no room in memory meanwhile is counted as write_error", label_,
+                                   result.error().text)
+                     : fmt::format("{}: records are written again", label_));
+}
+
+}  // namespace mavloom::record

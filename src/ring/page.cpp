@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/ring/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mavloom/route/engine.hpp"
+
+namespace mavloom::ring {
+
+static_assert(RingPage::most_gone < route::Engine::max_links);
+
+static void set(Counter* counter, std::uint64_t value) noexcept {
+    if (counter != nullptr) counter->set(value);
+}
+
+SetupResult<RingPage> RingPage::create(const std::string& ring, unsigned mode) {
+    constexpr std::uint32_t of_router = 32;
+    shm::CounterPageOptions options;
+    options.counters = of_router + paged_counters.size() * most_rows;
+    options.links = route::Engine::max_links;
+    options.mode = mode;
+    auto page = shm::CounterPage::create(ring, options);
+    if (!page) return tl::unexpected(std::move(page.error()));
+    return RingPage(std::move(*page));
+}
+
+RingPage::RingPage(shm::CounterPage page)
+    : page_(std::move(page)),
+      records_(page_.add("ring_records")),
+      dropped_(page_.add("ring_dropped")),
+      links_(page_.add("links", shm::CounterType::gauge)),
+      stray_bytes_(page_.add("inlet_stray_bytes")),
+      refused_(page_.add("inlet_refused")),
+      evicted_(page_.add("inlet_evicted")) {
+    others_ = add_words("others_", shm::CounterType::gauge, std::nullopt);
+}
+
+RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link) {
+    Words words;
+    std::ranges::transform(paged_counters, words.begin(), [&](const PagedCounter& counter) {
+        return page_.add(fmt::format("{}{}", before, counter.label), type, link);
+    });
+    return words;
+}
+
+void RingPage::name_link(LinkId link, std::string_view name) {
+    std::erase(gone_, link);  // one that comes again
+    if (rows_.size() < most_rows) add_row(link);
+    while (!page_.name_link(link, name) && !gone_.empty()) {
+        page_.forget_link(gone_.front());
+        gone_.pop_front();
+    }
+}
+
+void RingPage::link_went(LinkId link) {
+    gone_.push_back(link);
+    if (gone_.size() <= most_gone) return;
+    page_.forget_link(gone_.front());
+    gone_.pop_front();
+}
+
+void RingPage::inherit(const std::map<LinkId, std::string>& names) {
+    const auto skipped = names.size() - std::min(names.size(), most_gone);
+    for (auto name = std::next(names.begin(), static_cast<std::ptrdiff_t>(skipped)); name != names.end(); ++name)
+        if (page_.name_link(name->first, name->second)) gone_.push_back(name->first);
+}
+
+void RingPage::remove_row(std::map<LinkId, Words>::iterator row) {
+    for (Counter* const word : row->second) page_.remove(word);
+    rows_.erase(row);
+}
+
+void RingPage::choose_rows(const std::vector<const link::LinkInfo*>& busiest) {
+    const auto is_chosen = [&](LinkId id) {
+        return std::ranges::binary_search(busiest, id, {}, [](const link::LinkInfo* l) { return l->id; });
+    };
+    for (auto row = rows_.begin(); row != rows_.end();) {
+        const auto next = std::next(row);
+        if (!is_chosen(row->first)) remove_row(row);
+        row = next;
+    }
+    for (const link::LinkInfo* link : busiest) add_row(link->id);
+}
+
+void RingPage::add_row(LinkId link) {
+    if (!rows_.contains(link)) rows_.emplace(link, add_words("", shm::CounterType::counter, link));
+}
+
+void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
+                       std::optional<link::EndpointId> inlet, const OfRing& ring) {
+    choose_rows(busiest_links(links, most_rows));
+    link::LinkCounters others;
+    for (const link::LinkInfo& link : links) {
+        const auto row = rows_.find(link.id);
+        if (row == rows_.end()) others.add(*link.counters);
+        else
+            for (std::size_t i = 0; i < paged_counters.size(); ++i)
+                set(row->second[i], (link.counters->*paged_counters[i].word).value());
+    }
+    for (const link::EndpointInfo& endpoint : endpoints) {
+        others.add(endpoint.counters->gone);
+        if (endpoint.id != inlet) continue;
+        set(stray_bytes_, endpoint.counters->stray_bytes.value());
+        set(refused_, endpoint.counters->peers_refused.value());
+        set(evicted_, endpoint.counters->peers_evicted.value());
+    }
+    for (std::size_t i = 0; i < paged_counters.size(); ++i) set(others_[i], (others.*paged_counters[i].word).value());
+    set(records_, ring.records);
+    set(dropped_, ring.dropped);
+    set(links_, links.size());
+}
+
+std::vector<const link::LinkInfo*> busiest_links(const std::vector<link::LinkInfo>& links, std::size_t most) {
+    std::vector<const link::LinkInfo*> all;
+    all.reserve(links.size());
+    for (const link::LinkInfo& link : links) all.push_back(&link);
+    const auto busier = [](const link::LinkInfo* a, const link::LinkInfo* b) {
+        const auto frames = [](const link::LinkInfo* l) {
+            return l->counters->frames_in.value() + l->counters->frames_out.value();
+        };
+        return frames(a) != frames(b) ? frames(a) > frames(b) : a->id < b->id;
+    };
+    if (all.size() > most) {
+        std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(most), busier);
+        all.resize(most);
+    }
+    std::ranges::sort(all, {}, [](const link::LinkInfo* l) { return l->id; });
+    return all;
+}
+
+}  // namespace mavloom::ring

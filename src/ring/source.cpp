@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/ring/source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mavloom/ring/frames.hpp"
+#include "mavloom/route/engine.hpp"
+#include "mavloom/shm/counter_page.hpp"
+#include "mavloom/shm/layout.hpp"
+
+namespace mavloom::ring {
+
+namespace {
+
+// How many records are read in a turn that hold no frame.
+constexpr std::size_t most_empty_records = 4096;
+// Bounds what a writer's link numbers can make us remember: twice the links of a router, so that of who lives nobody is forgotten.
+constexpr std::size_t most_links = 2 * route::Engine::max_links;
+constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two looks for names that were not there
+constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
+
+shm::ReaderOptions reader_options(const endpoint::EndpointOptions& options) {
+    using From = shm::ReaderOptions::From;
+    return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
+}
+
+bool is_echo(std::uint8_t ring_verdict) noexcept { return verdict_of(ring_verdict) == route::Verdict::echo; }
+
+bool is_copy(const shm::RecordInfo& info) noexcept {
+    const auto verdict = verdict_of(info.verdict);
+    return verdict == route::Verdict::duplicate || verdict == route::Verdict::echo;
+}
+
+}  // namespace
+
+RingSource::RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
+                       link::Links& links, Copies copies, const dialect::Dialect* dialect)
+    : endpoint_(endpoint),
+      id_{ids.next()},
+      table_(table),
+      ids_(ids),
+      links_(links),
+      wanted_copies_(copies),
+      dialect_(dialect),
+      follower_(endpoint.path, reader_options(endpoint.options)) {
+    copy_.reserve(shm::max_record_bytes);
+    found_.reserve(shm::max_record_bytes / wire::min_frame_length + 1);
+}
+
+RingSource::~RingSource() {
+    if (inlet_) links_.remove(*inlet_);
+}
+
+SetupResult<void> RingSource::open() {
+    if (follower_.try_open() || !endpoint_.options.required) return {};
+    return tl::unexpected(SetupError(*follower_.error()).within(endpoint_.label()));
+}
+
+std::size_t RingSource::play(link::LinkHandler& handler, std::size_t most) {
+    if (no_inlet_ && !std::exchange(told_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
+    if (held_) return 0;
+    look_for_names();
+    std::size_t played = 0, empty_records = 0;
+    for (more_ = true; played < most && empty_records < most_empty_records;) {
+        if (next_found_ < found_.size()) {
+            hand_over(handler, found_[next_found_++]);
+            ++played;
+        } else if (more_ = read(handler); !more_) {
+            break;
+        } else {
+            empty_records += found_.empty();
+        }
+    }
+    return played;
+}
+
+bool RingSource::read(link::LinkHandler& handler) {
+    found_.clear();
+    next_found_ = 0;
+    if (at_end_ || (next_look_ != MonoTime{} && mono_now() < next_look_)) return false;
+    const auto record = follower_.poll();
+    at_end_ = end_ && (!record || record->position >= *end_);
+    if (!record) nothing_comes(record.error(), handler);
+    if (!record || at_end_) return false;
+    take(*record, handler);
+    return true;
+}
+
+void RingSource::take(const shm::RingRecord& record, link::LinkHandler& handler) {
+    const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
+    if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
+    const auto writers = follower_.reader()->writers();
+    if (std::exchange(writers_, writers) != writers || is_new) {
+        by_number_.clear();
+        names_.clear();
+        last_ = nullptr;
+        forget_sequences();
+    }
+    told_ = Told::nothing;
+    if (record.missed != 0) forget_sequences();
+    if (record.info.kind > ring_kind_frame) {
+        ++other_kinds_;
+        return;
+    }
+    if (last_ == nullptr || last_number_ != record.info.link) {
+        last_ = &link_of(record.info.link, handler);
+        last_number_ = record.info.link;
+        last_->heard = ++heard_;
+    }
+    if (last_->own) {
+        ++echo_;
+        return;
+    }
+    if (wanted_copies_ == Copies::left_out && is_copy(record.info)) {
+        ++copies_;
+        return;
+    }
+    time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
+    verdict_ = record.info.verdict;
+    if (!lossless()) return parse(record.data, handler);
+    copy_.assign(record.data.begin(), record.data.end());
+    if (follower_.reader()->holds()) return parse(copy_, handler);
+    ++overwritten_;  // by a writer that evicts, while it was copied
+    forget_sequences();
+}
+
+void RingSource::parse(ByteView bytes, link::LinkHandler& handler) {
+    using Kind = wire::ParseEvent::Kind;
+    last_->parser.parse(bytes, [&](const wire::ParseEvent& event) {
+        if (event.kind == Kind::frame) found_.push_back({event.frame, event.info});
+        if (event.kind == Kind::bad_checksum) {
+            counters_.crc_error.add();
+            handler.on_bad_checksum(last_->id, id_, event.frame.id());
+        }
+        if (event.kind == Kind::junk) counters_.junk_bytes.add(event.bytes);
+        if (event.kind == Kind::unknown_flags) counters_.unknown_flags.add();
+    });
+    bad_records_ += found_.empty();
+}
+
+void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
+    const auto update = is_echo(verdict_) ? wire::SequenceTracker::Update{}
+                                          : last_->tracker.update(found.frame, found.info);
+    counters_.add(update);
+    counters_.frames_in.add();
+    counters_.bytes_in.add(found.frame.size());
+    if (found.info == nullptr) counters_.unknown_ids.add();
+    handler.on_frame({found.frame, found.info, last_->id, id_, time_, update, verdict_});
+}
+
+void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {
+    next_look_ = {};
+    if (why == shm::ReadError::empty) {
+        told_ = Told::nothing;
+        return;
+    }
+    if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
+        next_look_ = mono_now() + look_distance;
+        return tell(handler, Told::damaged, "the ring is damaged; waiting for another ring of that name");
+    }
+    if (follower_.is_open()) return tell(handler, Told::unwritten, "nobody writes to it; waiting for a writer");
+    next_look_ = mono_now() + look_distance;
+    const auto* const error = follower_.error();
+    if (error == nullptr) return;
+    const bool absent = error->code == SetupCode::not_found;
+    awaited_ = awaited_ || absent;
+    tell(handler, absent ? Told::absent : Told::unreadable,
+         error->text + (absent ? "; waiting for it" : "; trying again"));
+}
+
+void RingSource::tell(link::LinkHandler& handler, Told what, std::string_view text) {
+    if (std::exchange(told_, what) == what) return;
+    handler.on_notice(id_, fmt::format("{}: {}", endpoint_.label(), text));
+}
+
+MonoTime RingSource::due(bool has_room, MonoTime now) {
+    if (held_) return MonoTime::max();
+    if (more_ || next_found_ < found_.size()) return has_room ? MonoTime{} : MonoTime::max();
+    if (at_end_) return MonoTime::max();
+    auto* const reader = follower_.reader();
+    if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
+    const Nanoseconds nap = reader->arm();
+    // A ring without writer is also looked at when it was removed, and then there is nothing to read.
+    if (nap == Nanoseconds{} && told_ == Told::unwritten) return now + look_distance;
+    return now + nap;
+}
+
+void RingSource::end_here() noexcept {
+    const auto* const reader = follower_.reader();
+    end_ = reader == nullptr ? 0 : reader->end_position();
+    at_end_ = reader == nullptr || next_look_ != MonoTime{};
+}
+
+void RingSource::forget_sequences() {
+    for (auto& [name, link] : by_name_) link->tracker.restart();
+}
+
+RingSource::RingLink& RingSource::link_of(LinkId in_ring, link::LinkHandler& handler) {
+    if (const auto known = by_number_.find(in_ring); known != by_number_.end()) return *known->second;
+    if (by_number_.size() == most_links) by_number_.clear();
+    auto& link = link_called(name_of(in_ring), handler);
+    by_number_.emplace(in_ring, &link);
+    return link;
+}
+
+RingSource::RingLink& RingSource::link_called(const std::string& name, link::LinkHandler& handler) {
+    auto known = by_name_.find(name);
+    if (known == by_name_.end()) {
+        if (by_name_.size() == most_links) forget_longest_silent(handler);
+        known = by_name_.emplace(name, std::make_unique<RingLink>(LinkId{ids_.next()}, table_)).first;
+        handler.on_link_up(known->second->id, id_, name);
+    }
+    known->second->own = is_own(name);
+    return *known->second;
+}
+
+// Half of them at once, so that it is seldom. Who speaks again later is a new link.
+void RingSource::forget_longest_silent(link::LinkHandler& handler) {
+    std::vector<std::uint64_t> heard;
+    heard.reserve(by_name_.size());
+    for (const auto& [name, link] : by_name_) heard.push_back(link->heard);
+    const auto middle = heard.begin() + static_cast<std::ptrdiff_t>(heard.size() / 2);
+    std::ranges::nth_element(heard, middle);
+    by_number_.clear();
+    last_ = nullptr;
+    std::erase_if(by_name_, [&](const auto& entry) {
+        if (entry.second->heard >= *middle) return false;
+        handler.on_link_down(entry.second->id, id_, "silent for long");
+        return true;
+    });
+}
+
+std::string RingSource::name_of(LinkId in_ring) {
+    if (!names_.contains(in_ring)) static_cast<void>(read_names());
+    if (const auto named = names_.find(in_ring); named != names_.end()) return named->second;
+    any_unnamed_ = true;
+    return fmt::format("{}/{}", endpoint_.label(), in_ring.value);
+}
+
+// Whether the page has other names than before.
+bool RingSource::read_names() {
+    next_names_ = mono_now() + names_distance;
+    auto page = shm::read_counters(follower_.name());
+    if (!page || page->links == names_) return false;
+    names_ = std::move(page->links);
+    return true;
+}
+
+// The page may have been away when a link spoke first: its router makes one anew that somebody removed. Under a number the link of this process's own
+// frames would not be known.
+void RingSource::look_for_names() {
+    if (!any_unnamed_ || next_found_ < found_.size() || mono_now() < next_names_ || !read_names()) return;
+    any_unnamed_ = false;
+    by_number_.clear();
+    last_ = nullptr;
+}
+
+// The router calls this process's link by the address that its socket has.
+bool RingSource::is_own(const std::string& name) const {
+    if (!inlet_) return false;
+    const auto links = links_.links();
+    return std::ranges::any_of(links, [&](const auto& l) { return l.endpoint == *inlet_ && l.name == name; });
+}
+
+SetupResult<link::EndpointId> RingSource::inlet() {
+    if (!inlet_ && !no_inlet_) {
+        endpoint::Endpoint inlet = endpoint_;
+        inlet.options.from_oldest = false;
+        inlet.options.lossless.reset();
+        inlet.options.required = false;
+        auto added = links_.add(inlet, dialect_);
+        if (added) inlet_ = *added;
+        else no_inlet_ = std::move(added.error());
+    }
+    if (!inlet_) return tl::unexpected(*no_inlet_);
+    return *inlet_;
+}
+
+bool RingSource::send(const wire::FrameView& frame) {
+    const auto to = inlet();
+    return to && links_.send(*to, frame) != 0;
+}
+
+RingLosses RingSource::losses() const noexcept {
+    return {follower_.missed() + overwritten_, bad_records_, other_kinds_, copies_, echo_};
+}
+
+}  // namespace mavloom::ring

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/ring/tap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "mavloom/base/thread.hpp"
+
+namespace mavloom::ring {
+
+RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, RingPage page,
+                 std::function<void()> ready)
+    : name_(std::move(name)),
+      options_(options),
+      ready_(std::move(ready)),
+      writer_(std::move(writer)),
+      page_(std::move(page)) {}
+
+// The writer's lock comes first: who has it owns the page as well.
+SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, const shm::RingOptions& options,
+                                                    std::function<void()> ready) {
+    const auto left = shm::read_counters(name);  // the writer takes away what a router that was killed left
+    auto writer = shm::RingWriter::open(name, options);
+    if (!writer) return tl::unexpected(std::move(writer.error()));
+    auto page = RingPage::create(name, options.mode);
+    if (!page) {
+        (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
+        return tl::unexpected(std::move(page.error()));
+    }
+    auto tap = std::unique_ptr<RingTap>(
+        new RingTap(name, options, std::move(*writer), std::move(*page), std::move(ready)));
+    tap->carry_on(left ? left->links : std::map<LinkId, std::string>{});
+    return tap;
+}
+
+void RingTap::carry_on(const std::map<LinkId, std::string>& names) {
+    last_link_ = writer_.last_link();
+    const auto end = names.lower_bound(shm::end_of_link_numbers);
+    if (end != names.begin()) last_link_ = std::max(last_link_, std::prev(end)->first);
+    page_->inherit(names);
+}
+
+RingTap::~RingTap() {
+    if (making_.valid())
+        if (auto made = making_.get()) writer_ = std::move(*made);
+    const bool removes = ran_ || writer_.created();
+    (void)writer_.close(removes ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
+}
+
+void RingTap::refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet) {
+    page_due_ = MonoTime::max();
+    if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {writer_.records(), dropped_.value()});
+}
+
+std::vector<std::string> RingTap::look_after(const link::Links& links) {
+    std::vector<std::string> notices;
+    if (!making_.valid() && writer_.is_removed()) make_ring_anew();
+    else if (making_.valid() && making_.wait_for(Nanoseconds{}) == std::future_status::ready) take_new_ring(notices);
+    if (!page_ || page_->is_removed()) make_page_anew(links, notices);
+    return notices;
+}
+
+// One thing at a time; where there is no thread to be had, at the next look.
+template <class Work>
+void RingTap::work_beside(Work work) {
+    if (beside_.joinable()) beside_.join();
+    try {
+        const BlockedSignals blocked;
+        beside_ = std::jthread(std::move(work));
+    } catch (const std::system_error&) {
+        making_ = {};
+    }
+}
+
+// Not by the thread that routes: the memory of 8 MiB takes the kernel 5 to 20 ms, that of GiB seconds. What comes meanwhile goes into the old ring.
+void RingTap::make_ring_anew() {
+    std::packaged_task<SetupResult<shm::RingWriter>()> task(
+        [name = name_, options = options_] { return shm::RingWriter::open(name, options); });
+    making_ = task.get_future();
+    work_beside([task = std::move(task), ready = ready_]() mutable {
+        task();
+        ready();
+    });
+}
+
+void RingTap::take_new_ring(std::vector<std::string>& notices) {
+    auto anew = making_.get();
+    shm::RingWriter old = std::move(writer_);
+    if (anew) {
+        writer_ = std::move(*anew);
+        notices.push_back(fmt::format("ring {} was removed, and is made anew", name_));
+    } else if (!told_ring_) {
+        notices.push_back(
+            fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted as dropped",
+                        name_, anew.error().text));
+    }
+    told_ring_ = !anew;
+    work_beside([old = std::move(old)] {});  // giving memory back takes time as well
+}
+
+void RingTap::make_page_anew(const link::Links& links, std::vector<std::string>& notices) {
+    auto anew = RingPage::create(name_, options_.mode);
+    if (!anew) {
+        if (!std::exchange(told_page_, true))
+            notices.push_back(fmt::format("no counter page of ring {}: {}", name_, anew.error().text));
+        page_.reset();
+        return;
+    }
+    told_page_ = false;
+    page_.emplace(std::move(*anew));
+    for (const auto& link : links.links()) page_->name_link(link.id, link.name);
+    page_due_ = MonoTime{};
+}
+
+}  // namespace mavloom::ring

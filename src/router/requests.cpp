@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What `mavloom ctl` may ask for (report.hpp).
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "mavloom/router/report.hpp"
+#include "router/json_line.hpp"
+
+namespace mavloom::router {
+
+namespace {
+
+constexpr std::array commands{"links", "routes", "stats", "add", "remove"};
+
+Later<Lines> failed(std::string_view why) {
+    return [line = line_of({{"ok", false}, {"error", why}})] { return Lines{line}; };
+}
+
+Later<Lines> with_end(Later<Lines> report) {
+    return [report = std::move(report)] {
+        Lines lines = report();
+        lines.push_back(line_of({{"ok", true}}));
+        return lines;
+    };
+}
+
+Later<Lines> done() {
+    return with_end([] { return Lines{}; });
+}
+
+Later<Lines> add(Router& router, const std::string& url) {
+    const auto endpoint = parse_router_endpoint(url);
+    if (!endpoint) return failed(endpoint.error().text);
+    if (const auto added = router.add(*endpoint); !added) return failed(added.error().text);
+    router.tell(config::LogLevel::info, endpoint->label() + ": added by ctl");
+    return done();
+}
+
+// An endpoint, a recording or a link by its name.
+Later<Lines> remove(Router& router, const std::string& name) {
+    if (!router.remove(name))
+        return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
+    router.tell(config::LogLevel::info, name + ": removed by ctl");
+    return done();
+}
+
+std::string text_at(const Json& request, const char* key) {
+    const auto at = request.find(key);
+    return at != request.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+}  // namespace
+
+SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
+    auto endpoint = endpoint::parse_endpoint(text);
+    if (!endpoint) return endpoint;
+    const bool has_port = endpoint->scheme != endpoint::Scheme::tlog && endpoint->scheme != endpoint::Scheme::serial &&
+                          endpoint->scheme != endpoint::Scheme::shm;  // which Router::add refuses
+    if (has_port && endpoint->address.port == 0)
+        return setup_error(SetupCode::usage,
+                           fmt::format("{}: a router's port is known to others; name one", endpoint->label()));
+    return endpoint;
+}
+
+Later<Lines> answer_request(Router& router, std::string_view request) {
+    const auto parsed = Json::parse(request, nullptr, false);
+    if (!parsed.is_object()) return failed("a request is one JSON object a line, as in {\"cmd\":\"links\"}");
+    const auto command = text_at(parsed, "cmd");
+    if (command == "links") return with_end(report_links(router));
+    if (command == "routes") return with_end(report_routes(router));
+    if (command == "stats") return with_end(report_stats(router));
+    if (command == "add") return add(router, text_at(parsed, "url"));
+    if (command == "remove") return remove(router, text_at(parsed, "name"));
+    return failed(fmt::format("there is no command '{}'; there are {}", command, fmt::join(commands, ", ")));
+}
+
+Later<Lines> Router::answer(std::string_view request) { return answer_request(*this, request); }
+
+Later<std::string> Router::metrics() { return report_metrics(*this); }
+
+}  // namespace mavloom::router

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/endpoint/endpoint.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace mavloom::endpoint {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Endpoint parsed(std::string_view text) {
+    auto endpoint = parse_endpoint(text);
+    if (!endpoint) {
+        ADD_FAILURE() << text << " was refused: " << endpoint.error().text;
+        return {};
+    }
+    return *endpoint;
+}
+
+struct GoodAddress {
+    std::string_view text;
+    Scheme scheme;
+    std::string_view host;
+    std::uint16_t port;
+};
+
+class GoodAddresses : public testing::TestWithParam<GoodAddress> {};
+
+TEST_P(GoodAddresses, AreTaken) {
+    const Endpoint endpoint = parsed(GetParam().text);
+
+    EXPECT_EQ(endpoint.scheme, GetParam().scheme);
+    EXPECT_EQ(endpoint.address.host, GetParam().host);
+    EXPECT_EQ(endpoint.address.port, GetParam().port);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ParseEndpoint, GoodAddresses,
+    testing::Values(GoodAddress{"udpin://127.0.0.1:14550", Scheme::udpin, "127.0.0.1", 14550},  // routing.md MR26
+                    GoodAddress{"udpin://[::1]:14550", Scheme::udpin, "::1", 14550},            // routing.md MR26
+                    GoodAddress{"udpin://0.0.0.0:14550", Scheme::udpin, "0.0.0.0", 14550},
+                    GoodAddress{"udpin://[::]:14550", Scheme::udpin, "::", 14550},
+                    GoodAddress{"udpin://localhost:0", Scheme::udpin, "localhost", 0},
+                    GoodAddress{"tcpin://127.0.0.1:0", Scheme::tcpin, "127.0.0.1", 0},
+                    GoodAddress{"udpout://gcs.example.org:65535", Scheme::udpout, "gcs.example.org", 65535},
+                    GoodAddress{"udpout://gcs_1-a:1", Scheme::udpout, "gcs_1-a", 1},
+                    GoodAddress{"udpout://[fe80::1%25eth0]:14550", Scheme::udpout, "fe80::1%eth0", 14550},
+                    GoodAddress{"udpout://[fe80::1%eth0]:14550", Scheme::udpout, "fe80::1%eth0", 14550},
+                    GoodAddress{"udpbcast://192.168.1.255:14550", Scheme::udpbcast, "192.168.1.255", 14550},
+                    GoodAddress{"udpbcast://255.255.255.255:14550", Scheme::udpbcast, "255.255.255.255", 14550},
+                    GoodAddress{"udpmcast://239.255.145.50:14550", Scheme::udpmcast, "239.255.145.50", 14550},
+                    GoodAddress{"udpmcast://[ff02::1]:14550", Scheme::udpmcast, "ff02::1", 14550},
+                    GoodAddress{"tcpin://0.0.0.0:5760", Scheme::tcpin, "0.0.0.0", 5760},
+                    GoodAddress{"tcpout://10.0.0.1:5760", Scheme::tcpout, "10.0.0.1", 5760},
+                    // pymavlink's spellings; its `tcp:` connects
+                    GoodAddress{"udpin:0.0.0.0:14550", Scheme::udpin, "0.0.0.0", 14550},
+                    GoodAddress{"udpout:127.0.0.1:14550", Scheme::udpout, "127.0.0.1", 14550},
+                    GoodAddress{"tcp:127.0.0.1:5760", Scheme::tcpout, "127.0.0.1", 5760},
+                    GoodAddress{"tcpin:0.0.0.0:5760", Scheme::tcpin, "0.0.0.0", 5760},
+                    GoodAddress{"udpin:localhost:14550?name=gcs", Scheme::udpin, "localhost", 14550}));
+
+struct GoodPath {
+    std::string_view text;
+    Scheme scheme;
+    std::string_view path;
+};
+
+class GoodPaths : public testing::TestWithParam<GoodPath> {};
+
+TEST_P(GoodPaths, AreTaken) {
+    const Endpoint endpoint = parsed(GetParam().text);
+
+    EXPECT_EQ(endpoint.scheme, GetParam().scheme);
+    EXPECT_EQ(endpoint.path, GetParam().path);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ParseEndpoint, GoodPaths,
+    testing::Values(
+        GoodPath{"serial:///dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"serial:///dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0", Scheme::serial,
+                 "/dev/serial/by-path/pci-0000:00:14.0-usb-0:1:1.0"},
+        GoodPath{"/dev/ttyACM0,57600", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"/tmp/vehicle/tty,115200", Scheme::serial, "/tmp/vehicle/tty"},
+        GoodPath{"/tmp/a,b.tlog", Scheme::tlog, "/tmp/a,b.tlog"}, GoodPath{"FOO.TLOG", Scheme::tlog, "FOO.TLOG"},
+        GoodPath{"x.tlog.12", Scheme::tlog, "x.tlog.12"}, GoodPath{"/dev/ttyACM0", Scheme::serial, "/dev/ttyACM0"},
+        GoodPath{"shm://main", Scheme::shm, "main"}, GoodPath{"tlog://flight.tlog", Scheme::tlog, "flight.tlog"},
+        GoodPath{"tlog:///var/log/flight.tlog", Scheme::tlog, "/var/log/flight.tlog"},
+        GoodPath{"tlog://logs/no%20ending%3F", Scheme::tlog, "logs/no ending?"},
+        GoodPath{"flight.tlog", Scheme::tlog, "flight.tlog"}, GoodPath{"./a/b.tlog", Scheme::tlog, "./a/b.tlog"},
+        GoodPath{"/tmp/100%20.tlog", Scheme::tlog, "/tmp/100%20.tlog"},  // a bare path is as the shell gives it
+        GoodPath{"/tmp/what?.tlog", Scheme::tlog, "/tmp/what?.tlog"},
+        GoodPath{"flight.tlog?speed=10", Scheme::tlog, "flight.tlog"}));
+
+struct Bad {
+    std::string_view text;
+    std::string_view expected;  // a part of the message: the cause, or the spelling to type
+};
+
+class BadEndpoints : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadEndpoints, AreRefusedWithTheSpellingToType) {
+    const auto endpoint = parse_endpoint(GetParam().text);
+
+    ASSERT_FALSE(endpoint.has_value()) << GetParam().text;
+    EXPECT_EQ(endpoint.error().code, SetupCode::usage);
+    EXPECT_THAT(endpoint.error().text, HasSubstr(GetParam().expected));
+    EXPECT_THAT(endpoint.error().text, testing::StartsWith("endpoint '"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Spelling, BadEndpoints,
+    testing::Values(
+        Bad{"", "it is empty"},
+        // routing.md MR26
+        Bad{"udpin://:14550", "udpin://127.0.0.1:14550 (this machine only) or udpin://0.0.0.0:14550"},
+        Bad{"udpin://[127.0.0.1]:14550", "brackets are for IPv6 only; type udpin://127.0.0.1:14550"},
+        Bad{"udpin://::1:14550", "needs brackets; type udpin://[::1]:14550"},
+        Bad{"udpin://::1:5760", "needs brackets; type udpin://[::1]:5760"},
+        Bad{"udpin://::1", "needs brackets and a port; type udpin://[::1]:14550"},
+        Bad{"udpout://127.0.0.1:0", "port 0 is no destination"},
+        Bad{"udpin://127.0.0.1", "the port is missing; type udpin://127.0.0.1:14550"},
+        Bad{"serial://", "the device is missing"},
+        Bad{"serial:///dev/ttyACM0?baud=0", "'0' is not a whole number from 1 to"},
+        Bad{"udpeavesdrop://127.0.0.1:1", "there is no scheme 'udpeavesdrop'"},
+        // near misses
+        Bad{"udp://:14540", "type udpin://0.0.0.0:14540 to listen, udpout://HOST:14540 to send"},
+        Bad{"udp://127.0.0.1:14540", "type udpin://127.0.0.1:14540 to listen, udpout://127.0.0.1:14540 to send"},
+        Bad{"udp:127.0.0.1:14540", "type udpin://127.0.0.1:14540 to listen"},
+        Bad{"udp://14540", "type udpin://0.0.0.0:14540"}, Bad{"udp://gcs", "udpout://gcs:14550 to send"},
+        Bad{"tcp://127.0.0.1:5760", "type tcpout://127.0.0.1:5760 to connect, tcpin://127.0.0.1:5760 to listen"},
+        Bad{"tcp://0.0.0.0:5760", "tcpout://HOST:5760 to connect, tcpin://0.0.0.0:5760"},
+        Bad{"127.0.0.1:14550", "type udpout://127.0.0.1:14550 to send, udpin://127.0.0.1:14550 to listen"},
+        Bad{"localhost:14550", "udpout://localhost:14550"}, Bad{"0.0.0.0:14550", "type udpin://0.0.0.0:14550 to listen"},
+        Bad{":14550", "type udpin://0.0.0.0:14550"}, Bad{"14550", "type udpin://0.0.0.0:14550"},
+        Bad{"gcs", "shm://gcs"}, Bad{"logs/flight.bin", "type tlog://logs/flight.bin"},
+        Bad{"udpserver://0.0.0.0:14550", "is written udpin://0.0.0.0:14550"},
+        Bad{"udpclient:10.0.0.1:14550", "is written udpout://10.0.0.1:14550"},
+        Bad{"udpinn://127.0.0.1:1", "did you mean 'udpin'?"}, Bad{"UDPIN://127.0.0.1:1", "did you mean 'udpin'?"},
+        Bad{"http://localhost:80", "there are udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog"},
+        Bad{"udpbcast:192.168.1.255:14550", "type udpbcast://192.168.1.255:14550"},
+        Bad{"serial:/dev/ttyACM0", "type serial:///dev/ttyACM0"},
+        Bad{"serial:///dev/ttyACM0:57600", "type serial:///dev/ttyACM0?baud=57600"},
+        Bad{"serial://dev/ttyACM0", "needs its whole path"}, Bad{"serial://COM3", "needs its whole path"},
+        Bad{"/dev/ttyACM0,", "type /dev/ttyACM0,57600"}, Bad{"/dev/ttyACM0,fast", "'fast' is not a whole number"},
+        Bad{"/dev/ttyACM0,57600?baud=9600", "twice"},
+        Bad{"udpin://0.0.0.0:14550/", "'/' stands behind the port; type udpin://0.0.0.0:14550"},
+        Bad{"udpin://0.0.0.0:14550/path", "'/path' stands behind the port"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Address, BadEndpoints,
+    testing::Values(
+        Bad{"udpin://", "the port is missing"},
+        Bad{"udpin://127.0.0.1:", "the port is missing; type udpin://127.0.0.1:14550"},
+        Bad{"udpin://14550", "type udpin://127.0.0.1:14550 (this machine only)"},
+        Bad{"udpin://127.0.0.1:65536", "port '65536' is not a number from 1 to 65535"},
+        Bad{"udpin://127.0.0.1:-1", "port '-1'"}, Bad{"udpin://127.0.0.1:14550x", "port '14550x'"},
+        Bad{"udpin://127.0.0.1: 14550", "port ' 14550'"}, Bad{"udpin://127.0.0.256:1", "no IPv4 address"},
+        Bad{"udpin://127.1:1", "no IPv4 address"}, Bad{"udpin://[::1:14550", "bracket"},
+        Bad{"udpin://[::g]:14550", "no IPv6 address"}, Bad{"udpin://[localhost]:14550", "type udpin://localhost:14550"},
+        Bad{"udpin://fe80::1%eth0:14550", "type udpin://[fe80::1%eth0"}, Bad{"udpin://a b:14550", "no host name"},
+        Bad{"udpin://user@host:14550", "no host name"}, Bad{"udpin://-x:14550", "no host name"},
+        Bad{"udpin://255.255.255.255:14550", "type udpin://0.0.0.0:14550"},
+        Bad{"udpin://239.255.145.50:14550", "type udpmcast://239.255.145.50:14550"},
+        Bad{"udpout://0.0.0.0:14550",
+            "where to listen, not where to send; type udpout://127.0.0.1:14550 for this machine, udpin://0.0.0.0:14550 "
+            "to listen"},
+        Bad{"udpout://[::]:14550", "udpin://[::]:14550"}, Bad{"tcpout://0.0.0.0:5760", "tcpin://0.0.0.0:5760"},
+        Bad{"udpout://255.255.255.255:14550", "type udpbcast://255.255.255.255:14550"},
+        Bad{"udpout://239.255.145.50:14550", "type udpmcast://"}, Bad{"tcpout://239.255.145.50:14550", "one machine"},
+        Bad{"udpmcast://192.168.1.1:14550", "no multicast group"}, Bad{"udpmcast://239.255.145.50:0", "port 0"},
+        Bad{"udpbcast://[fe80::1]:14550", "type udpmcast://[ff02::1]:14550"},
+        Bad{"udpbcast://0.0.0.0:14550", "not where to send"}, Bad{"shm://", "no ring name"},
+        Bad{"shm://a/b", "no ring name"}, Bad{"shm://a%2fb", "no ring name"}, Bad{"tlog://", "the path is missing"},
+        Bad{"tlog://logs/", "is a folder"}, Bad{"tlog://a%zz", "type %25 for a percent sign"},
+        Bad{"tlog://a%4", "type %25 for a percent sign"}, Bad{"tlog://a%00b", "'%00'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, BadEndpoints,
+    testing::Values(
+        Bad{"udpin://127.0.0.1:1?", "an option is missing"}, Bad{"udpin://127.0.0.1:1?name=a&", "an option is missing"},
+        Bad{"udpin://127.0.0.1:1?=a", "an option is missing"},
+        Bad{"udpin://127.0.0.1:1?tap", "option 'tap' has no value; type tap=VALUE"},
+        Bad{"udpin://127.0.0.1:1?nmae=a", "did you mean 'name'?"},
+        Bad{"udpin://127.0.0.1:1?queue_byte=1", "did you mean 'queue_bytes'?"},
+        Bad{"udpin://127.0.0.1:1?xyzzy=1", "udpin takes name, group"},
+        Bad{"udpin://127.0.0.1:1?dedup_ms=5", "'dedup_ms' is a key of [router] in a configuration file"},
+        Bad{"udpin://127.0.0.1:1?dedup=5", "'dedup_ms' is a key of [router]"},
+        Bad{"serial:///dev/ttyACM0?dedup_sm=5", "'dedup_ms' is a key of [router]"},
+        Bad{"tcpin://127.0.0.1:1?unknown_component=drop", "'unknown_component' is a key of [router]"},
+        Bad{"udpout://127.0.0.1:1?unknown_target=flood", "'unknown_target' is a key of [router]"},
+        Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a key of [router]"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=255/191", "is heartbeat = \"SYS/COMP\" in [router]"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=1", "neither true nor false"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= does not go with tap=true"},
+        Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= does not go with tap=true"},
+        Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a key of [router]"},
+        Bad{"udpin://127.0.0.1:1?un=drop", "udpin takes name, group"},
+        Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' stands there twice"},
+        Bad{"udpin://127.0.0.1:1?baud=57600", "udpin does not take the option 'baud' (it belongs to serial)"},
+        Bad{"serial:///dev/ttyACM0?mtu=0", "it belongs to udpin, udpout, udpbcast, udpmcast"},
+        Bad{"tcpin://127.0.0.1:1?bind=0.0.0.0:1", "does not take the option 'bind'"},
+        Bad{"tlog://a.tlog?tap=true", "does not take"}, Bad{"tlog://a.tlog?max_rate=*:1", "does not take"},
+        Bad{"tlog://a.tlog?in_allow=ATTITUDE", "does not take"}, Bad{"a.tlog?out_block=sys:1", "does not take"},
+        Bad{"udpin://127.0.0.1:1?name=", "option 'name'"}, Bad{"udpin://127.0.0.1:1?group=a%20b", "no group name"},
+        Bad{"udpin://127.0.0.1:1?mtu=279", "neither 0 (one frame a datagram) nor"},
+        Bad{"udpin://127.0.0.1:1?mtu=65508", "nor from 280 to 65507"},
+        Bad{"udpin://127.0.0.1:1?idle=0", "1000h, for never"}, Bad{"udpin://127.0.0.1:1?idle=-1", "no duration"},
+        Bad{"udpin://127.0.0.1:1?idle=2sec", "no duration"}, Bad{"udpin://127.0.0.1:1?idle=inf", "no duration"},
+        Bad{"udpin://127.0.0.1:1?idle=nan", "no duration"}, Bad{"udpin://127.0.0.1:1?idle=1e99", "ten years"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=279", "out of range"}, Bad{"udpin://127.0.0.1:1?queue_bytes=1x", "no size"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=99999999999999999999", "no size"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=9999999999999G", "larger than any disk"},
+        Bad{"udpin://127.0.0.1:1?max_rate=ATTITUDE", "has no rate"},
+        Bad{"udpin://127.0.0.1:1?max_rate=ATTITUDE:0", "not a number above 0"},
+        Bad{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10,", "empty term"},
+        Bad{"udpin://127.0.0.1:1?max_rate=A:1,A:2", "A has two rates"},
+        Bad{"udpin://127.0.0.1:1?max_rate=*:nan", "not a number above 0"},
+        Bad{"udpin://127.0.0.1:1?in_allow=sys:256", "not a whole number from 0 to 255"},
+        Bad{"udpin://127.0.0.1:1?in_allow=system:1", "no filter term"},
+        Bad{"udpin://127.0.0.1:1?in_allow=ATT%20", "no message name or id"},
+        Bad{"udpin://127.0.0.1:1?in_allow=16777216", "from 0 to 16777215"},
+        Bad{"udpin://127.0.0.1:1?out_block=,", "empty term"},
+        Bad{"udpin://127.0.0.1:1?tap=yes", "neither true nor false"},
+        Bad{"udpin://127.0.0.1:1?tap=1", "neither true nor false"},
+        Bad{"udpin://127.0.0.1:1?group_mode=first", "none of all, best, primary"},
+        Bad{"udpin://127.0.0.1:1?max_peers=0", "from 1 to"}, Bad{"udpin://127.0.0.1:1?ttl=256", "from 0 to 255"},
+        Bad{"udpin://127.0.0.1:1?iface=0123456789abcdef", "interface"},
+        Bad{"udpout://127.0.0.1:1?bind=14550", "the host is missing"},
+        Bad{"udpout://127.0.0.1:1?bind=::1:4", "brackets"},
+        Bad{"serial:///dev/ttyS0?flow=xonxoff", "type none or rtscts"},
+        Bad{"serial:///dev/ttyS0?flow=hard", "neither none nor rtscts"},
+        Bad{"shm://main?from=newst", "neither oldest nor newest"},
+        Bad{"tlog://a.tlog?speed=0", "neither max nor a number above 0"},
+        Bad{"tlog://a.tlog?speed=inf", "neither max nor"}, Bad{"tlog://a.tlog?rotate_every=10ms", "too short"},
+        Bad{"tlog://a.tlog?rotate_bytes=1", "out of range"}));
+
+TEST(ParseEndpoint, KeepsDefaults) {
+    const Endpoint endpoint = parsed("udpin://127.0.0.1:14550");
+
+    EXPECT_EQ(endpoint.options.mtu_bytes, 1280u);
+    EXPECT_EQ(endpoint.options.queue_bytes, 1048576u);
+    EXPECT_EQ(endpoint.options.max_peers, 256u);
+    EXPECT_EQ(endpoint.options.rcvbuf_bytes, 33554432u);
+    EXPECT_FALSE(endpoint.options.idle.has_value());
+    EXPECT_FALSE(endpoint.options.speed.has_value());
+    EXPECT_TRUE(endpoint.options.in_allow.empty());
+}
+
+TEST(ParseEndpoint, TakesEveryOptionOfAnAddress) {
+    const auto options =
+        parsed(
+            "udpin://127.0.0.1:14550?name=ground%20station&group=uplink&group_mode=best&mtu=0&idle=2&queue_bytes=64k"
+            "&queue_age=500ms&max_rate=ATTITUDE:10,*:50&max_bytes=5000&in_allow=HEARTBEAT,30,sys:42&in_block=comp:100"
+            "&out_allow=sys:1,sys:2&out_block=PING&tap=true&private=true&sign=%2Fkey&verify=key.hex&rcvbuf=1MiB"
+            "&max_peers=8&iface=eth0&ttl=4&low_latency=true&required=true")
+            .options;
+
+    EXPECT_EQ(options.name, "ground station");
+    EXPECT_EQ(options.group, "uplink");
+    EXPECT_EQ(options.group_mode, GroupMode::best);
+    EXPECT_EQ(options.mtu_bytes, 0u);
+    EXPECT_EQ(options.idle, 2s);
+    EXPECT_EQ(options.queue_bytes, 65536u);
+    EXPECT_EQ(options.queue_age, 500ms);
+    ASSERT_EQ(options.max_rate.size(), 2u);
+    EXPECT_EQ(options.max_rate[0].message, "ATTITUDE");
+    EXPECT_EQ(options.max_rate[0].rate_hz, 10);
+    EXPECT_EQ(options.max_rate[1].message, "*");
+    EXPECT_EQ(options.max_rate[1].rate_hz, 50);
+    EXPECT_EQ(options.max_bytes_per_s, 5000u);
+    EXPECT_THAT(options.in_allow.messages, ElementsAre("HEARTBEAT", "30"));
+    EXPECT_THAT(options.in_allow.systems, ElementsAre(42));
+    EXPECT_THAT(options.in_block.components, ElementsAre(100));
+    EXPECT_THAT(options.out_allow.systems, ElementsAre(1, 2));
+    EXPECT_THAT(options.out_block.messages, ElementsAre("PING"));
+    EXPECT_TRUE(options.tap);
+    EXPECT_TRUE(options.is_private);
+    EXPECT_EQ(options.sign_key_file, "/key");
+    EXPECT_EQ(options.verify_key_file, "key.hex");
+    EXPECT_EQ(options.rcvbuf_bytes, 1048576u);
+    EXPECT_EQ(options.max_peers, 8u);
+    EXPECT_EQ(options.iface, "eth0");
+    EXPECT_EQ(options.ttl, 4);
+    EXPECT_TRUE(options.low_latency);
+    EXPECT_TRUE(options.required);
+}
+
+TEST(ParseEndpoint, TakesTheOptionsOfOtherSchemes) {
+    EXPECT_EQ(parsed("/dev/ttyACM0,921600").options.baud, 921600u);
+    EXPECT_EQ(parsed("serial:///dev/ttyACM0?baud=auto&flow=rtscts").options.baud, 0u);
+    EXPECT_EQ(parsed("serial:///dev/ttyACM0?flow=rtscts").options.flow, "rtscts");
+    EXPECT_TRUE(parsed("shm://main?from=oldest&lossless=true").options.from_oldest);
+    EXPECT_TRUE(parsed("shm://main?from=oldest&lossless=true").options.lossless);
+    EXPECT_FALSE(parsed("shm://main?from=newest").options.from_oldest);
+    EXPECT_EQ(parsed("tlog://a.tlog?speed=10").options.speed, 10.0);
+    EXPECT_TRUE(std::isinf(*parsed("a.tlog?speed=max").options.speed));
+    EXPECT_EQ(parsed("tlog://a.tlog?rotate_bytes=100M&rotate_every=1h").options.rotate_bytes, 104857600u);
+    EXPECT_EQ(parsed("tlog://a.tlog?rotate_bytes=100M&rotate_every=1h").options.rotate_every, 1h);
+    EXPECT_TRUE(parsed("udpbcast://192.168.1.255:14550?fixed=true").options.fixed);
+    EXPECT_EQ(parsed("udpout://127.0.0.1:1?bind=[::]:14551").options.bind, (HostPort{"::", 14551}));
+    EXPECT_EQ(parsed("udpout://127.0.0.1:1?bind=0.0.0.0:0").options.bind, (HostPort{"0.0.0.0", 0}));
+}
+
+// A value that ends in .tlog made the whole text a path, and the options were lost.
+TEST(ParseEndpoint, AnOptionThatEndsInTlogIsAnOption) {
+    EXPECT_EQ(parsed("udpin://127.0.0.1:14550?name=x.tlog").options.name, "x.tlog");
+    EXPECT_EQ(parsed("udpin:127.0.0.1:14550?name=x.tlog").options.name, "x.tlog");
+    EXPECT_EQ(parsed("udpin:127.0.0.1:14550?name=x.tlog").scheme, Scheme::udpin);
+    EXPECT_EQ(parsed("/dev/ttyACM0?name=x.tlog").scheme, Scheme::serial);
+    EXPECT_EQ(parsed("flight.tlog?name=x.tlog").path, "flight.tlog");
+    EXPECT_EQ(parsed("flight.tlog?name=x.tlog").options.name, "x.tlog");
+}
+
+TEST(CheckSourceOptions, RefusesWhatOnlyADestinationHas) {
+    EXPECT_TRUE(check_source_options(parsed("a.tlog?speed=10&name=a")).has_value());
+    EXPECT_TRUE(check_source_options(parsed("udpin://127.0.0.1:14550?tap=true")).has_value());
+    EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_every=1h")).error().text,
+              "'tlog://a.tlog': 'rotate_every' is for a recording that is written; this one is read");
+    EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_bytes=1M")).error().code, SetupCode::usage);
+}
+
+TEST(Endpoint, LabelIsTheNameElseTheUrlWithoutItsQuery) {
+    EXPECT_EQ(parsed("udpin://127.0.0.1:14550?idle=2").label(), "udpin://127.0.0.1:14550");
+    EXPECT_EQ(parsed("udpin:[::1]:14550").label(), "udpin://[::1]:14550");
+    EXPECT_EQ(parsed("/dev/ttyACM0,57600").label(), "serial:///dev/ttyACM0");
+    EXPECT_EQ(parsed("flight.tlog").label(), "tlog://flight.tlog");
+    EXPECT_EQ(parsed("udpin://127.0.0.1:14550?name=gcs").label(), "gcs");
+}
+
+TEST(ParseEndpoint, ShowsNoControlCharactersAndCutsLongText) {
+    const auto endpoint = parse_endpoint("udp\x1b[31m" + std::string(3000, 'x'));
+
+    ASSERT_FALSE(endpoint.has_value());
+    EXPECT_EQ(endpoint.error().text.find('\x1b'), std::string::npos);
+    EXPECT_LT(endpoint.error().text.size(), 1000u);
+}
+
+TEST(ParseDuration, CountsSecondsUnlessAUnitFollows) {
+    EXPECT_EQ(*parse_duration("2"), 2s);
+    EXPECT_EQ(*parse_duration("0"), 0s);
+    EXPECT_EQ(*parse_duration("0.25"), 250ms);
+    EXPECT_EQ(*parse_duration("250ms"), 250ms);
+    EXPECT_EQ(*parse_duration("2s"), 2s);
+    EXPECT_EQ(*parse_duration("1.5m"), 90s);
+    EXPECT_EQ(*parse_duration("1min"), 60s);
+    EXPECT_EQ(*parse_duration("1h"), 3600s);
+    EXPECT_EQ(*parse_duration("2d"), 48h);
+    EXPECT_EQ(*parse_duration("7us"), 7us);
+    EXPECT_EQ(*parse_duration("7ns"), 7ns);
+    for (const auto* bad : {"", " 2", "2 s", "s", "+2", "-2", "2S", "0x10", "2s2", "1e400"})
+        EXPECT_FALSE(parse_duration(bad)) << bad;
+}
+
+TEST(ParseSize, CountsBytes) {
+    EXPECT_EQ(*parse_size("0"), 0u);
+    EXPECT_EQ(*parse_size("5000"), 5000u);
+    EXPECT_EQ(*parse_size("12B"), 12u);
+    EXPECT_EQ(*parse_size("64k"), 65536u);
+    EXPECT_EQ(*parse_size("64K"), 65536u);
+    EXPECT_EQ(*parse_size("64kB"), 64000u);
+    EXPECT_EQ(*parse_size("1M"), 1048576u);
+    EXPECT_EQ(*parse_size("32m"), 33554432u);
+    EXPECT_EQ(*parse_size("1g"), 1073741824u);
+    EXPECT_EQ(*parse_size("32MiB"), 33554432u);
+    EXPECT_EQ(*parse_size("32MB"), 32000000u);
+    EXPECT_EQ(*parse_size("2G"), 2147483648u);
+    for (const auto* bad : {"", "1.5M", "-1", "+1", "M", "1 M", "1T", "18446744073709551616"})
+        EXPECT_FALSE(parse_size(bad)) << bad;
+}
+
+TEST(SetEndpointOption, TakesTheTextOfAFilesKey) {
+    Endpoint endpoint = parsed("udpin://127.0.0.1:14550");
+
+    EXPECT_TRUE(set_endpoint_option(endpoint, "idle", "1m").has_value());
+    EXPECT_EQ(endpoint.options.idle, 60s);
+    EXPECT_FALSE(set_endpoint_option(endpoint, "speed", "1").has_value());
+}
+
+TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(33));
+    EXPECT_THAT(endpoint_option_names(),
+                testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
+}
+
+}  // namespace
+}  // namespace mavloom::endpoint

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "link/signing/signature_state.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "link/core.hpp"
+#include "support/temp_dir.hpp"
+
+namespace mavloom::link::detail {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Stream = wire::Verifier::Stream;
+
+constexpr std::string_view two_senders =
+    "mavloom signing times 1\nsigned 123456789\nheard 0 1 1 1000\nheard 3 255 190 281474976710655\n";
+
+std::string content(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Of the key in SetUp: the first 8 bytes of hashlib.sha256(b"mavloom: which signing key" + b"\xaa" * 32), as a little-endian number.
+constexpr std::string_view key_line = "key 9383837124702055004\n";
+
+class SigningTimes : public testing::Test {
+protected:
+    test::TempDir dir;
+    std::filesystem::path key = dir.path() / "link.key", file = dir.path() / "link.key.state";
+    std::vector<std::string> notices;
+
+    void SetUp() override { write(key, std::string(64, 'a')); }
+    static void write(const std::filesystem::path& path, std::string_view text) {
+        std::ofstream(path) << text;
+        ::chmod(path.c_str(), 0600);
+    }
+    [[nodiscard]] endpoint::EndpointOptions options(bool sign, bool verify) const {
+        endpoint::EndpointOptions o;
+        if (sign) o.sign_key_file = key.string();
+        if (verify) o.verify_key_file = key.string();
+        return o;
+    }
+};
+
+TEST(KeyState, IsTextAndBack) {
+    const auto state = parse_key_state(two_senders);
+
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->last_signed.ticks, 123456789u);
+    ASSERT_EQ(state->heard.size(), 2u);
+    EXPECT_EQ(state->heard[0].key, 0x000101u);
+    EXPECT_EQ(state->heard[1].key, 0x03FFBEu);
+    EXPECT_EQ(state->heard[1].last.ticks, 281474976710655u);
+    EXPECT_EQ(text_of(*state), two_senders);
+}
+
+TEST(KeyState, WhatIsNoneOfOursIsRefused) {
+    for (const std::string_view text :
+         {"", "x", "mavloom signing times 2\n", "mavloom signing times 1\nsigned\n",
+          "mavloom signing times 1\nsigned -1\n", "mavloom signing times 1\nsigned 281474976710656\n",
+          "mavloom signing times 1\nsigned 1 1\n", "mavloom signing times 1\nheard 256 1 1 1\n",
+          "mavloom signing times 1\nheard 1 1 1\n", "mavloom signing times 1\nheard 1 1 1 1 1\n",
+          "mavloom signing times 1\nfelt 1 1 1 1\n", "mavloom signing times 1\n\n"})
+        EXPECT_FALSE(parse_key_state(text)) << text;
+}
+
+TEST(KeyState, KeepsTheLaterOfTwoTimes) {
+    KeyState state;
+
+    EXPECT_TRUE(state.merge_heard(std::array{Stream{5, {10}}, Stream{2, {20}}}));
+    EXPECT_FALSE(state.merge_heard(std::array{Stream{5, {9}}}));
+    EXPECT_TRUE(state.merge_heard(std::array{Stream{5, {11}}}));
+    EXPECT_EQ(text_of(state), "mavloom signing times 1\nsigned 0\nheard 0 0 2 20\nheard 0 0 5 11\n");
+}
+
+TEST(KeyState, HoldsAsManySendersAsAVerifier) {
+    KeyState state;
+    for (std::uint32_t n = 0; n < wire::Verifier::max_streams + 10; ++n) state.merge_heard(std::array{Stream{n, {1}}});
+
+    EXPECT_EQ(state.heard.size(), wire::Verifier::max_streams);
+}
+
+TEST_F(SigningTimes, ANewKeyHasAFileForItsOwnerOnly) {
+    KeyStates states;
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
+
+    struct stat status {};
+    ASSERT_EQ(::stat(file.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777u, 0600u);
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
+    EXPECT_THAT(notices, IsEmpty());
+}
+
+TEST_F(SigningTimes, SigningBeginsBehindTheLastTimeOfTheFile) {
+    const auto future = wire::SigningTime::from(wall_now()).ticks + 3600 * 100'000ull;
+    write(file, "mavloom signing times 1\nsigned " + std::to_string(future) + "\n");
+    KeyStates states;
+    const auto signature = Signature::load(options(true, false), EndpointId{0}, states, notices);
+
+    ASSERT_TRUE(signature);
+    const auto state = parse_key_state(content(file));
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->last_signed.ticks, future + KeyStates::reserve_ticks);
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("s ahead of the clock")));
+}
+
+TEST_F(SigningTimes, AtTheEndTheFileIsExact) {
+    const auto future = wire::SigningTime::from(wall_now()).ticks + 3600 * 100'000ull;
+    write(file, "mavloom signing times 1\nsigned " + std::to_string(future) + "\n");
+    {
+        KeyStates states;
+        const auto signature = Signature::load(options(true, true), EndpointId{0}, states, notices);
+        ASSERT_TRUE(signature);
+    }
+
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned {}\n{}", future, key_line));
+}
+
+TEST_F(SigningTimes, WhatAnotherProgramWroteMeanwhileIsKept) {
+    {
+        KeyStates states;
+        const auto mine = states.open(key, *wire::SigningKey::load(key), notices);
+        write(file, two_senders);
+        mine->state.merge_heard(std::array{Stream{0x000101, {2000}}, Stream{7, {5}}});
+    }
+
+    EXPECT_EQ(content(file),
+              fmt::format("mavloom signing times 1\nsigned 123456789\n{}heard 0 0 7 5\nheard 0 1 1 2000\n"
+                          "heard 3 255 190 281474976710655\n",
+                          key_line));
+}
+
+TEST_F(SigningTimes, EndpointsWithOneKeyShareItsTimes) {
+    KeyStates states;
+
+    EXPECT_EQ(states.open(key, *wire::SigningKey::load(key), notices),
+              states.open(key, *wire::SigningKey::load(key), notices));
+}
+
+TEST_F(SigningTimes, AnotherKeyInTheFileHasHeardNobody) {
+    write(file, fmt::format("mavloom signing times 1\nsigned 123456789\n{}heard 0 1 1 1000\n", key_line));
+    KeyStates states;
+    const auto times = states.open(key, *wire::SigningKey::load(key), notices);
+    EXPECT_THAT(times->state.heard, testing::SizeIs(1));
+    write(key, std::string(64, 'b'));
+    const auto again = states.open(key, *wire::SigningKey::load(key), notices);
+
+    EXPECT_EQ(again, times);
+    EXPECT_THAT(again->state.heard, IsEmpty());
+    EXPECT_EQ(again->state.last_signed.ticks, 123456789u);
+    EXPECT_TRUE(again->changed);
+    (void)again->write(again->state);
+    EXPECT_THAT(content(file), testing::Not(HasSubstr("heard")));  // neither what the file held
+}
+
+TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    KeyStates states;
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
+
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no regular file")));
+}
+
+TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
+    write(file, "nonsense");
+    KeyStates states;
+    (void)states.open(key, *wire::SigningKey::load(key), notices);
+
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no record of signing times")));
+    EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
+}
+
+TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
+    std::filesystem::create_directory(file);
+    KeyStates states;
+    const auto signature = Signature::load(options(true, true), EndpointId{0}, states, notices);
+
+    ASSERT_TRUE(signature);
+    EXPECT_THAT(notices, testing::Contains(HasSubstr("cannot write ")));
+    EXPECT_THAT(std::vector<std::filesystem::path>(std::filesystem::directory_iterator(dir.path()), {}),
+                testing::SizeIs(2));
+}
+
+TEST_F(SigningTimes, WhatIsNewIsWrittenWhileItRuns) {
+    KeyStates states;
+    const auto mine = states.open(key, *wire::SigningKey::load(key), notices);
+    EXPECT_NE(states.due(), MonoTime::max());
+    mine->state.merge_heard(std::array{Stream{7, {5}}});
+    mine->changed = true;
+    const auto now = states.due();
+    states.save(now, notices);
+
+    EXPECT_EQ(states.due(), now + KeyStates::save_interval);
+    const auto deadline = mono_now() + std::chrono::seconds(60);
+    const auto expected = fmt::format("mavloom signing times 1\nsigned 0\n{}heard 0 0 7 5\n", key_line);
+    while (content(file) != expected && mono_now() < deadline) std::this_thread::yield();
+    EXPECT_EQ(content(file), expected);
+}
+
+TEST(KeyStates, WithoutAKeyThereIsNothingToDo) { EXPECT_EQ(KeyStates().due(), MonoTime::max()); }
+
+}  // namespace
+}  // namespace mavloom::link::detail

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include "unit/link/fixture.hpp"
+
+namespace mavloom::link {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+struct LinksTcp : ::testing::Test {
+    PlainSocket connect(int receive_buffer = 0) { return PlainSocket::connected_tcp(node.port(in), receive_buffer); }
+    Node node;
+    EndpointId in = node.add("tcpin://127.0.0.1:0");
+};
+
+TEST_F(LinksTcp, FramesSplitAtEveryByteArriveWhole) {
+    const auto client = connect();
+    const int one = 1;
+    setsockopt(client.fd(), IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    const Bytes stream = heartbeat(0) + attitude(1) + frame_bytes(131, 2);
+    for (std::size_t cut = 1; cut < stream.size(); ++cut) {
+        node.recorder.frames.clear();
+        const auto at = stream.begin() + static_cast<std::ptrdiff_t>(cut);
+        client.write(Bytes(stream.begin(), at));
+        node.poll();
+        client.write(Bytes(at, stream.end()));
+        ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 3; }, node)) << cut;
+        ASSERT_EQ(node.recorder.bytes(), stream) << cut;
+    }
+    EXPECT_EQ(node.links->links().at(0).counters->junk_bytes.value(), 0u);
+}
+
+TEST_F(LinksTcp, AClientThatOnlyListensIsFed) {
+    const auto client = connect();
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    EXPECT_EQ(node.links->send(in, view(heartbeat(9))), 1u);
+    Bytes got;
+    ASSERT_TRUE(until([&] { return !(got = std::move(got) + client.read()).empty(); }, node));
+    EXPECT_EQ(got, heartbeat(9));
+}
+
+TEST_F(LinksTcp, AFalseStartDoesNotHoldFramesBackForEver) {
+    const auto client = connect();
+    client.write(Bytes{0xfd, 0xff, 0, 0, 0} + heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.bytes(), heartbeat(1));
+    EXPECT_EQ(node.links->links().at(0).counters->junk_bytes.value(), 5u);
+}
+
+TEST_F(LinksTcp, AClientThatItsOwnerClosesIsNotParsedToTheEnd) {
+    const auto client = connect();
+    client.write(Bytes{0xfd, 0xff, 0, 0, 0} + heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    node.poll();  // reads, and holds the frame back for it may be a part of a longer one
+    if (!node.recorder.frames.empty()) GTEST_SKIP() << "this machine is slower than the parser waits";
+    EXPECT_TRUE(node.links->close(node.recorder.ups[0].first));  // between two turns: nobody is there to take the frame
+    node.poll();
+    EXPECT_TRUE(node.recorder.frames.empty());
+    EXPECT_THAT(node.links->links(), SizeIs(0));
+}
+
+TEST_F(LinksTcp, AClosedClientGoesDownOnceAndItsFramesWereHeard) {
+    auto client = connect();
+    client.write(heartbeat(1) + Bytes{0xfd, 9, 0});
+    client.close();
+    ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.bytes(), heartbeat(1));
+    EXPECT_THAT(node.links->links(), SizeIs(0));
+}
+
+TEST_F(LinksTcp, CountersAreThereWhileALinkGoesDown) {
+    struct Last : Recorder {
+        void on_link_down(LinkId id, EndpointId, std::string_view) override {
+            frames_in = links->counters(id)->frames_in.value();
+        }
+        Links* links = nullptr;
+        std::uint64_t frames_in = 0;
+    } last;
+    last.links = node.links.get();
+    {
+        const auto client = connect();
+        client.write(heartbeat(1) + heartbeat(2));
+    }
+    const MonoTime deadline = mono_now() + std::chrono::seconds(60);
+    while (last.frames_in == 0 && mono_now() < deadline)
+        node.links->turn(last, mono_now() + std::chrono::milliseconds(1));
+    EXPECT_EQ(last.frames_in, 2u);
+}
+
+// DESIGN.md rule 2: a stalled client harms itself only, and gets whole frames when it reads again.
+TEST_F(LinksTcp, ASlowClientLosesWholeFramesOnlyAndTheOthersNone) {
+    const auto slow = connect(4096), quick = connect();
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+    constexpr int count = 60'000;  // 16 MB, far more than the kernel and the queue (1 MiB) hold
+    Bytes got_quick, got_slow;
+    std::size_t quick_bytes = 0;
+    for (int i = 0; i < count; ++i) {
+        const Bytes frame = frame_bytes(131, static_cast<std::uint8_t>(i));
+        node.links->send(in, view(frame));
+        if (i % 50 == 0) {
+            node.poll();
+            for (Bytes more = quick.read(); !more.empty(); more = quick.read()) quick_bytes += more.size();
+        }
+    }
+    const std::size_t all_bytes = count * frame_bytes(131, 0).size();
+    ASSERT_TRUE(until([&] { return (quick_bytes += quick.read().size()) == all_bytes; }, node));
+    EXPECT_LE(node.links->queued_bytes(in), 1u << 20);
+    const auto links = node.links->links();
+    ASSERT_THAT(links, SizeIs(2)) << "a slow client is never disconnected";
+    const auto& slow_counters = links[0].name.ends_with(std::to_string(slow.port())) ? *links[0].counters
+                                                                                     : *links[1].counters;
+    EXPECT_GT(slow_counters.queue_bytes.value(), 0u);
+
+    ASSERT_TRUE(until(
+        [&] {
+            got_slow = std::move(got_slow) + slow.read();
+            return !node.links->pending() && got_slow.size() == slow_counters.bytes_out.value();
+        },
+        node));
+    wire::StreamParser parser(table());
+    std::size_t frames = 0, bad = 0;
+    parser.feed(got_slow, MonoTime{},
+                [&](const wire::ParseEvent& e) { ++(e.kind == wire::ParseEvent::Kind::frame ? frames : bad); });
+    EXPECT_EQ(bad, 0u);
+    EXPECT_EQ(parser.pending_bytes(), 0u);
+    EXPECT_EQ(frames, slow_counters.frames_out.value());
+    EXPECT_EQ(frames + slow_counters.queue_bytes.value() + slow_counters.queue_age.value(),
+              static_cast<std::size_t>(count));
+}
+
+TEST_F(LinksTcp, WhatAStalledClientCannotTakeAges) {
+    Node other;
+    in = other.add("tcpin://127.0.0.1:0?queue_age=20ms");
+    const auto stalled = PlainSocket::connected_tcp(other.port(in), 4096);
+    ASSERT_TRUE(until([&] { return other.recorder.ups.size() == 1; }, other));
+    while (!other.links->pending()) {
+        for (int i = 0; i < 1000; ++i) other.links->send(in, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
+        other.poll();
+    }
+    const auto& counters = *other.links->links().at(0).counters;
+    ASSERT_TRUE(until([&] { return counters.queue_age.value() > 0 && other.links->queued_bytes(in) <= 280; }, other));
+}
+
+TEST_F(LinksTcp, EveryFrameForAClientThatIsGoneStaysCounted) {
+    auto stalled = connect(4096);
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    std::size_t count = 0;
+    while (!node.links->pending()) {
+        for (int i = 0; i < 500; ++i)
+            count += node.links->send(in, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
+        node.poll();
+    }
+    stalled.close();
+    ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
+    const EndpointCounters& counters = *node.info(in).counters;
+    const auto& gone = counters.gone;
+    const auto dropped = gone.queue_bytes.value() + gone.queue_age.value() + counters.gone_queued.value();
+    EXPECT_GT(gone.frames_out.value(), 0u);
+    EXPECT_GT(dropped, 0u);
+    EXPECT_EQ(gone.frames_out.value() + dropped, count);
+}
+
+TEST_F(LinksTcp, ClientsOverMaxPeersAreTurnedAwayAndCounted) {
+    Node other;
+    in = other.add("tcpin://127.0.0.1:0?max_peers=2");
+    std::vector<PlainSocket> clients;
+    for (int i = 0; i < 3; ++i) clients.push_back(PlainSocket::connected_tcp(other.port(in)));
+    ASSERT_TRUE(until([&] { return other.info(in).counters->peers_refused.value() == 1; }, other));
+    EXPECT_THAT(other.links->links(), SizeIs(2));
+    EXPECT_THAT(other.recorder.notices, ::testing::Contains(HasSubstr("max_peers")));
+}
+
+TEST(LinksTcpOut, WaitsForAListenerThatComesLater) {
+    std::uint16_t port;
+    {
+        const PlainSocket reserved(SOCK_STREAM);
+        port = reserved.port();
+    }
+    Node caller, listener;
+    const auto out = caller.add(fmt::format("tcpout://127.0.0.1:{}", port));
+    ASSERT_TRUE(until([&] { return !caller.recorder.notices.empty(); }, caller));
+    EXPECT_THAT(caller.recorder.notices[0],
+                HasSubstr(fmt::format("127.0.0.1:{}: Connection refused; trying again", port)));
+    EXPECT_EQ(caller.links->send(out, view(heartbeat(0))), 0u);
+    const auto in = listener.add(fmt::format("tcpin://127.0.0.1:{}", port));
+    ASSERT_TRUE(
+        until([&] { return caller.recorder.ups.size() == 1 && listener.recorder.ups.size() == 1; }, caller, listener));
+    EXPECT_THAT(caller.recorder.notices, SizeIs(1)) << "once, not at each attempt";
+    EXPECT_EQ(listener.links->send(in, view(heartbeat(1))), 1u);
+    ASSERT_TRUE(until([&] { return caller.recorder.frames.size() == 1; }, caller, listener));
+}
+
+TEST(LinksTcpOut, ARequiredFarSideThatIsAbsentIsAnError) {
+    std::uint16_t port;
+    {
+        const PlainSocket reserved(SOCK_STREAM);
+        port = reserved.port();
+    }
+    Node caller;
+    const auto error = caller.refused(fmt::format("tcpout://127.0.0.1:{}?required=true", port));
+    EXPECT_EQ(error.code, SetupCode::unreachable);
+    EXPECT_THAT(error.text, HasSubstr("Connection refused"));
+}
+
+// A listener whose backlog is full does not answer: the connect stays under way.
+TEST(LinksTcpOut, ABlackHoleHoldsNobodyUp) {
+    const PlainSocket hole(SOCK_STREAM);
+    ASSERT_EQ(::listen(hole.fd(), 0), 0);
+    std::vector<PlainSocket> filling;
+    for (int i = 0; i < 4; ++i) {
+        filling.emplace_back(SOCK_STREAM);
+        fcntl(filling.back().fd(), F_SETFL, O_NONBLOCK);
+        sockaddr_in to = PlainSocket::loopback(hole.port());
+        (void)::connect(filling.back().fd(), reinterpret_cast<sockaddr*>(&to), sizeof to);
+    }
+    Node node;
+    const auto out = node.add(fmt::format("tcpout://127.0.0.1:{}", hole.port()));
+    node.poll();
+    EXPECT_THAT(node.recorder.notices, Not(Contains(HasSubstr("trying again")))) << "the connect is not under way";
+    const auto in = node.add("udpin://127.0.0.1:0");
+    node.recorder.answer = [&](const RxFrame& rx) { node.links->send(rx.link, rx.frame); };
+    const auto peer = PlainSocket::udp();
+    for (std::uint8_t i = 0; i < 10; ++i) {
+        peer.send_to(node.port(in), heartbeat(i));
+        ASSERT_TRUE(until([&] { return !peer.read().empty(); }, node));
+    }
+    EXPECT_EQ(node.links->send(out, view(heartbeat(0))), 0u);
+}
+
+// The far side took a part of a frame and went: on the next connection the frame comes whole.
+TEST(LinksTcpOut, ANewConnectionBeginsWithAWholeFrame) {
+    const PlainSocket listening(SOCK_STREAM);
+    const int small = 4096;
+    setsockopt(listening.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    ASSERT_EQ(::listen(listening.fd(), 5), 0);
+    Node caller;
+    const auto out = caller.add(fmt::format("tcpout://127.0.0.1:{}", listening.port()));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 1; }, caller));
+    const int first = ::accept(listening.fd(), nullptr, nullptr);
+    while (!caller.links->pending()) {
+        for (int i = 0; i < 500; ++i) caller.links->send(out, view(frame_bytes(131, static_cast<std::uint8_t>(i))));
+        caller.poll();
+    }
+    ::close(first);  // with bytes unread: a reset
+    ASSERT_TRUE(until([&] { return caller.recorder.downs.size() == 1 && caller.recorder.ups.size() == 2; }, caller));
+    EXPECT_EQ(caller.recorder.ups[0].first, caller.recorder.ups[1].first) << "the link stays the same";
+    EXPECT_EQ(caller.info(out).counters->reconnects.value(), 1u);
+    const int second = ::accept(listening.fd(), nullptr, nullptr);
+    caller.links->send(out, view(heartbeat(0)));
+    Bytes begin(10);
+    ASSERT_TRUE(until([&] { return ::recv(second, begin.data(), begin.size(), MSG_DONTWAIT | MSG_PEEK) == 10; }, caller));
+    const wire::MessageTable& known = table();
+    EXPECT_EQ(begin[0], wire::stx_v2);
+    EXPECT_NE(known.find(MessageId{begin[7] | std::uint32_t{begin[8]} << 8}), nullptr);
+    ::close(second);
+}
+
+// The far side was away for longer than queue_age: what was meant for then is not said now.
+TEST(LinksTcpOut, FramesThatBecameTooOldMeanwhileAreNotSent) {
+    PlainSocket listening(SOCK_STREAM);
+    const int small = 4096;
+    setsockopt(listening.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    ASSERT_EQ(::listen(listening.fd(), 5), 0);
+    const std::uint16_t port = listening.port();
+    Node caller, listener;
+    const auto out = caller.add(fmt::format("tcpout://127.0.0.1:{}?queue_age=200ms", port));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 1; }, caller));
+    const int first = ::accept(listening.fd(), nullptr, nullptr);
+    while (!caller.links->pending()) {
+        for (int i = 0; i < 500; ++i) caller.links->send(out, view(frame_bytes(76, static_cast<std::uint8_t>(i))));
+        caller.poll();
+    }
+    listening.close();
+    ::close(first);
+    ASSERT_TRUE(until([&] { return caller.recorder.downs.size() == 1; }, caller));
+    EXPECT_GT(caller.links->queued_bytes(out), 0u);
+    const MonoTime too_old = mono_now() + std::chrono::milliseconds(250);
+    ASSERT_TRUE(until([&] { return mono_now() > too_old; }, caller));
+    listener.add(fmt::format("tcpin://127.0.0.1:{}", port));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 2; }, caller, listener));
+    caller.links->send(out, view(heartbeat(0)));
+    ASSERT_TRUE(until([&] { return !listener.recorder.frames.empty(); }, caller, listener));
+    EXPECT_EQ(listener.recorder.bytes(), heartbeat(0));
+    EXPECT_GT(caller.counters(caller.recorder.ups[0].first).queue_age.value(), 0u);
+}
+
+}  // namespace
+}  // namespace mavloom::link

@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/net/udp.hpp"
+#include "link/coalescing.hpp"
+#include "mavloom/net/resolver.hpp"
+#include "unit/link/fixture.hpp"
+
+namespace mavloom::link {
+namespace {
+
+using namespace testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+std::string to(std::string_view scheme, std::uint16_t port, std::string_view query = "") {
+    return fmt::format("{}://127.0.0.1:{}{}", scheme, port, query);
+}
+
+TEST(LinksUdp, EveryPeerThatSendsAFrameIsALinkAndGetsItsAnswer) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    node.recorder.answer = [&](const RxFrame& rx) { EXPECT_EQ(node.links->send(rx.link, rx.frame), 1u); };
+    const auto a = PlainSocket::udp(), b = PlainSocket::udp();
+    a.send_to(node.port(in), heartbeat(1));
+    b.send_to(node.port(in), heartbeat(2));
+    Bytes got_a, got_b;
+    ASSERT_TRUE(until(
+        [&] {
+            got_a = std::move(got_a) + a.read();
+            got_b = std::move(got_b) + b.read();
+            return !got_a.empty() && !got_b.empty();
+        },
+        node));
+    EXPECT_EQ(got_a, heartbeat(1));
+    EXPECT_EQ(got_b, heartbeat(2));
+    ASSERT_THAT(node.recorder.ups, SizeIs(2));
+    EXPECT_THAT(node.recorder.ups,
+                Contains(::testing::Field(&std::pair<LinkId, std::string>::second,
+                                          fmt::format("udpin://127.0.0.1:{}#127.0.0.1:{}", node.port(in), a.port()))));
+}
+
+TEST(LinksUdp, ReceiveTimesAreTheKernels) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto peer = PlainSocket::udp();
+    // The kernel switches time stamps on some time after the first socket asked; until then it stamps when the datagram is read.
+    bool stamped_on_arrival = false;
+    const MonoTime deadline = mono_now() + std::chrono::seconds(60);
+    for (std::uint8_t i = 0; !stamped_on_arrival && mono_now() < deadline; ++i) {
+        node.recorder.frames.clear();
+        const WallTime before = wall_now();
+        peer.send_to(node.port(in), heartbeat(i));
+        const WallTime after = wall_now();
+        usleep(2000);
+        ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
+        EXPECT_GE(node.recorder.frames[0].time, before);
+        stamped_on_arrival = node.recorder.frames[0].time <= after;
+    }
+    EXPECT_TRUE(stamped_on_arrival);
+}
+
+TEST(LinksUdp, AllFiveFramesOfADatagramArriveInOrder) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const Bytes datagram = heartbeat(0) + attitude(1) + frame_bytes(131, 2) + attitude(3) + heartbeat(4);
+    PlainSocket::udp().send_to(node.port(in), datagram);
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 5; }, node));
+    EXPECT_EQ(node.recorder.bytes(), datagram);
+}
+
+TEST(LinksUdp, ARushIsTakenWholeAndInOrder) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto peer = PlainSocket::udp();
+    const MonoTime end = mono_now() + 5 * detail::Coalescing::window;
+    Bytes sent;
+    std::uint8_t sequence = 0;
+    std::size_t frames = 0;
+    while (mono_now() < end || frames < 10 * net::ReceiveBatch::slots) {
+        for (std::size_t i = 0; i < net::ReceiveBatch::slots + 1; ++i, ++frames) {
+            const Bytes frame = heartbeat(sequence++);
+            sent.insert(sent.end(), frame.begin(), frame.end());
+            peer.send_to(node.port(in), frame);
+        }
+        for (const int turn : {1, 2})  // the first leaves one
+            node.links->turn(node.recorder, mono_now() + std::chrono::milliseconds(turn));
+    }
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == frames; }, node));
+    Bytes got;
+    for (const auto& heard : node.recorder.frames) got.insert(got.end(), heard.bytes.begin(), heard.bytes.end());
+    EXPECT_EQ(got, sent);
+    EXPECT_EQ(node.info(in).counters->kernel_drop.value(), 0u);
+}
+
+// Turns that fit into a rush of 20 ms, after 30 ms of it.
+std::size_t turns_in_a_rush(Node& node, std::uint16_t port) {
+    const auto peer = PlainSocket::udp();
+    Bytes datagram;
+    for (std::uint8_t i = 0; i < 20; ++i) datagram = std::move(datagram) + heartbeat(i);
+    const MonoTime begin = mono_now();
+    std::size_t turns = 0;
+    for (MonoTime now = begin; now < begin + std::chrono::milliseconds(50); now = mono_now()) {
+        peer.send_to(port, datagram);
+        node.links->turn(node.recorder, now);
+        if (now > begin + std::chrono::milliseconds(30)) ++turns;
+    }
+    return turns;
+}
+
+TEST(LinksUdp, LowLatencyKeepsTurnsFromResting) {
+    constexpr std::size_t most_with_rests = std::chrono::milliseconds(20) / detail::Coalescing::turn_interval + 2;
+    Node node;
+    const auto port = node.port(node.add("udpin://127.0.0.1:0"));
+    const auto rests = [&] { return turns_in_a_rush(node, port) <= most_with_rests; };
+
+    EXPECT_TRUE(until([&] { return rests(); }, node));
+    const auto low = node.add("udpin://127.0.0.1:0?low_latency=true");
+    EXPECT_TRUE(until([&] { return !rests(); }, node));
+    node.links->remove(low);
+    EXPECT_TRUE(until([&] { return rests(); }, node));
+}
+
+TEST(LinksUdp, HalfAFrameHarmsNobodyElse) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto good = PlainSocket::udp(), bad = PlainSocket::udp();
+    bad.send_to(node.port(in), heartbeat(0));
+    good.send_to(node.port(in), heartbeat(0));
+    Bytes half = attitude(1);
+    half.resize(20);
+    bad.send_to(node.port(in), half);
+    good.send_to(node.port(in), attitude(1));
+    bad.send_to(node.port(in), attitude(1));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 4; }, node));
+    EXPECT_THAT(node.links->links(), SizeIs(2));
+    EXPECT_EQ(node.counters(node.recorder.frames[0].link).junk_bytes.value(), 20u);
+    EXPECT_EQ(node.counters(node.recorder.frames[1].link).junk_bytes.value(), 0u);
+}
+
+TEST(LinksUdp, GarbageOfAStrangerMakesNoPeer) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto stranger = PlainSocket::udp();
+    Bytes damaged = attitude(0);
+    damaged[15] ^= 1;
+    stranger.send_to(node.port(in), Bytes(100, 0xfd));
+    stranger.send_to(node.port(in), damaged);
+    ASSERT_TRUE(until([&] { return node.info(in).counters->stray_bytes.value() == 100 + damaged.size(); }, node));
+    EXPECT_THAT(node.links->links(), SizeIs(0));
+    EXPECT_THAT(node.recorder.ups, SizeIs(0));
+}
+
+TEST(LinksUdp, FramesOfOneTurnShareDatagramsUpToTheMtu) {
+    Node node;
+    const auto far = PlainSocket::udp();
+    const auto out = node.add(to("udpout", far.port(), "?mtu=280"));
+    Bytes all;
+    for (std::uint8_t i = 0; i < 10; ++i) {
+        EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+        all = std::move(all) + attitude(i);
+    }
+    const auto eighth = all.begin() + 7 * 40;
+    EXPECT_TRUE(node.links->pending());
+    node.poll();
+    EXPECT_FALSE(node.links->pending());
+    EXPECT_EQ(far.read(), Bytes(all.begin(), eighth));
+    EXPECT_EQ(far.read(), Bytes(eighth, all.end()));
+    EXPECT_EQ(node.links->links().at(0).counters->frames_out.value(), 10u);
+    EXPECT_EQ(node.links->links().at(0).counters->bytes_out.value(), 400u);
+}
+
+TEST(LinksUdp, MtuZeroKeepsOneFrameADatagram) {
+    Node node;
+    const auto far = PlainSocket::udp();
+    const auto out = node.add(to("udpout", far.port(), "?mtu=0"));
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+    node.poll();
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(far.read(), attitude(i));
+}
+
+TEST(LinksUdp, UdpoutHearsItsFarSideAndCountsOthers) {
+    Node node;
+    const auto far = PlainSocket::udp(), stranger = PlainSocket::udp();
+    const auto out = node.add(to("udpout", far.port()));
+    stranger.send_to(node.port(out), heartbeat(0));
+    far.send_to(node.port(out), heartbeat(1));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.bytes(), heartbeat(1));
+    EXPECT_EQ(node.info(out).counters->wrong_peer.value(), 1u);
+}
+
+TEST(LinksUdp, TheLongestIdleOfThreeHundredPeersGoFirst) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    std::vector<PlainSocket> peers;
+    for (std::size_t i = 0; i < 300; ++i) {
+        peers.push_back(PlainSocket::udp());
+        peers[i].send_to(node.port(in), heartbeat(0));
+        ASSERT_TRUE(until([&] { return node.recorder.frames.size() == i + 1; }, node));
+    }
+    EXPECT_THAT(node.links->links(), SizeIs(256));
+    EXPECT_EQ(node.info(in).counters->peers_evicted.value(), 44u);
+    ASSERT_THAT(node.recorder.downs, SizeIs(44));
+    for (std::size_t i = 0; i < 44; ++i) EXPECT_EQ(node.recorder.downs[i].first, node.recorder.ups[i].first);
+    EXPECT_EQ(node.links->send(in, view(heartbeat(1))), 256u);
+    node.poll();
+    EXPECT_EQ(peers[43].read(), Bytes{});
+    EXPECT_EQ(peers[44].read(), heartbeat(1));
+    EXPECT_EQ(peers[299].read(), heartbeat(1));
+}
+
+TEST(LinksUdp, AFloodOfStrangersDoesNotPushOutThoseWhoTalk) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?max_peers=2");
+    const auto a = PlainSocket::udp(), b = PlainSocket::udp();
+    for (std::uint8_t i = 0; i < 2; ++i) {
+        a.send_to(node.port(in), heartbeat(i));
+        b.send_to(node.port(in), heartbeat(i));
+    }
+    for (int i = 0; i < 50; ++i) PlainSocket::udp().send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.info(in).counters->peers_refused.value() == 50; }, node));
+    EXPECT_THAT(node.recorder.downs, SizeIs(0));
+    EXPECT_THAT(node.links->links(), SizeIs(2));
+}
+
+TEST(LinksUdp, JunkDoesNotKeepAPeer) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?idle=50ms");
+    const auto peer = PlainSocket::udp();
+    peer.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    ASSERT_TRUE(
+        until([&] { return peer.send_to(node.port(in), Bytes(20, 0x55)), node.recorder.downs.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.downs[0].second, "idle");
+}
+
+TEST(LinksUdp, WhatWasSentToAPeerThatIsGoneStaysCounted) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?max_peers=1");
+    const auto a = PlainSocket::udp(), b = PlainSocket::udp();
+    a.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+    EXPECT_EQ(node.links->send(in, view(attitude(0))), 1u);
+    node.poll();
+    EXPECT_EQ(node.info(in).counters->gone.frames_out.value(), 0u);
+    b.send_to(node.port(in), heartbeat(0));
+    ASSERT_TRUE(until([&] { return node.recorder.downs.size() == 1; }, node));
+    EXPECT_EQ(node.info(in).counters->gone.frames_out.value(), 1u);
+    EXPECT_EQ(node.info(in).counters->gone.bytes_out.value(), 40u);
+    EXPECT_EQ(node.info(in).counters->gone_queued.value(), 0u);
+    EXPECT_EQ(node.links->counters(node.recorder.downs[0].first), nullptr);
+}
+
+// From the loopback address nothing goes to another host.
+TEST(LinksUdp, FramesOfADatagramThatIsRefusedAreCounted) {
+    Node node;
+    const auto out = node.add("udpout://192.0.2.1:9?bind=127.0.0.1:0");
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+    node.poll();
+    EXPECT_FALSE(node.links->pending());
+    const auto& counters = *node.links->links().at(0).counters;
+    EXPECT_EQ(counters.frames_not_sent.value(), 3u);
+    EXPECT_EQ(counters.frames_out.value(), 0u);
+    EXPECT_EQ(node.info(out).counters->send_errors.value(), 1u);
+}
+
+TEST(LinksUdp, KernelDropsAreCountedAlsoBehindTheLastDatagram) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?rcvbuf=4096");
+    const auto peer = PlainSocket::udp();
+    constexpr int count = 500;
+    for (int i = 0; i < count; ++i) peer.send_to(node.port(in), attitude(static_cast<std::uint8_t>(i)));
+    ASSERT_TRUE(until(
+        [&, last = std::size_t{0}]() mutable {
+            return std::exchange(last, node.recorder.frames.size()) == node.recorder.frames.size() && last > 0;
+        },
+        node));
+    node.links->refresh_kernel_drops();
+    node.links->refresh_kernel_drops();
+    EXPECT_EQ(node.info(in).counters->kernel_drop.value(), count - node.recorder.frames.size());
+    EXPECT_GT(node.info(in).counters->kernel_drop.value(), 0u);
+}
+
+TEST(LinksUdp, TheReceiveBufferObtainedIsTold) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?rcvbuf=100000");
+    node.poll();
+    EXPECT_GE(node.info(in).rcvbuf_bytes, 100'000u);
+    EXPECT_THAT(node.recorder.notices,
+                ElementsAre(HasSubstr(fmt::format("listening (receive buffer {} bytes)", node.info(in).rcvbuf_bytes))));
+}
+
+TEST(LinksUdp, AClosedFarSideIsNotFatal) {
+    Node node;
+    std::uint16_t port;
+    { port = PlainSocket::udp().port(); }
+    const auto out = node.add(to("udpout", port));
+    ASSERT_TRUE(until(
+        [&] { return node.links->send(out, view(heartbeat(0))), node.info(out).counters->send_errors.value() > 3; },
+        node));
+    EXPECT_THAT(node.recorder.notices, Contains(HasSubstr("refuses")));
+    Node late;
+    const auto in = late.add(to("udpin", port));
+    ASSERT_TRUE(
+        until([&] { return node.links->send(out, view(heartbeat(0))), !late.recorder.frames.empty(); }, node, late));
+    EXPECT_THAT(late.links->links(), SizeIs(1));
+    EXPECT_EQ(late.links->send(in, view(heartbeat(1))), 1u);
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node, late));
+}
+
+TEST(LinksUdp, FramesToAClosedPortAreRefusedUntilThePeerIsHeard) {
+    Node node;
+    std::uint16_t port;
+    { port = PlainSocket::udp().port(); }
+    const auto out = node.add(to("udpout", port));
+    const auto counters = [&] { return node.links->links().at(0).counters; };
+    ASSERT_EQ(node.links->send(out, view(heartbeat(0))), 1u);
+    ASSERT_TRUE(until([&] { return node.info(out).counters->send_errors.value() == 1; }, node));
+    EXPECT_EQ(counters()->frames_out.value(), 0u);
+    EXPECT_EQ(counters()->refused.value(), 1u);
+    for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(node.links->send(out, view(attitude(i))), 1u);
+    node.poll();
+    EXPECT_EQ(counters()->frames_out.value(), 0u);
+    EXPECT_EQ(counters()->refused.value(), 4u);
+
+    const auto far_side = PlainSocket::udp(port);
+    far_side.send_to(node.info(out).local_port, heartbeat(0));
+    ASSERT_TRUE(until([&] { return !node.recorder.frames.empty(); }, node));
+    EXPECT_EQ(node.links->send(out, view(attitude(9))), 1u);
+    node.poll();
+    EXPECT_EQ(counters()->frames_out.value(), 1u);
+    EXPECT_EQ(counters()->refused.value(), 4u);
+}
+
+TEST(LinksUdp, ARefusalIsForgottenAfterASecond) {
+    Node node;
+    std::uint16_t port;
+    { port = PlainSocket::udp().port(); }
+    const auto out = node.add(to("udpout", port));
+    ASSERT_EQ(node.links->send(out, view(heartbeat(0))), 1u);
+    ASSERT_TRUE(until([&] { return node.info(out).counters->send_errors.value() == 1; }, node));
+    const auto far_side = PlainSocket::udp(port);  // listens, and says nothing
+    ASSERT_TRUE(until([&, last = mono_now()] { return mono_now() - last > std::chrono::seconds(1); }, node));
+    EXPECT_EQ(node.links->send(out, view(attitude(0))), 1u);
+    node.poll();
+    EXPECT_EQ(node.links->links().at(0).counters->refused.value(), 1u);
+    EXPECT_EQ(node.links->links().at(0).counters->frames_out.value(), 1u);
+}
+
+TEST(LinksUdp, ARefusalIsThatOfItsPeerOnly) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto stays = PlainSocket::udp();
+    stays.send_to(node.port(in), heartbeat(0));
+    {
+        const auto goes = PlainSocket::udp();
+        goes.send_to(node.port(in), heartbeat(0));
+        ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));
+    }
+    ASSERT_EQ(node.links->send(in, view(attitude(0))), 2u);
+    ASSERT_TRUE(until([&] { return node.info(in).counters->send_errors.value() == 1; }, node));
+    ASSERT_EQ(node.links->send(in, view(attitude(1))), 2u);
+    node.poll();
+    const auto links = node.links->links();
+    EXPECT_EQ(links.at(0).counters->frames_out.value(), 2u);
+    EXPECT_EQ(links.at(0).counters->refused.value(), 0u);
+    EXPECT_EQ(links.at(1).counters->frames_out.value(), 1u);  // it was there a moment before
+    EXPECT_EQ(links.at(1).counters->refused.value(), 1u);
+}
+
+// A name with two addresses, of which the first has nobody: the next one gets its turn.
+TEST(LinksUdp, CallingANameTriesItsNextAddress) {
+    const auto addresses = net::look_up("localhost", 1);
+    if (!addresses || addresses->size() < 2) GTEST_SKIP() << "localhost has one address here";
+    Node listener, caller;
+    const auto in = listener.add("udpin://[::1]:0");
+    const auto out = caller.add(fmt::format("udpout://localhost:{}", listener.port(in)));
+    ASSERT_TRUE(until([&] { return caller.links->send(out, view(heartbeat(0))), !listener.recorder.frames.empty(); },
+                      listener, caller));
+    const LinkCounters& counters = *caller.links->links().at(0).counters;
+    ASSERT_TRUE(until([&] { return counters.frames_out.value() != 0; }, listener, caller));
+    const auto refused = counters.refused.value(), sent = counters.frames_out.value();
+    caller.links->send(out, view(heartbeat(1)));  // what the first address refused says nothing of this one
+    ASSERT_TRUE(until([&] { return counters.frames_out.value() == sent + 1; }, listener, caller));
+    EXPECT_EQ(counters.refused.value(), refused);
+}
+
+TEST(LinksUdp, ListeningOnANameBindsAllItsAddresses) {
+    const auto addresses = net::look_up("localhost", 1);
+    if (!addresses || addresses->size() < 2) GTEST_SKIP() << "localhost has one address here";
+    Node listener, four, six;
+    const auto in = listener.add("udpin://localhost:0");
+    const auto by_four = four.add(to("udpout", listener.port(in)));
+    const auto by_six = six.add(fmt::format("udpout://[::1]:{}", listener.port(in)));
+    four.links->send(by_four, view(heartbeat(4)));
+    six.links->send(by_six, view(heartbeat(6)));
+    ASSERT_TRUE(until([&] { return listener.recorder.frames.size() == 2; }, listener, four, six));
+}
+
+TEST(LinksUdp, ManyPeersGetTheirFramesInOneTurn) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    std::vector<PlainSocket> peers;
+    for (std::size_t i = 0; i < 200; ++i) {
+        peers.push_back(PlainSocket::udp());
+        peers[i].send_to(node.port(in), heartbeat(0));
+    }
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 200; }, node));
+    Bytes all;
+    for (std::uint8_t i = 0; i < 100; ++i) {  // 4,000 bytes: four datagrams each, more than one batch
+        EXPECT_EQ(node.links->send(in, view(attitude(i))), 200u);
+        all = std::move(all) + attitude(i);
+    }
+    node.poll();
+    for (const PlainSocket& peer : peers) {
+        Bytes got;
+        for (Bytes more = peer.read(); !more.empty(); more = peer.read()) got = std::move(got) + more;
+        ASSERT_EQ(got, all);
+    }
+}
+
+}  // namespace
+}  // namespace mavloom::link
