@@ -201,7 +201,7 @@ bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     if (!here) return true;
     if (!here->is_any()) return *here == *there;
     if (here->is_v4() && !there->is_v4()) return false;
-    return broadcast || net::OwnAddresses().contains(*there, mono_now());
+    return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
 }
 
 // What is sent to `to` would come in by `source` again.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import signal
 import sys
 import time
@@ -62,11 +63,17 @@ def mode(text: str) -> int:
         raise argparse.ArgumentTypeError(f"{text!r}: expected octal digits, for example 0640") from None
 
 
+def ring_name(text: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no name of a ring: letters, digits, _ and -, at most 64")
+    return text
+
+
 def arguments(words: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory; sends back what readers answer.",
                                      epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
-    parser.add_argument("--ring", required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
+    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
     parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
     parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring, and send by its socket (0600)")
     end = parser.add_mutually_exclusive_group()

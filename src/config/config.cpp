@@ -13,6 +13,7 @@
 #include "config/text.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/endpoint/grammar.hpp"
+#include "mavloom/net/run_folder.hpp"
 
 namespace mavloom::config {
 
@@ -142,7 +143,8 @@ private:
         known.reserve(names.size());
         for (const std::string_view name : names) known.push_back(name.substr(variable_prefix.size()));
         for (const auto& [name, value] : environment_) {
-            if (!name.starts_with(variable_prefix) || std::ranges::find(names, name) != names.end()) continue;
+            const bool is_known = name == net::run_variable || std::ranges::find(names, name) != names.end();
+            if (!name.starts_with(variable_prefix) || is_known) continue;
             const auto near = nearest(std::string_view(name).substr(variable_prefix.size()), known);
             const auto hint = near.empty() ? std::string()
                                            : fmt::format(", did you mean '{}{}'?", variable_prefix, near);

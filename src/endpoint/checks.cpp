@@ -108,4 +108,9 @@ SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
     return {};
 }
 
+SetupResult<void> check_written(const Endpoint& recording) {
+    if (!recording.options.speed) return {};
+    return refused(recording, "'speed' is for a recording that is read; a router writes one");
+}
+
 }  // namespace mavloom::endpoint

@@ -69,6 +69,11 @@ bool Address::is_any() const noexcept {
     return is_v6() && IN6_IS_ADDR_UNSPECIFIED(&storage_.v6.sin6_addr);
 }
 
+bool Address::is_loopback() const noexcept {
+    if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 24) == 127;
+    return is_v6() && IN6_IS_ADDR_LOOPBACK(&storage_.v6.sin6_addr);
+}
+
 bool Address::is_multicast() const noexcept {
     if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 28) == 0xe;
     return is_v6() && IN6_IS_ADDR_MULTICAST(&storage_.v6.sin6_addr);

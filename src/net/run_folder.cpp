@@ -20,17 +20,17 @@ namespace mavloom::net {
 
 namespace {
 
-std::optional<std::filesystem::path> absolute_path_in(const char* variable) {
-    const char* value = std::getenv(variable);
-    if (value == nullptr || *value != '/') return std::nullopt;
-    return value;
+std::string_view value_of(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value == nullptr ? std::string_view{} : value;
 }
 
 // The first that serves is taken.
 std::vector<std::filesystem::path> run_folders() {
-    if (auto only = absolute_path_in("MAVLOOM_RUN")) return {std::move(*only)};
+    if (const auto only = value_of(run_variable); !only.empty()) return {only};
     std::vector<std::filesystem::path> folders{"/run/mavloom"};
-    if (auto own = absolute_path_in("XDG_RUNTIME_DIR")) folders.push_back(*own / "mavloom");
+    if (const auto own = value_of("XDG_RUNTIME_DIR"); own.starts_with('/'))
+        folders.push_back(std::filesystem::path(own) / "mavloom");
     return folders;
 }
 
@@ -54,10 +54,9 @@ SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_v
                                        "helps",
                                        what, path.string(), most));
     }
-    if (const auto only = absolute_path_in("MAVLOOM_RUN"))
-        return setup_error(SetupCode::permission,
-                           fmt::format("no folder for the {}: MAVLOOM_RUN is {}, which cannot be made or written", what,
-                                       only->string()));
+    if (const auto only = value_of(run_variable); !only.empty())
+        return setup_error(SetupCode::permission, fmt::format("no folder for the {}: {}={} cannot be made or written",
+                                                              what, run_variable, only));
     return setup_error(
         SetupCode::permission,
         fmt::format("no folder for the {}: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set", what));

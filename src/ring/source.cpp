@@ -154,7 +154,7 @@ void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
 void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {
     next_look_ = {};
     if (why == shm::ReadError::empty) {
-        told_ = Told::nothing;
+        if (told_ != Told::unwritten) told_ = Told::nothing;  // a writer that is back writes
         return;
     }
     if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {

@@ -171,8 +171,8 @@ void Engine::Impl::rebuild() {
         if (group.current != no_slot && !has(group.members.data(), group.current)) group.current = no_slot;
         chooses_members_ = chooses_members_ || (group.mode != GroupMode::all && group.order.size() > 1);
     }
-    // With one link nothing is sent anywhere, and nothing can come back.
-    const bool remembers = link_count > 1 || options.dedup > Nanoseconds{} || recent_.active();
+    // From the first link on: what the router itself sends there may come back by the second.
+    const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
     recent_.resize(remembers ? options.recent_frames : 0, words_);
 }
 

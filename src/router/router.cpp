@@ -127,10 +127,7 @@ SetupResult<void> Router::add_recording(const endpoint::Endpoint& endpoint) {
     };
     if (std::ranges::any_of(recordings_, same))
         return setup_error(SetupCode::usage, fmt::format("{} is recorded already", endpoint.label()));
-    if (endpoint.options.speed)
-        return setup_error(
-            SetupCode::usage,
-            fmt::format("{}: 'speed' is for a recording that is read; a router writes one", endpoint.label()));
+    if (auto good = endpoint::check_written(endpoint); !good) return good;
     std::error_code unknown;
     if (std::filesystem::is_fifo(endpoint.path, unknown))
         return setup_error(SetupCode::usage,

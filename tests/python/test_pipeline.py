@@ -253,12 +253,11 @@ def test_a_second_hear_is_refused_with_the_first_ones_process(start, ring, port)
 
 
 def test_an_inlet_that_somebody_serves_is_refused_with_its_process(start, ring):
-    folder = pathlib.Path("/run/mavloom") if os.access("/run/mavloom", os.W_OK) else pathlib.Path(os.environ["XDG_RUNTIME_DIR"], "mavloom")
-    folder.mkdir(exist_ok=True)
+    place = harness.RUN / f"{ring}.in"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
-        other.bind(str(folder / f"{ring}.in"))
+        other.bind(str(place))
         done = start(sys.executable, "-m", "mavloom.hear", "udpin://127.0.0.1:0", "--ring", ring).wait()
-    (folder / f"{ring}.in").unlink()
+    place.unlink()
 
     assert done.status == 1 and f"{ring}.in is served by process {os.getpid()} already" in done.stderr
 

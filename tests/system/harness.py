@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What the system tests share: running the program under a deadline, waiting for a condition, free ports. Fixtures are in conftest.py."""
+import atexit
 import contextlib
 import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import time
 
@@ -21,9 +24,22 @@ DEFAULT_TIMEOUT_S = 60
 SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
 
 
+def _run_folder() -> pathlib.Path:
+    """Of this run of the tests, its worker processes among it: no router of the machine's is in the way, and none is touched. Short, because the name
+    of a socket is."""
+    if "MAVLOOM_RUN" not in os.environ:
+        os.environ["MAVLOOM_RUN"] = tempfile.mkdtemp(prefix="mv-")
+        atexit.register(shutil.rmtree, os.environ["MAVLOOM_RUN"], ignore_errors=True)
+    return pathlib.Path(os.environ["MAVLOOM_RUN"])
+
+
+RUN = _run_folder()
+
+
 def environment(more=None) -> dict:
-    """What the program gets: ours without what only tests know, and `more`."""
-    return {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")} | (more or {})
+    """What the program gets: ours without what only tests know, and `more`, where None takes a variable away."""
+    own = {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")}
+    return {name: value for name, value in (own | (more or {})).items() if value is not None}
 
 
 def program_path() -> pathlib.Path:
@@ -60,7 +76,9 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
 
 
 # Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its number can take it.
-_ports = random.sample(range(20_000, 32_000), 12_000)
+# Each worker of pytest-xdist has its own share.
+_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
+_ports = random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500)
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:
@@ -181,6 +199,6 @@ def end(processes):
         if process.process.returncode != -signal.SIGKILL:
             continue
         names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring") if option in process.args]
-        for left in (f"/run/mavloom/{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in")):
+        for left in (RUN / f"{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in")):
             with contextlib.suppress(OSError):
                 os.unlink(left)

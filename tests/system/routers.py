@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: MIT
 """A running `mavloom route` and the far ends of its links, for the system tests. A Net is a router with the ends 1, 2, 3, ... around it, over
 any kind of link; it tells exactly which ends a frame reached, without waiting for what does not come."""
-import atexit
 import collections
 import itertools
 import json
 import os
 import pty
 import select
-import shutil
 import socket
-import tempfile
 import time
 import tty
 
@@ -229,18 +226,6 @@ def tcp_port() -> int:
 
 # ---- the router ------------------------------------------------------------------------------------------------------
 
-_runtime_dir = None
-
-
-def runtime_dir() -> str:
-    """For XDG_RUNTIME_DIR where /run/mavloom cannot be made; short, because the name of a socket is."""
-    global _runtime_dir
-    if _runtime_dir is None:
-        _runtime_dir = tempfile.mkdtemp(prefix="mv-")
-        atexit.register(shutil.rmtree, _runtime_dir, ignore_errors=True)
-    return _runtime_dir
-
-
 _names = itertools.count(1)
 
 
@@ -249,7 +234,7 @@ class Router:
 
     def __init__(self, spawn, *args, rules=None, env=None):
         self.name = f"test-{os.getpid()}-{next(_names)}"
-        self.env = {"XDG_RUNTIME_DIR": runtime_dir(), **{f"MAVLOOM_ROUTER_{k.upper()}": str(v) for k, v in (rules or {}).items()}, **(env or {})}
+        self.env = {**{f"MAVLOOM_ROUTER_{k.upper()}": str(v) for k, v in (rules or {}).items()}, **(env or {})}
         self.process = spawn("route", *args, "--name", self.name, env=self.env)
         self._control = harness.wait_for(self._connect, what="the control socket").makefile("rwb")
 
@@ -257,14 +242,10 @@ class Router:
         if not self.process.alive:
             done = self.process.wait()
             raise AssertionError(f"ended with {done.status}: {done.stderr}")
-        return self._connect_to(f"/run/mavloom/{self.name}.ctl") or self._connect_to(f"{runtime_dir()}/mavloom/{self.name}.ctl")
-
-    @staticmethod
-    def _connect_to(path):
         sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         sock.settimeout(harness.DEFAULT_TIMEOUT_S)
         try:
-            sock.connect(path)
+            sock.connect(str(harness.RUN / f"{self.name}.ctl"))
             return sock
         except OSError:
             sock.close()

@@ -107,6 +107,7 @@ def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
     ('[[endpoint]]\nurl = "udpmcast://239.1.2.3:14550?max_peers=3"\n', 2, "udpmcast://239.1.2.3:14550: all who are heard here are one link"),
     ('[[endpoint]]\nscheme = "udpout"\nhost = "127.0.0.1"\nport = 1\nbind = "[::1]:0"\n', 2,
      "udpout://127.0.0.1:1: bind=[::1]:0 is of another family than 127.0.0.1:1"),
+    ('[[endpoint]]\nurl = "tlog://a.tlog?speed=3"\n', 2, "tlog://a.tlog: 'speed' is for a recording that is read"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?ttl=0"\n', 2, "udpin://127.0.0.1:1: ttl=0 keeps the datagrams of a group on this machine"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\ngroup = "air"\ngroup_mode = "primary"\n',
      6, "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),

@@ -377,7 +377,7 @@ def test_a_relay_of_something_live_to_nobody_is_status_4(spawn, udp_socket, udp_
 
 @pytest.mark.parametrize("source, to", [("udpin://0.0.0.0:{}", "udpout://127.0.0.1:{}"), ("udpin://127.0.0.1:{}", "udpout://localhost:{}"),
                                         ("udpin://[::]:{}", "udpout://[::1]:{}"), ("tcpin://127.0.0.1:{}", "tcpout://127.0.0.1:{}"),
-                                        ("udpin://0.0.0.0:{}", "udpbcast://127.255.255.255:{}"),
+                                        ("udpin://0.0.0.0:{}", "udpbcast://127.255.255.255:{}"), ("udpin://0.0.0.0:{}", "udpout://127.0.0.2:{}"),
                                         ("udpin://0.0.0.0:{}", f"udpout://{socket.gethostname()}:{{}}")])
 def test_a_relay_onto_its_own_port_is_refused(run, udp_port, source, to):
     port = udp_port()

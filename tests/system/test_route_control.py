@@ -208,7 +208,7 @@ def test_ctl_that_is_used_wrongly(run, arguments):
 
 @pytest.mark.parametrize("args", [("ctl", "nobody-at-all", "links"), ("stat", "nobody-at-all")])
 def test_nobody_of_that_name(run, args):
-    done = run(*args, env={"XDG_RUNTIME_DIR": routers.runtime_dir()})
+    done = run(*args)
 
     assert done.status == 1 and "no router called 'nobody-at-all' runs here" in done.stderr
 
@@ -244,7 +244,7 @@ def test_the_socket_survives_whatever_is_said(net):
 
 
 def control_path(router):
-    return next(path for folder in ("/run/mavloom", f"{routers.runtime_dir()}/mavloom") if os.path.exists(path := f"{folder}/{router.name}.ctl"))
+    return str(harness.RUN / f"{router.name}.ctl")
 
 
 def test_two_of_one_name(spawn, run):
@@ -275,13 +275,12 @@ def test_too_many_clients_are_told_so(spawn, run):
     harness.wait_for(lambda: run("ctl", router.name, "links", env=router.env).status == 0, what="room for one more")
 
 
-def test_without_a_name_a_second_router_does_without_a_socket(spawn):
-    env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
+def test_without_a_name_a_second_router_does_without_a_socket(spawn, tmp_path):
+    env = {"MAVLOOM_RUN": str(tmp_path)}
     first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env) for _ in range(2))
     for router in (first, second):
         router.wait_output(r"metrics at port \d+", stream="err")
 
-    # Somebody else's may run here as well: then both do without.
     assert any("no control socket: " in router.stderr and "--name gives this one another name" in router.stderr for router in (first, second))
     assert first.alive and second.alive
 
@@ -335,7 +334,7 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
     for place in (*list(tmp_path.parents)[:2], tmp_path, folder):
         place.chmod(0o777)
     other = subprocess.run(["unshare", "--mount", "sh", "-c", f"mount -t tmpfs -o mode=755 none /run && exec setpriv --reuid=12345 --clear-groups {program} route"
-                            f" udpin://127.0.0.1:{routers.udp_port()} --for 100ms"], capture_output=True, text=True, timeout=60, env={**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)})
+                            f" udpin://127.0.0.1:{routers.udp_port()} --for 100ms"], capture_output=True, text=True, timeout=60, env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))
 
     assert other.returncode == 0 and "no control socket: " in other.stderr and "is served by a router that runs" in other.stderr, other
 
@@ -399,10 +398,8 @@ def test_a_folder_whose_name_is_too_long_for_a_socket(program):
     copy, user = as_somebody(program)
     folder = tempfile.mkdtemp(prefix="mv-" + "x" * 100)
     os.chmod(folder, 0o777)
-    if os.geteuid() != 0 and os.access("/run/mavloom", os.W_OK):
-        pytest.skip("/run/mavloom is this user's: XDG_RUNTIME_DIR is not looked at")
     try:
-        env = {**os.environ, "XDG_RUNTIME_DIR": folder}
+        env = harness.environment({"MAVLOOM_RUN": folder})
         for args in (("ctl", "x", "links"), ("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", "x")):
             done = subprocess.run([copy, *args], env=env, capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S, **user)
             assert done.returncode == 1 and "a socket's path has at most 107 bytes" in done.stderr, done
@@ -868,7 +865,7 @@ def explaining_to_a_pipe(spawn):
     port, station = routers.udp_port(), harness.udp_socket()
     reading, writing = os.pipe()
     process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
-                    env={"XDG_RUNTIME_DIR": routers.runtime_dir()}, stdout=writing)
+                    stdout=writing)
     os.close(writing)
     vehicle = harness.udp_socket()
 
@@ -1201,7 +1198,7 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
     udp, tcp = harness.udp_socket(), socket.create_server(("127.0.0.1", 0))
     with udp, tcp:
         values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1], "folder": tmp_path}
-        done = run("route", *(argument.format(**values) for argument in arguments), env={"XDG_RUNTIME_DIR": routers.runtime_dir()})
+        done = run("route", *(argument.format(**values) for argument in arguments))
 
     assert done.status == status and said in done.stderr, done
     complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]

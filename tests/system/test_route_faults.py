@@ -623,9 +623,9 @@ def test_killed_and_started_again_everything_comes_back(pair, spawn, tmp_path):
     assert [frame for _, frame in frames.read_tlog(path)] == [again, heartbeat, *more]
 
 
-def test_a_second_router_without_name_goes_on_without_a_socket(spawn):
+def test_a_second_router_without_name_goes_on_without_a_socket(spawn, tmp_path):
     ends = [UdpEnd((LOCALHOST, routers.udp_port()), "in") for _ in range(2)]
-    env = {"XDG_RUNTIME_DIR": routers.runtime_dir()}
+    env = {"MAVLOOM_RUN": str(tmp_path)}
     first = spawn("route", f"udpin://{LOCALHOST}:{ends[0].target[1]}", env=env)
     first.wait_output("receive buffer", stream="err")
     second = spawn("route", f"udpin://{LOCALHOST}:{ends[1].target[1]}", env=env)

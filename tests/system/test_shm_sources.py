@@ -10,6 +10,7 @@ import socket
 import subprocess
 import tempfile
 import threading
+import time
 import uuid
 
 import pytest
@@ -20,16 +21,6 @@ import harness
 
 SHM = pathlib.Path("/dev/shm")
 short = pytest.mark.short
-
-
-def run_folder():
-    """RUN of docs/guide/route.md."""
-    for folder in filter(None, ["/run/mavloom", os.environ.get("XDG_RUNTIME_DIR") and os.environ["XDG_RUNTIME_DIR"] + "/mavloom"]):
-        with contextlib.suppress(OSError):
-            os.makedirs(folder, mode=0o755, exist_ok=True)
-        if os.access(folder, os.W_OK | os.X_OK):
-            return pathlib.Path(folder)
-    pytest.skip("no folder for sockets")
 
 
 @pytest.fixture
@@ -79,7 +70,7 @@ def feed():
 @pytest.fixture
 def inlet(ring):
     """The router's side of the ring's inlet: inlet() -> a bound Unix datagram socket."""
-    path, sockets = run_folder() / f"{ring}.in", []
+    path, sockets = harness.RUN / f"{ring}.in", []
 
     def open_it():
         path.unlink(missing_ok=True)
@@ -570,6 +561,41 @@ def test_an_inlet_that_goes_and_comes_back(spawn, inlet, ring, udp_port):
 
 
 @short
+def test_an_inlet_that_was_made_anew_while_nothing_was_sent_misses_nothing(spawn, inlet, ring, udp_port):
+    """The sender notices by its first frame that the router went, and finds the next one at once."""
+    first, port = inlet(), udp_port()
+    relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", "-v")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as vehicle:
+        vehicle.sendto(heartbeat(), ("127.0.0.1", port))
+        assert first.recv(65536) == heartbeat()
+        first.close()
+        (harness.RUN / f"{ring}.in").unlink()
+        again = inlet()
+        sent = [heartbeat(sequence=number) for number in range(1, 11)]
+        for frame in sent:
+            vehicle.sendto(frame, ("127.0.0.1", port))
+            time.sleep(0.01)  # each a turn of the relay's
+        assert [again.recv(65536) for _ in sent] == sent
+    assert relay.stop().status == 130
+
+
+@short
+def test_that_a_writer_was_killed_is_said_once(run, spawn, feed, ring, sink):
+    """Although frames that go the other way wake the reader again and again."""
+    writer = feed(ring)
+    relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}")
+    wait_readers(run, ring)
+    writer.write(numbered(1))
+    _, relay_address = sink.recvfrom(65536)
+    writer.kill_now()
+    relay.wait_output("nobody writes to it; waiting for a writer", stream="err")
+    for number in range(100):
+        sink.sendto(heartbeat(system=255, component=190, sequence=number), relay_address)
+        time.sleep(0.01)  # each a turn of the relay's
+    assert relay.stop().stderr.count("nobody writes to it") == 1
+
+
+@short
 def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn, ring, udp_port):
     port = udp_port()
     with tempfile.TemporaryDirectory() as run, contextlib.ExitStack() as closing:
@@ -577,7 +603,7 @@ def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn
         router = closing.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM))
         router.settimeout(0.05)
         place = pathlib.Path(run, "mavloom", f"{ring}.in")
-        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", env={"XDG_RUNTIME_DIR": run})
+        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", env={"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": run})
         relay.wait_output(rf"cannot send to .*{place}: No such file or directory; trying again")
         assert not os.listdir(run)
         place.parent.mkdir()

@@ -23,4 +23,7 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // bind=HOST:PORT as an address; nothing where it is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
+// An error for options of a recording that is read, where a router writes it.
+[[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);
+
 }  // namespace mavloom::endpoint

@@ -11,6 +11,8 @@
 
 namespace mavloom::net {
 
+inline constexpr const char* run_variable = "MAVLOOM_RUN";
+
 // Where a program makes its socket NAME.SUFFIX; makes the folder where it is missing. `what` it is, for errors. Errors: a name that is none
 // (`usage`), no folder, a path too long for a socket (`permission`).
 [[nodiscard]] SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,

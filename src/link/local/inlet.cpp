@@ -93,7 +93,6 @@ private:
 
 // ---- the socket ------------------------------------------------------------------------------------------------------
 
-// Nothing happens where there is no socket, or one of another kind.
 SetupResult<void> take_over(const std::filesystem::path& path) {
     const auto probe = net::LocalSender::connect(path);
     if (probe) {
@@ -103,8 +102,10 @@ SetupResult<void> take_over(const std::filesystem::path& path) {
                                        process ? fmt::format("process {}", *process) : "another process"));
     }
     struct stat status {};
-    const bool is_left = probe.error().sys_errno == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
-    if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
+    if (::lstat(path.c_str(), &status) != 0) return {};
+    if (!S_ISSOCK(status.st_mode))
+        return setup_error(SetupCode::in_use, fmt::format("{} is there and no socket; remove it", path.string()));
+    if (probe.error().sys_errno == ECONNREFUSED) ::unlink(path.c_str());
     return {};
 }
 

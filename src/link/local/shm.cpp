@@ -112,12 +112,12 @@ void InletSender::connect_or_retry() {
     retry_.fail_silently(done.error());
 }
 
-// The far side went: its router ended, and another may come.
+// The far side went: its router ended. Another may have come long before this was noticed, by the first frame for it.
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
     core_.set_down(peer_, "the router went");
-    retry_.later();
+    if (!connect()) retry_.later();
 }
 
 void InletSender::on_io(net::IoEvents events) {

@@ -171,6 +171,18 @@ TEST(Engine, ARebootOnALinkThatIsGoneForgetsNothing) {
     EXPECT_EQ(sut.engine.counters().reboots.value(), 0u);
 }
 
+// A router that hears itself, or two that hear each other: the first heartbeat is sent while there is no link yet that brings it back.
+TEST(Engine, TheOwnFrameThatComesBackByALaterLinkIsNotSentAgain) {
+    Network sut;
+    sut.links(1);
+    const auto beat = test::make_frame("HEARTBEAT", gcs, {});
+    const auto own = wire::FrameView::unchecked(beat);
+    sut.engine.note_sent(own, LinkId{1}, sut.now);
+    sut.links(1);
+
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(sut.engine.route(own, LinkId{2}, sut.now).links.empty()) << i;
+}
+
 TEST(Engine, ManualControlGoesToItsTargetOnly) {
     Network sut;
     sut.links(3);
