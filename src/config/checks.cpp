@@ -47,8 +47,9 @@ SetupResult<void> check_links(const Config& config, std::string_view file_name) 
     return detail::each_endpoint(
         config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
             static constexpr std::array<std::string_view, 2> own{"url", "scheme"};
-            if (endpoint.scheme == endpoint::Scheme::tlog) return {};
-            auto good = endpoint::check_link(endpoint, endpoint::RoutingOptions::by_owner);
+            auto good = endpoint.scheme == endpoint::Scheme::tlog
+                            ? endpoint::check_written(endpoint)
+                            : endpoint::check_link(endpoint, endpoint::RoutingOptions::by_owner);
             return good ? good : bad(file_name, detail::line_of(section, own), good.error().text);
         });
 }

@@ -261,7 +261,7 @@ def test_objects_are_no_bytes(writer, dtype):
 
 
 @pytest.mark.parametrize("values", [numpy.arange(3), numpy.zeros((2, 3), [("O", "f4"), ("bO", "u1")]), numpy.array(["2026-11-23", "1970-01-01"], "M8[s]"),
-                                    array.array("d", [1, 2]), memoryview(numpy.float32([1, 2])), numpy.float64(7), (ctypes.c_uint16 * 2)(1, 2)], ids=repr)
+                                    array.array("d", [1, 2]), memoryview(numpy.float32([1, 2])), numpy.float64(7), (ctypes.c_uint16 * 2)(1, 2)], ids=lambda value: type(value).__name__)
 def test_whatever_has_a_contiguous_buffer_is_written(writer, ring, values):
     with mavloom.RingReader(ring, start="oldest") as reader:
         writer.write(values)

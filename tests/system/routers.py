@@ -242,10 +242,14 @@ class Router:
         if not self.process.alive:
             done = self.process.wait()
             raise AssertionError(f"ended with {done.status}: {done.stderr}")
+        return self._connect_to(str(harness.RUN / f"{self.name}.ctl"))
+
+    @staticmethod
+    def _connect_to(path):
         sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         sock.settimeout(harness.DEFAULT_TIMEOUT_S)
         try:
-            sock.connect(str(harness.RUN / f"{self.name}.ctl"))
+            sock.connect(path)
             return sock
         except OSError:
             sock.close()

@@ -331,7 +331,7 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
     folder = tmp_path / "mavloom"
     folder.mkdir()
     (folder / "router.ctl.lock").touch(0o600)
-    for place in (*list(tmp_path.parents)[:2], tmp_path, folder):
+    for place in (*list(tmp_path.parents)[:3], tmp_path, folder):
         place.chmod(0o777)
     other = subprocess.run(["unshare", "--mount", "sh", "-c", f"mount -t tmpfs -o mode=755 none /run && exec setpriv --reuid=12345 --clear-groups {program} route"
                             f" udpin://127.0.0.1:{routers.udp_port()} --for 100ms"], capture_output=True, text=True, timeout=60, env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))

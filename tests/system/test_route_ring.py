@@ -479,7 +479,7 @@ def test_the_file_names_the_ring(spawn, run, ring, tmp_path):
     assert struct.unpack_from("<Q", shared(ring).read_bytes(), 16) == (65536,)
     assert shared(ring).stat().st_mode & 0o777 == shared(ring, ".stat").stat().st_mode & 0o777 == 0o660
     # --name is the ring's name unless it is given.
-    links = harness.wait_for(lambda: (done := run("ctl", ring, "stats", env=env)).status == 0 and done, what="the control socket")
+    links = harness.wait_for(lambda: (done := run("ctl", ring, "stats")).status == 0 and done, what="the control socket")
     assert '"kind":"router"' in links.stdout
     file.write_text(file.read_text().replace("64k", "128k"))
     process.process.send_signal(signal.SIGHUP)
@@ -572,10 +572,10 @@ def test_a_command_reaches_the_vehicle_and_its_answer_is_in_the_ring(tapped, app
     assert counted["frames_in"] == 2 and counted["frames_out"] >= 51 and counted["queue_bytes"] == counted["queue_age"] == 0
 
 
-def test_senders_are_links_by_their_address(tapped, app, tmp_path, run):
+def test_senders_are_links_by_their_address(tapped, app, run):
     net = tapped()
     net.sent_by(net.vehicle, heartbeat())
-    place = str(tmp_path / "app.sock")
+    place = str(harness.RUN / f"{net.ring}.app")
     bound, unbound, unbound_too = app(net.inlet, place), app(net.inlet, None), app(net.inlet, None)
     sent = [heartbeat((21, 1)), heartbeat((22, 1)), heartbeat((23, 1))]
     for sock, frame in zip((bound, unbound, unbound_too), sent):

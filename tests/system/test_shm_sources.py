@@ -566,8 +566,13 @@ def test_an_inlet_that_was_made_anew_while_nothing_was_sent_misses_nothing(spawn
     first, port = inlet(), udp_port()
     relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", "-v")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as vehicle:
-        vehicle.sendto(heartbeat(), ("127.0.0.1", port))
-        assert first.recv(65536) == heartbeat()
+        first.settimeout(0.05)
+
+        def arrives():  # once the relay listens
+            vehicle.sendto(heartbeat(), ("127.0.0.1", port))
+            with contextlib.suppress(socket.timeout):
+                return first.recv(65536)
+        assert harness.wait_for(arrives, what="a frame at the inlet") == heartbeat()
         first.close()
         (harness.RUN / f"{ring}.in").unlink()
         again = inlet()
