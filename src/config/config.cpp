@@ -31,7 +31,7 @@ std::string upper(std::string_view text) {
     return result;
 }
 
-std::uint32_t line_of(const toml::node& node) { return static_cast<std::uint32_t>(node.source().begin.line); }
+std::uint32_t line_in_file(const toml::node& node) { return static_cast<std::uint32_t>(node.source().begin.line); }
 
 // A value in the words of the endpoint grammar: native types as their text, lists joined by commas, tables as KEY:VALUE. Empty: cannot be one.
 std::optional<std::string> text_of(const toml::node& node) {
@@ -112,7 +112,7 @@ private:
         std::vector<std::string_view> known(config_sections().begin(), config_sections().end());
         known.push_back("endpoint");
         for (const auto& [key, node] : root) {
-            const auto line = line_of(node);
+            const auto line = line_in_file(node);
             if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
                 auto hint = did_you_mean(key.str(), known);
                 if (hint.empty()) hint = fmt::format("; there are {}", fmt::join(known, ", "));
@@ -169,7 +169,7 @@ private:
             if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
             auto hint = did_you_mean(key.str(), known);
             if (hint.empty()) hint = fmt::format("; [{}] has {}", section, fmt::join(known, ", "));
-            return bad(line_of(node), fmt::format("[{}] has no key {}{}", section, in_quotes(key.str()), hint));
+            return bad(line_in_file(node), fmt::format("[{}] has no key {}{}", section, in_quotes(key.str()), hint));
         }
         return {};
     }
@@ -178,7 +178,7 @@ private:
     SetupResult<void> read_section(std::string_view name, const toml::table* table) {
         if (table != nullptr)
             if (auto done = check_keys(name, *table); !done) return done;
-        Section section{std::string(name), {}, {}, table == nullptr ? 0 : line_of(*table)};
+        Section section{std::string(name), {}, {}, table == nullptr ? 0 : line_in_file(*table)};
         for (const ConfigKey& key : config_keys()) {
             if (key.section != name) continue;
             auto setting = read_key(key, table == nullptr ? nullptr : table->get(key.name));
@@ -211,10 +211,10 @@ private:
         if (node != nullptr) {
             const auto text = text_of(*node);
             if (!text)
-                return bad(line_of(*node), fmt::format("{} has a value of a kind that it cannot have", key.name));
+                return bad(line_in_file(*node), fmt::format("{} has a value of a kind that it cannot have", key.name));
             if (auto done = key.set(config_, *text); !done)
-                return bad(line_of(*node), fmt::format("{}: {}", key.name, done.error().text));
-            setting = {std::string(key.name), *text, Origin::file, line_of(*node), {}};
+                return bad(line_in_file(*node), fmt::format("{}: {}", key.name, done.error().text));
+            setting = {std::string(key.name), *text, Origin::file, line_in_file(*node), {}};
         }
         const auto name = variable_name(key);
         const auto variable = std::find_if(environment_.begin(), environment_.end(),
@@ -230,22 +230,22 @@ private:
         for (const auto& [key, node] : table) {
             auto text = text_of(node);
             if (!text)
-                return bad(line_of(node),
+                return bad(line_in_file(node),
                            fmt::format("{} has a value of a kind that it cannot have", in_quotes(key.str())));
-            given.push_back({std::string(key.str()), std::move(*text), Origin::file, line_of(node), {}});
+            given.push_back({std::string(key.str()), std::move(*text), Origin::file, line_in_file(node), {}});
         }
-        auto endpoint = place(given, line_of(table));
+        auto endpoint = place(given, line_in_file(table));
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         for (const Setting& setting : given) {
             if (is_place_of(endpoint->scheme, setting.key)) continue;
             if (auto done = endpoint::set_endpoint_option(*endpoint, setting.key, setting.value); !done)
                 return bad(setting.line, done.error().text);
         }
-        if (auto good = endpoint::check_options(*endpoint); !good) return bad(line_of(table), good.error().text);
+        if (auto good = endpoint::check_options(*endpoint); !good) return bad(line_in_file(table), good.error().text);
         if (auto good = check_heartbeat(*endpoint, given); !good) return good;
         if ((endpoint::set_of(endpoint->scheme) & endpoint::address_schemes) != 0 && endpoint->address.port == 0)
-            return bad(line_of(table), "port 0 is no port that others could know; choose one from 1 to 65535");
-        return add_endpoint(std::move(*endpoint), given, line_of(table));
+            return bad(line_in_file(table), "port 0 is no port that others could know; choose one from 1 to 65535");
+        return add_endpoint(std::move(*endpoint), given, line_in_file(table));
     }
 
     static const Setting* find(const std::vector<Setting>& given, std::string_view key) {

@@ -18,6 +18,8 @@ class Retry {
 public:
     static constexpr Nanoseconds first = std::chrono::milliseconds(100);
     static constexpr Nanoseconds longest = std::chrono::seconds(5);
+    // A connection that held for so long begins anew with the first delay when it ends.
+    static constexpr std::chrono::seconds lasting{5};
 
     Retry(Core& core, OpenEndpoint& endpoint, net::TimerHandler& handler)
         : core_(core), endpoint_(endpoint), handler_(handler) {}

@@ -12,7 +12,7 @@ namespace mavloom::message {
 namespace {
 
 // Text always stands in quotes, doubled inside. Line ends and tabs stay; other controls become U+FFFD (RFC 4180 has no place for them).
-void put_quoted(Cursor& out, std::string_view bytes) {
+void put_cell(Cursor& out, std::string_view bytes) {
     out.reserve(bytes.size() * 3 + 2);
     out.put_unchecked('"');
     while (!bytes.empty()) {
@@ -41,12 +41,12 @@ void put_number(Cursor& out, T value) {
 void put_columns(Cursor& out, const MessageView& view, const dialect::Field& field) {
     if (field.is_text()) {
         out.put(',');
-        return put_quoted(out, view.text(field));
+        return put_cell(out, view.text(field));
     }
     if (field.type == dialect::FieldType::char8) {
         const auto character = view.get<char>(field);
         out.put(',');
-        return put_quoted(out, {&character, character == 0 ? 0u : 1u});
+        return put_cell(out, {&character, character == 0 ? 0u : 1u});
     }
     visit_type(field.type, [&](auto tag) {
         for (std::size_t i = 0; i < field.count(); ++i) {
@@ -80,7 +80,7 @@ void append_csv_row(TextBuffer& buffer, const Received& received) {
     Cursor out(buffer);
     out.put_integer(unix_us(received.time));
     out.put(',');
-    put_quoted(out, received.link);
+    put_cell(out, received.link);
     for (const std::uint8_t number :
          {received.frame.system().value, received.frame.component().value, received.frame.sequence()}) {
         out.put(',');

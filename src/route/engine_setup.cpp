@@ -9,7 +9,6 @@
 
 namespace mavloom::route {
 
-static constexpr std::size_t pairs = 1u << 16;
 // Longer times mean for ever, and sums with the clock stay in range.
 static constexpr Nanoseconds longest = std::chrono::hours{24 * 365 * 50};
 
@@ -25,8 +24,8 @@ Engine::Impl::Impl(const wire::MessageTable& message_table, const Options& given
       window_(std::max(echo_window, options.dedup)),
       index_(128, no_slot),
       routes_(max_routes, max_routes_per_link),
-      turns_(pairs),
-      unknown_(pairs) {
+      turns_(RouteTable::pairs),
+      unknown_(RouteTable::pairs) {
     grow(64);
     rebuild();
 }

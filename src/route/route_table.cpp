@@ -9,7 +9,6 @@ namespace mavloom::route {
 
 static_assert(std::is_trivially_default_constructible_v<Route>, "so that no page is touched before it is needed");
 
-static constexpr std::size_t pairs = 1u << 16;
 static constexpr std::size_t systems = 256;
 
 RouteTable::RouteTable(std::size_t most, std::size_t per_link)

@@ -35,6 +35,7 @@ struct Route {
 
 class RouteTable {
 public:
+    static constexpr std::size_t pairs = 1u << 16;  // of system and component
     struct Change {
         std::uint32_t learned = 0, expired = 0, evicted = 0;
     };

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view suffix = ".stat";
 constexpr std::size_t owner_byte = 0;
-constexpr int most_attempts = 100;
+constexpr int most_reads = 100;
 
 std::size_t page_bytes(std::uint32_t counters, std::uint32_t links) {
     return page_header_bytes + sizeof(CounterSlot) * counters + sizeof(LinkSlot) * links;
@@ -84,7 +84,7 @@ void change(Slot& slot, Change&& make) noexcept {
 // What `look` gives of a slot that does not change meanwhile; empty where it does again and again.
 template <class Slot, class Look>
 auto read_slot(const Slot& slot, Look&& look) -> std::optional<decltype(look(slot))> {
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < most_reads; ++attempt) {
         const std::uint64_t before = slot.version.load(std::memory_order_acquire);
         auto found = look(slot);
         if (before % 2 == 0 && slot.version.load(std::memory_order_acquire) == before) return found;
@@ -147,7 +147,7 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     const std::string path = path_of(name, suffix);
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; attempt < most_reads; ++attempt) {
         auto created = create_page(path, options);
         if (created) return CounterPage(std::make_unique<Segment>(std::move(*created)), options);
         if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));

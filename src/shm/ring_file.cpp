@@ -92,7 +92,8 @@ SetupResult<Segment> create_ring(const std::string& path, const RingOptions& opt
 
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
     const auto pid = memory_of(segment).control->writer_pid.load(std::memory_order_relaxed);
-    return setup_error(SetupCode::in_use, fmt::format("ring {} has a writer already, process {}", name, pid));
+    const auto who = pid == 0 ? std::string("which just begins or ends") : fmt::format("process {}", pid);
+    return setup_error(SetupCode::in_use, fmt::format("ring {} has a writer already, {}", name, who));
 }
 
 }  // namespace

@@ -648,7 +648,7 @@ def test_two_writers_the_second_is_refused_with_the_first_ones_process(writer, r
     assert refused.returncode == 1 and f"process {os.getpid()}" in refused.stderr
     process = subprocess.Popen([PROGRAM, "shm", "write", ring + "b", "--remove"], stdin=subprocess.PIPE)
     with process:
-        until(lambda: ring + "b" in mavloom.rings() and status_of(ring + "b")["writer_alive"])
+        until(lambda: ring + "b" in mavloom.rings() and status_of(ring + "b")["writer_pid"] == process.pid)
         with pytest.raises(mavloom.Error, match=f"process {process.pid}"):
             mavloom.RingWriter(ring + "b")
 

@@ -15,7 +15,7 @@ namespace mavloom::dialect {
 namespace {
 
 constexpr std::size_t max_fields = 64;  // MAVLink's limit for one message
-constexpr std::uint64_t max_message_id = 0xff'ffff;
+constexpr std::uint64_t highest_id = 0xff'ffff;
 
 // What the file holds, fit for a line on a terminal.
 std::string_view shown(std::string_view text) {
@@ -202,9 +202,9 @@ bool FileReader::read_message(Node node) {
     message.origin = origin_;
     if (!required_word(node, "name", message.name)) return false;
     const auto id = parse_unsigned(node.attribute("id").value());
-    if (!id || *id > max_message_id) {
+    if (!id || *id > highest_id) {
         return fail(node, fmt::format("id \"{}\" of message {}; expected 0 to {}", shown(node.attribute("id").value()),
-                                      message.name, max_message_id));
+                                      message.name, highest_id));
     }
     message.id = static_cast<std::uint32_t>(*id);
     bool extension = false;

@@ -13,7 +13,6 @@ namespace mavloom::link::detail {
 namespace {
 
 // A port that was open for this long was a good one: the next failure is a new story.
-constexpr std::chrono::seconds lasting{5};
 // In /dev things come in bursts: names, permissions, links.
 constexpr std::chrono::milliseconds settle{20};
 
@@ -130,7 +129,7 @@ void Serial::tell_settings() {
 }
 
 void Serial::on_gone(std::string_view why) {
-    const bool lasted = core_.now() - up_since_ >= lasting;
+    const bool lasted = core_.now() - up_since_ >= Retry::lasting;
     core_.set_down(peer_, why);
     if (lasted) retry_.begin_anew();
     retry_.later();

@@ -5,7 +5,7 @@
 
 namespace mavloom::link::detail {
 
-static constexpr std::size_t pieces_per_write = 32;
+static constexpr std::size_t pieces_per_turn = 32;
 
 SetupResult<void> SerialPeer::attach(net::SerialPort port) {
     auto watch = core_.loop().watch(port.fd(), true, false, *this);
@@ -68,7 +68,7 @@ void SerialPeer::flush() {
     std::size_t room = pacer_.room(port_.unsent_bytes());
     while (!queue.empty()) {
         if (room == 0) return wait_for_room();
-        std::array<iovec, pieces_per_write> pieces;
+        std::array<iovec, pieces_per_turn> pieces;
         const auto written = port_.write({pieces.data(), queue.pieces(pieces, room)});
         if (!written) {
             if (written.error() != net::IoError::would_block && written.error() != net::IoError::no_buffers)

@@ -14,7 +14,6 @@ namespace {
 constexpr std::chrono::seconds connect_limit{5};
 constexpr std::chrono::seconds required_limit{5};
 // A connection that lasted this long was a good one: the next failure is a new story.
-constexpr std::chrono::seconds lasting{5};
 
 class TcpOut final : public OpenEndpoint, public TcpOwner, public net::IoHandler, public net::TimerHandler {
 public:
@@ -118,7 +117,7 @@ void TcpOut::fail(const SetupError& error) {
 }
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
-    const bool lasted = core_.now() - up_since_ >= lasting || peer.last_heard > up_since_;
+    const bool lasted = core_.now() - up_since_ >= Retry::lasting || peer.last_heard > up_since_;
     core_.set_down(peer, why);
     if (lasted) retry_.begin_anew();
     retry_.later();
