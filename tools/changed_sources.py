@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that differ from the commit BASE, or include,
+directly or through others, a header that does. Status 3: something differs that every file depends on (the build, the dialects, clang-tidy's rules),
+so that all have to be looked at."""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+TOPS = ("include", "src", "apps", "python/src")
+OF_ALL = re.compile(r"(^|/)(CMakeLists\.txt|CMakePresets\.json|\.clang-tidy)$|^cmake/|^dialects/|^tools/dialectgen/")
+INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+
+
+def changed_since(base: str) -> list[str]:
+    """Committed or not; files that nobody has told git about too."""
+    differing = subprocess.run(["git", "diff", "--name-only", base], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    untracked = subprocess.run(["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    return differing + untracked
+
+
+def included_by() -> dict[str, set[str]]:
+    """{how a file is included: the files that include it}."""
+    users: dict[str, set[str]] = {}
+    for top in TOPS:
+        for path in (ROOT / top).rglob("*.[ch]pp"):
+            for name in INCLUDE.findall(path.read_text()):
+                users.setdefault(name, set()).add(str(path.relative_to(ROOT)))
+    return users
+
+
+def spelling_of(path: str) -> str:
+    """As an #include has it: below include/, src/, or in the file's own folder."""
+    top = next(top for top in TOPS if path.startswith(top + "/"))
+    return path[len(top) + 1:] if top in ("include", "src") else pathlib.PurePath(path).name
+
+
+def main() -> int:
+    changed = changed_since(sys.argv[1])
+    if any(OF_ALL.search(path) for path in changed):
+        return 3
+    users, found = included_by(), set()
+    waiting = [path for path in changed if path.startswith(tuple(top + "/" for top in TOPS))]
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found.add(path)
+            waiting += users.get(spelling_of(path), ())
+    print("\n".join(sorted(path for path in found if path.endswith(".cpp") and (ROOT / path).exists())))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
