@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a command declares, in CLI11's words. CLI11 itself is seen by arguments.cpp and main.cpp only: its headers add six seconds to the compilation of
-// every file that includes them. Both classes are handles, copied freely; what they stand for lives until the command has run.
+// The part of CLI11 with which a command declares its arguments.
+// Only arguments.cpp and main.cpp include CLI11: its headers add six seconds to the compilation of every file that
+// includes them.
+// Both classes are handles and may be copied freely. The CLI11 objects behind them live until the command has run.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 calls it so
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
 class App;
 class Option;
 }  // namespace CLI

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Our own figures on this machine; `./run bench` puts the peers of docs/performance.md beside them.
+// `mavloom bench`: measures Mavloom's own throughput on this machine.
+// `./run bench` also measures the programs that docs/performance.md compares it with.
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -32,7 +33,7 @@ struct Options {
     std::string file;
     int turns = 21;
     std::string chunk_text = "4096";
-    std::size_t chunk = 0;  // of chunk_text, by run_bench
+    std::size_t chunk = 0;  // chunk_text as a number; set by set_chunk
     bool json = false;
 };
 
@@ -54,7 +55,7 @@ SetupResult<Recording> read_recording(const std::string& path, const wire::Messa
     return recording;
 }
 
-// The median over the turns of what one second would hold. A signal ends it after the turn.
+// Runs `work` once a turn and returns the median of `amount` per second. A signal ends the loop after the current turn.
 template <class Work>
 double per_second(int turns, double amount, Work&& work) {
     std::vector<double> rates;
@@ -151,7 +152,7 @@ Exit run_bench(const Common& common, Options& options, Bench&& bench) {
     return bench(options, *dialect, *recording);
 }
 
-// ---- shm -------------------------------------------------------------------------------------------------------------
+// ---- shm ------------------------------------------------------------------------------------------------------------
 
 struct RingOptions {
     std::uint8_t readers = 1;
@@ -161,11 +162,12 @@ struct RingOptions {
     bool json = false;
 };
 
-constexpr auto patience = std::chrono::seconds(10);  // with the other side
+constexpr auto patience = std::chrono::seconds(10);  // how long to wait for the other side
 constexpr auto look_at_end = std::chrono::milliseconds(100);
-constexpr std::uint64_t look_at_signals = 1u << 16;  // records
+constexpr std::uint64_t look_at_signals = 1u << 16;  // check after this many records
 
-// Up to record `end`, whose payload begins with its number; a signal ends it sooner. False: not so, or nothing comes.
+// Reads up to record `end`, which a signal may lower. Each payload must begin with the record's number. Returns false
+// if one does not, or if no record arrives in time.
 bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<std::uint64_t>& end) {
     bool good = true;
     const auto look = [&](const shm::RingRecord& record) {
@@ -185,7 +187,8 @@ bool read_up_to(shm::RingReader& reader, std::uint64_t& next, const std::atomic<
     return good;
 }
 
-// Once through the ring to every reader.
+// Passes `options.records` records through the ring to every reader. Returns false if one got wrong data or none in
+// time.
 bool hand_over(shm::RingWriter& writer, std::vector<shm::RingReader>& readers, const RingOptions& options,
                std::uint64_t& first) {
     std::atomic<std::uint64_t> end{first + options.records};
@@ -237,7 +240,7 @@ void print(const RingOptions& options, double per_s) {
 }
 
 Exit bench_shm(const RingOptions& options) {
-    const Signals signals([](void*) noexcept {}, nullptr);  // the ring is removed whatever ends it
+    const Signals signals([](void*) noexcept {}, nullptr);  // so that the ring is removed even after a signal
     auto writer = shm::RingWriter::open(fmt::format("bench-{}", ::getpid()));
     if (!writer) return fail(writer.error());
     auto readers = open_readers(writer->name(), options.readers);

@@ -16,7 +16,7 @@ namespace {
 struct Options {
     std::string file;
     bool json = false;
-    bool convert = false;  // the file is mavlink-router's
+    bool convert = false;  // the file is a configuration of mavlink-router
 };
 
 std::string_view origin_name(config::Origin origin) {
@@ -44,7 +44,9 @@ void print_text(message::TextBuffer& out, const config::Config& config, std::str
     }
 }
 
-// {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default","file":null,"line":null,"variable":null}
+// Prints one object a line:
+// {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default",
+// "file":null,"line":null,"variable":null}
 void print_json(message::TextBuffer& out, const config::Config& config, std::string_view file) {
     const auto text = [](std::string_view t) { return t.empty() ? std::string("null") : json_quoted(t); };
     for (const auto& section : config.sections) {
@@ -75,7 +77,7 @@ Exit check(const Common& common, const Options& options) {
     return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
 }
 
-// What cannot be carried over is said even with --quiet: who converts a file has to know.
+// Prints the settings that cannot be converted. It ignores --quiet, because the user has to know them.
 Exit convert(const Options& options) {
     const auto done = config::convert_mavlink_router_file(options.file);
     if (!done) return fail(of_input_file(done.error()));

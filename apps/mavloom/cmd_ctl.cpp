@@ -30,7 +30,7 @@ Exit print_lines(const std::vector<std::string>& lines) {
     return print_at_end(text, Exit::done);
 }
 
-// ---- ctl -------------------------------------------------------------------------------------------------------------
+// ---- ctl ------------------------------------------------------------------------------------------------------------
 
 struct CtlOptions {
     std::string name, action, argument;
@@ -55,14 +55,14 @@ Exit ctl(const CtlOptions& options) {
     return lines ? print_lines(*lines) : fail(lines.error());
 }
 
-// ---- stat ------------------------------------------------------------------------------------------------------------
+// ---- stat -----------------------------------------------------------------------------------------------------------
 
 struct StatOptions {
     std::string name = "router";
     bool json = false;
 };
 
-// Every number of an object that is not zero, as "name 12".
+// Formats every nonzero number of an object as "name 12", except the keys in `left_out`.
 std::string nonzero(const Json& object, std::initializer_list<std::string_view> left_out) {
     std::string text;
     for (const auto& [key, value] : object.items()) {
@@ -143,12 +143,13 @@ std::string table_of(const std::vector<std::string>& lines) {
         try {
             if (const auto print = prints.find(object.value("kind", "")); print != prints.end())
                 print->second(fmt::appender(text), object);
-        } catch (const Json::exception&) {}  // a line of another version
+        } catch (const Json::exception&) {}  // skip a line from another version
     }
     return fmt::to_string(text);
 }
 
-// The counters of a page (docs/formats/ring.md) as objects like those of a router's answer: of the page, of each link, and of the other links.
+// Converts the counters of a page (docs/formats/ring.md) to JSON objects like those of a router's answer: one for the
+// page, one for each link, one for all other links.
 std::vector<std::string> lines_of(std::string_view name, const shm::CounterSnapshot& snapshot) {
     constexpr std::string_view others_prefix = "others_";
     Json page{{"kind", "page"},
@@ -176,7 +177,8 @@ std::vector<std::string> lines_of(std::string_view name, const shm::CounterSnaps
     return lines;
 }
 
-// A page that somebody counts in disturbs nobody; one that was left behind counts where no router answers.
+// Prefers the counter page of a live process, because reading it does not disturb the router. A page that a killed
+// process left behind is used only if no router answers.
 SetupResult<std::vector<std::string>> stats_of(const std::string& name) {
     const auto page = shm::read_counters(name);
     if (page && page->owner_alive) return lines_of(name, *page);

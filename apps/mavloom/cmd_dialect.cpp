@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `mavloom dialect list|show NAME|check FILE`.
+// `mavloom dialect list|show NAME|check FILE`: lists, shows and checks message definitions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Options {
     std::string file;  // of `check`
 };
 
-// A reader that has seen enough and closed the pipe is no failure.
+// A reader that closes the pipe early is not an error.
 Exit write_out(const fmt::memory_buffer& text) {
     const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (whole || errno == EPIPE) return Exit::done;
@@ -58,7 +58,7 @@ bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const 
     return false;
 }
 
-// A message by name or id, an enum, or an entry of one.
+// Shows a message by name or id, an enum, or an entry of one. Returns false if there is none.
 bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Options& options) {
     const auto id = as_id(options.name);
     if (const auto* message = id ? dialect.find(*id) : dialect.find(options.name)) {
@@ -91,7 +91,7 @@ Exit run_show(const Common& common, const Options& options) {
 
 struct Summary {
     std::size_t messages = 0, enums = 0, entries = 0, fields = 0;
-    std::size_t added = 0, changed = 0;  // beside the built-in definitions
+    std::size_t added = 0, changed = 0;  // compared with the built-in definitions
 };
 
 Summary summarize(const dialect::Dialect& dialect) {

@@ -17,13 +17,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto short_backlog = 1s;  // a terminal prints no longer after Ctrl-C; for a pipe or file it is told that there is more
+// How long to keep printing a backlog after Ctrl-C. A terminal then stops; a pipe or file gets the rest, with a notice.
+constexpr auto short_backlog = 1s;
 
 struct Options {
     ReceiveOptions receive;
     Selection selection;
     bool json = false;
-    std::string csv;  // the message
+    std::string csv;  // name or id of the message
     bool stats = false;
 };
 
@@ -105,7 +106,8 @@ private:
         return Signals::status(unprinted != 0 ? Exit::failed : Exit::done);
     }
 
-    // What waited behind a stalled output when the end was asked for; nothing where the reader left or has all it asked for.
+    // Counts the messages that still waited behind a stalled output at the end. Returns 0 if the reader closed the
+    // output or --count was reached.
     std::uint64_t count_unprinted() {
         const bool complete = options_.receive.count != 0 && printed_ == options_.receive.count;
         if (complete || output_.state() == Output::State::closed_by_reader) return 0;
@@ -114,7 +116,7 @@ private:
         return unprinted;
     }
 
-    // Where the lines go; to stderr beside CSV rows and where the output takes no more.
+    // Prints the table to stdout, or to stderr if stdout carries CSV rows or has stalled.
     void report(std::uint64_t unprinted) {
         const auto table = options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
                                          : traffic_text(traffic_, receiver_, dialect_);

@@ -25,15 +25,15 @@ struct Options {
     bool json = false;
 };
 
-// Writes what the receiver hands over. On a full disk it waits for room as a router's recording does: frames wait in the receiver's buffer meanwhile,
-// and what finds no room there is counted.
+// Writes the frames of the receiver to the recording. On a full disk it waits for room, as a router's recording does.
+// Meanwhile frames wait in the receiver's buffer. Frames that do not fit there are counted.
 class Recording {
 public:
     Recording(const Common& common, const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer,
               MonoTime end)
         : common_(common), options_(options), receiver_(receiver), writer_(writer), end_(end) {}
 
-    // Until the end; hands records to the system whenever there is nothing else to do, so that a kill loses little.
+    // Runs until the end. Flushes records to the system whenever idle, so that a kill loses little.
     SetupResult<void> run() {
         while (receiver_.wait()) {
             while (const auto entry = receiver_.next()) {
@@ -55,14 +55,14 @@ private:
         return room;
     }
 
-    // Waits while the disk is full.
+    // While the disk is full, waits and retries.
     SetupResult<void> flush() {
         auto flushed = writer_.flush();
         if (flushed || !writer_.is_full_disk(flushed.error())) return flushed;
         say(common_, fmt::format("{}; waiting for room: what does not fit into --buffer meanwhile is counted",
                                  flushed.error().text));
         while (!flushed && writer_.is_full_disk(flushed.error()) && goes_on()) {
-            ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends it
+            ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends the wait
             flushed = writer_.flush();
         }
         if (flushed) say(common_, fmt::format("{}: records are written again", writer_.path().string()));
@@ -78,7 +78,7 @@ private:
     MonoTime end_;
 };
 
-// FILE, whatever its name; or tlog://PATH or PATH.tlog?rotate_every=... with options.
+// Accepts FILE with any name, or with options: tlog://PATH?... or PATH.tlog?rotate_every=...
 SetupResult<record::RotatingWriter> create_output(const Common& common, const std::string& text) {
     const auto query = std::string_view(text).find('?');
     const bool has_options = query != std::string_view::npos && !endpoint::names_recording(text) &&
@@ -96,7 +96,7 @@ SetupResult<record::RotatingWriter> create_output(const Common& common, const st
     return create_recording(common, *parsed, "--output");
 }
 
-// What was received and still waits when writing has failed.
+// After a write error, counts the frames that still wait in the receiver as not written.
 void give_up_the_rest(const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer) {
     while (const auto entry = receiver.next())
         if (options.selection.takes(entry->frame)) writer.give_up();

@@ -25,8 +25,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t frames_a_turn = 1024;  // of recordings and rings
-constexpr auto longest_flush = 5s;           // for what is queued to leave
+constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
+constexpr auto longest_flush = 5s;           // to send what is still queued
 
 struct Options {
     std::vector<std::string> sources, to;
@@ -48,7 +48,8 @@ public:
           signs_(options.edit.sign_key.has_value()),
           json_(options.json) {}
 
-    // Recordings wait for somebody to send to; live sources do not, but a lossless ring holds its writer while a queue is full.
+    // Recordings wait until every destination has a peer; live sources do not wait. A lossless ring holds its writer
+    // while a queue is full.
     Exit run(MonoTime end) {
         while (going(end) && !destinations_.failed() && !sources_.finished()) {
             const bool started = started_ || destinations_.all_up();
@@ -56,7 +57,7 @@ public:
             const std::size_t room = started ? ring_room() : 0;
             if (!started && sources_.has_recordings() && !std::exchange(waited_, true))
                 say(common_, "waiting for somebody to send to");
-            // A full queue is looked at again soon: its socket may have taken all by then.
+            // If a queue is full, check again soon: its socket may have taken everything by then.
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})),
                           {room, ring_room(), frames_a_turn});
         }
@@ -90,7 +91,7 @@ private:
         const auto begin = mono_now();
         while (mono_now() < begin + longest_flush && sources_.links().pending())
             sources_.links().turn(*this, mono_now() + 5ms);
-        sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
+        sources_.links().turn(*this, MonoTime{});  // collects the errors of the last datagrams
     }
 
     std::string summary() const {
@@ -188,13 +189,14 @@ SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
     return {};
 }
 
-// A name that this machine gives itself, as far as that can be said without looking it up.
+// Whether `host` is a name of this machine, as far as that is known without a lookup.
 bool is_own_name(const std::string& host) {
     std::array<char, HOST_NAME_MAX + 1> own{};
     return host == "localhost" || (::gethostname(own.data(), own.size() - 1) == 0 && host == own.data());
 }
 
-// Whether a socket that is bound to `bound` hears what is sent to `host`. One on 0.0.0.0 hears no IPv6, one on :: hears both.
+// Whether a socket bound to `bound` receives what is sent to `host`. A socket on 0.0.0.0 receives no IPv6; one on ::
+// receives both.
 bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     const auto here = net::Address::parse(bound, 0), there = net::Address::parse(host, 0);
     if (!there) return is_own_name(host);
@@ -204,7 +206,7 @@ bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
 }
 
-// What is sent to `to` would come in by `source` again.
+// Whether frames sent to `to` would arrive at `source` again.
 bool leads_back(const link::EndpointInfo& source, const endpoint::Endpoint& to) {
     using endpoint::Scheme;
     const auto in = source.endpoint.scheme;

@@ -23,7 +23,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t frames_a_turn = 256;
-constexpr auto longest_flush = 5s;  // for the last frames to reach the far side
+constexpr auto longest_flush = 5s;  // to send the last frames
 
 struct Options {
     std::string file;
@@ -50,7 +50,7 @@ public:
         return finish();
     }
 
-    // Until somebody is there for every destination.
+    // Waits until every destination has a peer.
     void wait_for_peers(MonoTime end) {
         if (options_.no_wait || destinations_.all_up()) return;
         say(common_, "waiting for somebody to send to (--no-wait to start at once)");
@@ -59,7 +59,7 @@ public:
 
 private:
     void on_frame(const link::RxFrame& rx) override {
-        if (destinations_.has(rx.endpoint)) return;  // what the far side says is of no use to a recording
+        if (destinations_.has(rx.endpoint)) return;  // answers are of no use to a recording
         ++frames_;
         bytes_ += rx.frame.size();
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
@@ -72,7 +72,7 @@ private:
     void flush() {
         const auto limit = mono_now() + longest_flush;
         while (sources_.links().pending() && mono_now() < limit) sources_.links().turn(*this, mono_now() + 20ms);
-        sources_.links().turn(*this, MonoTime{});  // hears what the last datagrams met
+        sources_.links().turn(*this, MonoTime{});  // collects the errors of the last datagrams
     }
 
     void show_progress() {
@@ -123,10 +123,11 @@ private:
     Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
-    std::uint64_t frames_ = 0, bytes_ = 0;  // of the recording that had their turn
+    std::uint64_t frames_ = 0, bytes_ = 0;  // read from the recording so far
 };
 
-// A destination of the recording's own name would rename what is to be read; one that rotates makes names of its own.
+// Whether `--to` names the recording itself: creating that output would rename the file to be read. An output that
+// rotates chooses names of its own, so it does not count.
 bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std::string>& to) {
     return std::ranges::any_of(to, [&](const std::string& text) {
         const auto endpoint = endpoint::parse_endpoint(text);
@@ -146,7 +147,7 @@ Exit replay(const Common& common, Options& options) {
     if (!endpoint) return fail(endpoint.error());
     if (endpoint->scheme != endpoint::Scheme::tlog)
         return fail(Exit::wrong_use, fmt::format("replay reads a .tlog file, not {}", options.file));
-    if (!options.speed.empty())  // before the URL's
+    if (!options.speed.empty())  // overrides the speed in the URL
         if (auto set = endpoint::set_endpoint_option(*endpoint, "speed", options.speed); !set)
             return fail(std::move(set.error()).within("--speed"));
     Nanoseconds start{}, length{};

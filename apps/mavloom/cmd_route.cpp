@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_flush = 2s;  // for what is queued to leave
+constexpr auto longest_flush = 2s;  // to send what is still queued
 constexpr auto look_for_room = 100ms;
 
 struct Options {
@@ -33,12 +33,13 @@ struct Options {
     std::string config;
     std::string duration;
     std::string explain;  // a message's name or id; "*": all
-    std::string ring;     // instead of the file's
+    std::string ring;     // overrides the ring of the file
     std::string name;     // empty: the ring's name, else "router"
     std::string metrics;  // HOST:PORT
 };
 
-// What is routed between: the file's endpoints, then those of the command line, which a reload does not touch.
+// The endpoints to route between: those of the file, then those of the command line. A reload changes only those of the
+// file.
 struct Plan {
     config::Config config;
     std::vector<endpoint::Endpoint> from_command_line;
@@ -61,7 +62,7 @@ private:
     }
 };
 
-// The file, with what the command line says instead.
+// Reads the configuration file and applies the overrides of the command line.
 SetupResult<config::Config> read_config(const Options& options, const dialect::Dialect& dialect) {
     const auto environment = config::environment_of(environ);
     auto config = options.config.empty() ? config::parse_config("", "", environment)
@@ -102,7 +103,8 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     return plan;
 }
 
-// Recordings come last, for an existing file is renamed: not by a router that finds its port in use.
+// Adds either the recordings or all other endpoints. Recordings come last, because creating one renames an existing
+// file. A router that finds its port in use must not do that.
 SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool recordings) {
     for (const auto& endpoint : plan.endpoints())
         if ((endpoint.scheme == endpoint::Scheme::tlog) == recordings)
@@ -110,8 +112,8 @@ SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool r
     return {};
 }
 
-// "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded", then a line for each link. No frame waits for who reads them: what a reader
-// that stalls has no room for is left out.
+// Prints "ATTITUDE 1/1 seq 7 from udpin://…#127.0.0.1:1234: forwarded" for a frame, then a line for each link. Routing
+// never waits for the output: if the reader stalls, explanations that do not fit are left out and counted.
 class ExplainPrinter {
 public:
     ExplainPrinter(const Common& common, const dialect::Dialect& dialect, link::Links& links,
@@ -135,9 +137,9 @@ public:
                            links_.link_name(link), route::reason_text(reason));
     }
     Output::State flush() { return output_.flush_what_fits(); }
-    // When to `flush` next although no frame comes.
+    // When to call `flush` again if no frame arrives.
     [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + look_for_room; }
-    // A reader that still takes anything gets the rest.
+    // Writes the rest, as long as the reader keeps accepting data.
     void finish() {
         output_.end_at(mono_now());
         while (flush() == Output::State::open && output_.buffer().size() != 0 && output_.wait_for_room()) {}
@@ -204,7 +206,7 @@ public:
     }
 
 private:
-    // Nobody who only watches can end the routing.
+    // Ends --explain when its output is closed or fails. Routing continues.
     void stop_explaining(std::optional<ExplainPrinter>& explain) {
         router_.explain({});
         explain_failed_ = explain->output().state() == Output::State::failed;
@@ -225,7 +227,8 @@ private:
         auto config = read_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
-        if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))  // an editor may have cut it
+        // An editor may have truncated it.
+        if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))
             return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
         if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
             return tell(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
@@ -244,12 +247,12 @@ private:
     const dialect::Dialect& dialect_;
     router::Router& router_;
     Plan plan_;
-    config::LogLevel& log_level_;  // of what the router tells
+    config::LogLevel& log_level_;  // of the router's notices
     bool explain_failed_ = false;
     control::ServiceManager manager_ = control::ServiceManager::from_environment();
 };
 
-// The ring, and the way back from its readers. Without a folder for sockets there is no way back.
+// Opens the ring and the way back from its readers. Without a folder for sockets there is no way back.
 SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring, router::Router& router) {
     if (ring.name.empty()) return {};
     if (auto opened = router.open_ring(ring); !opened) return opened;
@@ -259,7 +262,8 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     return {};
 }
 
-// Without a name of its own a router goes on if another one has the usual name; `ctl` then speaks to that one.
+// Opens the control socket and the metrics port. Without --name, the router starts even if another router already has
+// the default name; `ctl` then reaches that other router.
 SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const Options& options,
                                                             const std::string& ring, router::Router& router) {
     control::ControlOptions control;
@@ -279,7 +283,7 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
     auto opened = control::Control::create(router, control);
     if (opened || !options.name.empty() || opened.error().code != SetupCode::in_use) return opened;
     control.socket.clear();
-    auto without = control::Control::create(router, control);  // fails again where it is the port of --metrics
+    auto without = control::Control::create(router, control);  // fails again if the port of --metrics was in use
     if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
     return without;
 }

@@ -49,7 +49,7 @@ struct Options {
     bool force = false;
 };
 
-// ---- list, stat ------------------------------------------------------------------------------------------------------
+// ---- list, stat -----------------------------------------------------------------------------------------------------
 
 std::string size_text(std::uint64_t bytes) {
     for (const auto& [shift, unit] : {std::pair(30, "GiB"), std::pair(20, "MiB"), std::pair(10, "KiB")})
@@ -123,7 +123,7 @@ Exit list(const Common& common, const Options& options) {
     std::string text;
     for (const auto& name : shm::ring_names()) {
         const auto ring = shm::ring_status(name);
-        if (!ring && ring.error().code == SetupCode::not_found) continue;  // gone meanwhile
+        if (!ring && ring.error().code == SetupCode::not_found) continue;  // removed meanwhile
         if (options.json) text += line_of(ring ? json_of(*ring) : Json{{"name", name}, {"error", ring.error().text}});
         else text += ring ? text_of(*ring) : fmt::format("{}  {}\n", name, printable(ring.error().text));
     }
@@ -137,14 +137,15 @@ Exit stat(const Options& options) {
     return print_at_end(options.json ? line_of(json_of(*ring)) : details_of(*ring), Exit::done);
 }
 
-// ---- write -----------------------------------------------------------------------------------------------------------
+// ---- write ----------------------------------------------------------------------------------------------------------
 
-// Standard input by lines; an end or a signal ends it.
+// Reads standard input line by line, until its end or a signal.
 class Lines {
 public:
     explicit Lines(std::size_t longest) : longest_(longest) {}
     [[nodiscard]] std::size_t longest() const noexcept { return longest_; }
-    // Of a line that is longer than `longest` comes what was read of it so far. Without the line's end; valid until the next call. False: there are no more.
+    // Sets `line` to the next line without its newline. Returns false if there are no more. If a line is longer than
+    // `longest`, sets `line` to the part that was read so far.
     [[nodiscard]] bool next(std::string& line) {
         for (;;) {
             if (const auto end = text_.find('\n', searched_); end != std::string::npos) return take(line, end, end + 1);
@@ -154,7 +155,7 @@ public:
             if (!read_more()) return !text_.empty() && !Signals::received() && take(line, text_.size(), text_.size());
         }
     }
-    // Whether what was read holds a line that was not taken.
+    // Whether the input read so far holds another whole line.
     [[nodiscard]] bool has_more() const noexcept { return text_.find('\n') != std::string::npos; }
 
 private:
@@ -184,7 +185,7 @@ int digit(char c) {
                                   : -1;
 }
 
-// False: these are no hexadecimal digits.
+// Decodes in place. Returns false if the line is not made of pairs of hexadecimal digits.
 bool decode_hex(std::string& line) {
     if (line.size() % 2 != 0) return false;
     for (std::size_t i = 0; i < line.size(); i += 2) {
@@ -216,7 +217,7 @@ SetupResult<shm::RingOptions> ring_options(const Options& options) {
     return ring;
 }
 
-// Waits for room as the policy says; a signal ends the wait.
+// Waits for room if `waits` is set. A signal ends the wait.
 shm::WriteResult<void> write_record(shm::RingWriter& writer, ByteView bytes, const shm::RecordInfo& info, bool waits) {
     for (;;) {
         const auto written = writer.write(bytes, info, mono_now() + look_at_signals);
@@ -271,7 +272,7 @@ Exit write(const Common& common, const Options& options) {
     return closed ? Signals::status(status) : fail(closed.error());
 }
 
-// ---- read ------------------------------------------------------------------------------------------------------------
+// ---- read -----------------------------------------------------------------------------------------------------------
 
 void append_hex(message::TextBuffer& out, ByteView bytes) {
     constexpr std::string_view digits = "0123456789abcdef";
@@ -332,7 +333,7 @@ public:
     }
 
 private:
-    // Nothing to read now. True: it is worth waiting.
+    // Called when there is nothing to read. Returns true if the reader should wait for more.
     bool idle(shm::ReadError why) {
         if (output_.flush() != Output::State::open || why == shm::ReadError::damaged) return going_ = false;
         if (why != shm::ReadError::no_writer) return true;
@@ -388,7 +389,7 @@ Exit read(const Common& common, const Options& options) {
     return Reading(common, options, end).run();
 }
 
-// ---- remove ----------------------------------------------------------------------------------------------------------
+// ---- remove ---------------------------------------------------------------------------------------------------------
 
 SetupResult<void> remove_one(const Options& options, const std::string& name) {
     const auto ring = shm::ring_status(name);

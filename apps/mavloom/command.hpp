@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One subcommand a file: each gives a function that declares its options and returns what to run once they are parsed.
-// The table in main.cpp is the list of commands, and help comes from it.
+// The interface between main() and the subcommands.
+// Each subcommand has its own source file with one function. That function declares the options and returns the
+// function to run after parsing. The table in main.cpp lists all commands; the help text is generated from it.
 #pragma once
 
 #include <functional>
@@ -15,7 +16,7 @@
 
 namespace mavloom::app {
 
-// DESIGN.md section 5.
+// Exit statuses of every command. From 129 on: 128 plus the number of the signal that ended the command.
 enum class Exit : int {
     done = 0,
     failed = 1,
@@ -27,22 +28,22 @@ enum class Exit : int {
     terminated = 143
 };
 
-// Options that every command has.
+// Options that the commands share.
 struct Common {
     int verbose = 0;
     bool quiet = false;
-    std::vector<std::string> dialect_files;  // --dialect FILE, may be repeated
+    std::vector<std::string> dialect_files;  // --dialect FILE, repeatable; only if Command::uses_dialect
 };
 
 using Run = std::function<Exit()>;
-// Declares options and returns the function to run. `common` lives as long as the program.
+// Declares the options and returns the function to run. `common` outlives that function.
 using Declare = Run (*)(Arguments command, const Common& common);
 
 struct Command {
     std::string_view name;
     std::string_view description;
     Declare declare;
-    bool uses_dialect = true;  // takes --dialect
+    bool uses_dialect = true;  // accepts --dialect
 };
 
 Run declare_route(Arguments, const Common&);
@@ -58,20 +59,22 @@ Run declare_check(Arguments, const Common&);
 Run declare_shm(Arguments, const Common&);
 Run declare_bench(Arguments, const Common&);
 
-// Prints "mavloom: TEXT" to stderr and gives the status that belongs to the kind of error.
+// Prints "mavloom: TEXT" to stderr and returns the exit status for the error.
 Exit fail(const SetupError& error);
 Exit fail(Exit status, std::string_view text);
-// A file that the user named as input: missing or unreadable is status 3 like a file with wrong content.
+// For an error of a file that the user named as input. Every error but a usage error becomes bad_input (status 3): a
+// missing or unreadable file is treated like one with wrong content.
 SetupError of_input_file(SetupError error);
-// Raw text on stderr. A closed or full stderr never ends a command.
+// Writes raw text to stderr. Ignores write errors: a closed or full stderr never ends a command.
 void talk(std::string_view text) noexcept;
-// One line on stderr in which control characters, of names and values from outside, are replaced.
+// Writes one line to stderr. Replaces control characters, which names and values from outside may contain.
 void tell(std::string_view line);
+// Opens /dev/null for each standard descriptor that was closed at start.
 void keep_standard_descriptors() noexcept;
-// "mavloom: TEXT" on stderr, unless --quiet.
+// Prints "mavloom: TEXT" to stderr, unless --quiet.
 void say(const Common& common, std::string_view text);
 
-// The built-in definitions with every --dialect file added.
+// Returns the built-in definitions with those of every --dialect file added.
 SetupResult<dialect::Dialect> load_dialect(const Common& common);
 
 }  // namespace mavloom::app

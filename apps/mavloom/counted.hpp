@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers with their nouns, for people. Pure; allocates the result.
+// Formats numbers together with their nouns, for people. Pure functions that return a new string.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,13 +10,13 @@
 
 namespace mavloom::app {
 
-// "frame" or "frames"; `many` where the plural is not made with an s.
+// Returns "frame" or "frames". Pass `many` if the plural is not formed with an s.
 [[nodiscard]] inline std::string plural(std::uint64_t count, std::string_view one, std::string_view many = {}) {
     if (count == 1) return std::string(one);
     return many.empty() ? fmt::format("{}s", one) : std::string(many);
 }
 
-// "1 frame", "2 frames".
+// Returns "1 frame" or "2 frames".
 [[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {}) {
     return fmt::format("{} {}", count, plural(count, one, many));
 }

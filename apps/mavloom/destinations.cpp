@@ -50,7 +50,7 @@ SetupResult<Destinations> Destinations::open(const Common& common, const std::ve
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within("--to"));
         endpoints.push_back(std::move(*endpoint));
     }
-    // Files last: an existing one is not renamed for a command that another address ends.
+    // Files come last, because creating one renames an existing file. That must not happen if another address fails.
     std::ranges::stable_partition(endpoints, [](const auto& e) { return e.scheme != endpoint::Scheme::tlog; });
     for (const auto& endpoint : endpoints)
         if (auto added = all.add(common, endpoint); !added) return tl::unexpected(std::move(added.error()));
@@ -104,12 +104,12 @@ SetupResult<void> Destinations::close() {
 }
 
 std::size_t Destinations::room_in_frames() const {
-    constexpr std::size_t largest_in_queue = 512;  // the longest frame and what the queue keeps beside it
+    constexpr std::size_t largest_in_queue = 512;  // the longest frame plus the overhead of the queue
     std::size_t room = std::numeric_limits<std::size_t>::max();
     for (std::size_t i = 0; i < endpoints_.size(); ++i) {
         const std::size_t used = links_->queued_bytes(endpoints_[i]);
         room = std::min(room, used >= queue_bytes_[i] ? 0 : (queue_bytes_[i] - used) / largest_in_queue);
-        if (used == 0) room = std::max<std::size_t>(room, 1);  // a queue shorter than that takes one at a time
+        if (used == 0) room = std::max<std::size_t>(room, 1);  // a queue smaller than that takes one frame at a time
     }
     return room;
 }
@@ -125,7 +125,7 @@ bool Destinations::has(link::EndpointId endpoint) const noexcept {
     return std::ranges::find(endpoints_, endpoint) != endpoints_.end();
 }
 
-// Of the links that are there and of those that are gone.
+// Sums over the links that are there and those that are gone.
 Destinations::Sums Destinations::sums_of(const link::EndpointInfo& info) const {
     link::LinkCounters all = info.counters->gone;
     for (const auto& link : links_->links())

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What replay and relay share on the way out: the endpoints of `--to`, whether somebody is there, room in their queues, and the sums at the end.
+// The output side of replay and relay: the endpoints of `--to`.
+// Destinations sends frames to them and reports whether they have peers, how much room their queues have, and the
+// totals at the end. Single owner; `links` must outlive it.
 #pragma once
 
 #include <optional>
@@ -13,11 +15,13 @@
 
 namespace mavloom::app {
 
-// The recording that a tlog:// destination names, rotated as its options say. Errors begin with `option`.
+// Creates the recording of a tlog:// destination. It rotates as the endpoint's options say. Error texts begin with
+// `option`.
 [[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const Common& common,
                                                                    const endpoint::Endpoint& endpoint,
                                                                    std::string_view option);
-// "x.tlog: 12 frames, 348 bytes written", and in how many files.
+// Logs "x.tlog: 12 frames, 348 bytes written". Adds the number of files, if several, and the frames that were not
+// written.
 void say_recorded(const Common& common, const record::RotatingWriter& file);
 [[nodiscard]] Json recorded_json(const record::RotatingWriter& file);
 
@@ -27,28 +31,29 @@ public:
     [[nodiscard]] static SetupResult<Destinations> open(const Common& common, const std::vector<std::string>& addresses,
                                                         link::Links& links);
 
-    // Queues the frame for all that are there, and writes it to the files with its time; false when nobody is there.
+    // Queues the frame for every peer of every endpoint, and writes it to the files with `time`. Returns false if no
+    // peer and no file took it.
     bool send(const wire::FrameView& frame, WallTime time);
-    // How many frames of any length all queues still take: what a recording may send now.
+    // How many frames of maximum length still fit into every queue. A recording may send that many now.
     [[nodiscard]] std::size_t room_in_frames() const;
-    // Every endpoint has at least one link.
+    // Whether every endpoint has at least one link that is up.
     [[nodiscard]] bool all_up() const;
     [[nodiscard]] bool has(link::EndpointId endpoint) const noexcept;
 
-    // Frames were dropped, had nobody there, or were left in a queue at the end.
+    // Whether frames were dropped, failed to send, had no peer, or were still queued at the end.
     [[nodiscard]] bool lost_any() const;
-    // How many frames `send` was given.
+    // How many frames were passed to `send`.
     [[nodiscard]] std::uint64_t given() const noexcept { return given_; }
-    // There is no file among them, and not one frame was sent to anybody.
+    // Whether there are no files and no frame was sent to any peer.
     [[nodiscard]] bool reached_nobody() const;
-    // Writes what the files still buffer. The first error of a file, now or earlier, is returned.
+    // Writes what the files still buffer and closes them. Returns the first error of any file, including earlier ones.
     [[nodiscard]] SetupResult<void> close();
-    // A file could not be written: the command ends.
+    // Whether a file could not be written. The command must then end.
     [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }
 
-    // "udpout://…: 40087 frames, 1834899 bytes sent" for each, and what did not get there.
+    // Logs "udpout://…: 40087 frames, 1834899 bytes sent" for each destination, and how many frames were lost and why.
     void say_sums(const Common& common) const;
-    // The same as an array: "endpoint", "frames", "bytes" and the rest (docs/guide/relay.md).
+    // Returns the same totals as a JSON array. docs/guide/relay.md lists the keys.
     [[nodiscard]] Json sums_json() const;
     [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
 
@@ -66,7 +71,7 @@ private:
     std::vector<std::size_t> queue_bytes_;
     std::vector<record::RotatingWriter> files_;
     std::optional<SetupError> failure_;
-    std::vector<std::uint64_t> nobody_there_;  // frames, by endpoint
+    std::vector<std::uint64_t> nobody_there_;  // frames without a peer, for each endpoint
     std::uint64_t given_ = 0, sent_ = 0;
 };
 

@@ -18,7 +18,7 @@ using dialect::EnumEntry;
 using dialect::Field;
 using dialect::Message;
 
-constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;  // beyond it JSON numbers lose digits
+constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;  // beyond it, JSON numbers lose digits
 
 template <class... Arguments>
 void add(fmt::memory_buffer& out, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -85,7 +85,7 @@ void add_param(fmt::memory_buffer& out, const CommandParam& param) {
     add(out, "{}\n", range_text(param));
 }
 
-// Members of one JSON object, a comma before each but the first.
+// Writes the members of one JSON object, separated by commas.
 class JsonObject {
 public:
     explicit JsonObject(fmt::memory_buffer& out) : out_(out) { add(out_, "{{"); }

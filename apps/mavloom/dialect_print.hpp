@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How `mavloom dialect` shows definitions: for people in columns, for programs one JSON object a line (keys: docs/guide/dialects.md).
-// Each function appends to `out`.
+// Formats message definitions for `mavloom dialect`: columns for people, one JSON object a line for programs.
+// Each function appends to `out`. docs/guide/dialects.md lists the JSON keys.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ void json_message(fmt::memory_buffer& out, const dialect::Message& message);
 void json_enum(fmt::memory_buffer& out, const dialect::Enum& e);
 void json_entry(fmt::memory_buffer& out, const dialect::Enum& owner, const dialect::EnumEntry& entry);
 
-// A JSON string. `text` is UTF-8.
+// Returns `text`, which is UTF-8, as a quoted JSON string.
 [[nodiscard]] std::string json_quoted(std::string_view text);
 
 }  // namespace mavloom::app

@@ -55,7 +55,7 @@ void add_common(CLI::App& command, Common& common, bool uses_dialect) {
         ->allow_extra_args(false);
 }
 
-// Two lines on stderr: what is wrong and where the help is.
+// Prints two lines to stderr: what is wrong, and where to find the help.
 Exit wrong_use(std::string_view what, std::string_view command) {
     tell(fmt::format("mavloom: {}", what));
     tell(fmt::format("Try 'mavloom{}{} --help'.", command.empty() ? "" : " ", command));
@@ -68,21 +68,21 @@ Exit unknown_command(std::string_view typed) {
     return wrong_use(fmt::format("unknown command '{}'{}", typed, did_you_mean(typed, names)), "");
 }
 
-// An empty value would pass for an option that was not given.
+// Rejects empty values: an empty option looks like one that was not given.
 void refuse_empty_values(CLI::App& command) {
     for (auto* option : command.get_options([](const CLI::Option* o) { return o->nonpositional(); }))
         option->check([](const std::string& value) { return value.empty() ? "the value is empty" : ""; });
     for (auto* sub : command.get_subcommands([](const CLI::App*) { return true; })) refuse_empty_values(*sub);
 }
 
-// CLI11's words, with the nearest spelling for an option or subcommand that does not exist.
+// Returns CLI11's error text. For an unknown option or subcommand, suggests the nearest spelling.
 std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
     const auto left = app.remaining(true);
     if (left.empty()) return error.what();
     std::vector<std::string> known;
-    const CLI::App* at = command;  // and its parents: a subcommand takes its command's options too
+    const CLI::App* at = command;  // and its parents: a subcommand also takes its command's options
     do {
         for (const auto* option : at->get_options())
             for (const auto& name : option->get_lnames()) known.push_back("--" + name);
@@ -100,7 +100,7 @@ bool is_command(std::string_view word) {
     return false;
 }
 
-// "mavloom --dialect mine.xml listen ...": the first argument where it is an option that a command would take.
+// Returns an error text for an option before the command, as in "mavloom --dialect mine.xml listen ...".
 std::optional<std::string> option_before_command(std::span<char*> arguments) {
     const std::string_view first = arguments.size() > 1 ? arguments[1] : "";
     if (!first.starts_with('-') || first == "-h" || first == "--help") return std::nullopt;
@@ -163,7 +163,7 @@ void talk(std::string_view text) noexcept {
     while (!text.empty()) {
         const auto written = ::write(STDERR_FILENO, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return;  // nobody to tell
+        if (written <= 0) return;  // stderr is closed or full
         text.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -179,7 +179,8 @@ void say(const Common& common, std::string_view text) {
     if (!common.quiet) tell(fmt::format("mavloom: {}", text));
 }
 
-// A program that was started with one of them closed would give its number to the first socket it opens. Writing there stays an error.
+// If the program starts with a standard descriptor closed, the first socket that it opens would get that number.
+// /dev/null takes the number instead. It is opened for reading only, so that writing to it still fails.
 void keep_standard_descriptors() noexcept {
     for (int fd = ::open("/dev/null", O_RDONLY); fd >= 0; fd = ::open("/dev/null", O_RDONLY)) {
         if (fd <= STDERR_FILENO) continue;
@@ -203,8 +204,8 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
 }  // namespace mavloom::app
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE,
-                SIG_IGN);  // a closed pipe and a file at its limit are errors of write(), handled where they happen
+    // A closed pipe and a file at its size limit are errors of write(), which each caller handles.
+    std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     mavloom::app::Signals::watch();
     mavloom::app::keep_standard_descriptors();

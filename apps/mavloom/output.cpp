@@ -34,27 +34,28 @@ bool Output::wait_for_room() {
     }
 }
 
-// A file has no reader to wait for.
+// A regular file has no reader to wait for, so it is written as a whole.
 Output::Way Output::way_to_standard_output() noexcept {
     struct stat status {};
     return ::fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode) ? Way::whole : Way::not_blocking;
 }
 
-// Never blocks on a reader that stalls, so that no signal is missed in a call that does not return. Where the kernel cannot promise that (pipes
-// before Linux 6.4, terminals) a pipe that polls writable takes PIPE_BUF bytes.
+// Never blocks on a stalled reader, so that no signal is missed in a call that does not return. Where the kernel cannot
+// guarantee that (pipes before Linux 6.4, terminals), callers poll first: a pipe that polls writable takes PIPE_BUF
+// bytes.
 ssize_t Output::write_some(const char* bytes, std::size_t size) noexcept {
     if (way_ == Way::whole) return ::write(STDOUT_FILENO, bytes, size);
     if (way_ == Way::after_poll) return ::write(STDOUT_FILENO, bytes, std::min<std::size_t>(size, PIPE_BUF));
     const iovec all{const_cast<char*>(bytes), size};  // NOLINT(cppcoreguidelines-pro-type-const-cast): only read
     const auto written = ::pwritev2(STDOUT_FILENO, &all, 1, -1, RWF_NOWAIT);
     if (written < 0 && errno != EAGAIN && errno != EPIPE) {
-        way_ = Way::after_poll;  // finds the error again, if it is one
+        way_ = Way::after_poll;  // after a real error, the next write fails again
         errno = EAGAIN;
     }
     return written;
 }
 
-// From errno: the reader is gone, the write failed, or there is only no room.
+// Sets the state from errno: the reader is gone, or the write failed. Lack of room changes nothing.
 void Output::take_error(int error) {
     if (error == EPIPE) {
         state_ = State::closed_by_reader;
@@ -64,7 +65,8 @@ void Output::take_error(int error) {
     }
 }
 
-// A pipe takes up to PIPE_BUF bytes whole or not at all, so that no line is cut in it.
+// Returns the length of the whole lines to write at once. A pipe takes up to PIPE_BUF bytes whole or not at all, so no
+// line is cut in two.
 static std::size_t whole_lines(std::string_view text) noexcept {
     const auto last = text.substr(0, PIPE_BUF).rfind('\n');
     return last == std::string_view::npos ? text.size() : last + 1;

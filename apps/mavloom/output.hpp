@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Standard output. A reader that went away (`| head`) is an end, not an error; a full disk is an error; one that stalls is waited for, until the
-// end is asked for: from then on it has to take something within a second of a signal, or within ten seconds of `end_at`. Pipes take whole lines.
-// Single owner.
+// A buffer of lines for standard output, and the rules for a slow or closed reader. Single owner.
+// - A reader that closes the pipe (`| head`) ends the output normally. A full disk is an error.
+// - A stalled reader is waited for until the end is requested, by a signal or by the time of `end_at`.
+// - From then on the reader must accept some data within one second of a signal, or within ten seconds of `end_at`.
+// - A pipe receives whole lines, as long as a line fits into PIPE_BUF bytes.
 #pragma once
 
 #include <sys/types.h>
@@ -19,25 +21,26 @@ class Output {
 public:
     enum class State : std::uint8_t { open, closed_by_reader, failed, interrupted };
 
-    // Where lines are appended; hand over with `flush_if_full` after each and `flush` when idle.
+    // Append lines here. Call `flush_if_full` after each line and `flush` when idle.
     [[nodiscard]] message::TextBuffer& buffer() noexcept { return buffer_; }
     State flush_if_full() { return full() ? flush() : state_; }
-    // Writes all, however long the reader takes; when the end was asked for, only while it takes anything, then `interrupted`.
+    // Writes everything and waits as long as the reader takes. After the end was requested, waits only while the reader
+    // still accepts data; otherwise discards the rest and returns `interrupted`.
     State flush();
-    // Never waits: writes the lines that fit, and leaves the others in the buffer. Who appends looks whether it is `full`.
+    // Never waits: writes the lines that fit and leaves the rest in the buffer. Check `full` before appending more.
     State flush_what_fits();
     [[nodiscard]] bool full() const noexcept { return buffer_.size() >= flush_bytes; }
-    // False when a reader stalls and the end was asked for.
+    // Waits until standard output accepts data. Returns false if the reader stalls after the end was requested.
     [[nodiscard]] bool wait_for_room();
 
-    // Asks for the end then (`--for`).
+    // Sets the time after which the end counts as requested (`--for`).
     void end_at(MonoTime end) noexcept { end_ = end; }
 
-    // Lines given up when the wait was interrupted.
+    // Lines that `flush` discarded because the reader stalled or closed, or because writing failed.
     [[nodiscard]] std::uint64_t lost_lines() const noexcept { return lost_lines_; }
 
     [[nodiscard]] State state() const noexcept { return state_; }
-    [[nodiscard]] const SetupError& error() const noexcept { return *error_; }  // of `failed`
+    [[nodiscard]] const SetupError& error() const noexcept { return *error_; }  // only if state() is `failed`
 
 private:
     static constexpr std::size_t flush_bytes = 64 * 1024;
@@ -52,11 +55,11 @@ private:
     State state_ = State::open;
     std::optional<SetupError> error_;
     MonoTime end_ = MonoTime::max();
-    std::optional<MonoTime> stalled_since_;  // after the end was asked for
+    std::optional<MonoTime> stalled_since_;  // set only after the end was requested
     std::uint64_t lost_lines_ = 0;
 };
 
-// Prints what a command ends with; `otherwise` unless that fails.
+// Prints the last text of a command. Returns `otherwise`, or an error status if printing fails.
 [[nodiscard]] Exit print_at_end(std::string_view text, Exit otherwise);
 
 }  // namespace mavloom::app

@@ -12,7 +12,7 @@ namespace mavloom::app {
 
 namespace {
 
-constexpr std::uint64_t smallest_buffer = 64 * 1024;  // a datagram
+constexpr std::uint64_t smallest_buffer = 64 * 1024;  // the longest datagram
 
 template <class T>
 std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {

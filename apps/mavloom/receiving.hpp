@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What listen and record share: options that name sources and bound the run, and the receiver made from them.
+// The input side of listen and record: their common options, and the receiver made from them.
+// The options name the sources, select messages and limit the run.
 #pragma once
 
 #include <memory>
@@ -12,14 +13,14 @@
 
 namespace mavloom::app {
 
-// --only and --from.
+// The options --only and --from.
 class Selection {
 public:
     std::vector<std::string> only;  // message names or ids, separated by commas
     std::string from;               // SYS or SYS/COMP
 
     void declare(Arguments command);
-    // Resolves the words; an unknown name is an error with the nearest one.
+    // Looks up the names. An unknown name is an error that suggests the nearest one.
     [[nodiscard]] SetupResult<void> resolve(const dialect::Dialect& dialect);
     [[nodiscard]] bool takes(const wire::FrameView& frame) const noexcept;
 
@@ -29,7 +30,8 @@ private:
     std::optional<ComponentId> component_;
 };
 
-// Says which ports were given to endpoints that asked for any. Whoever waits for these lines may end the program at once: call it when Signals is there.
+// Logs the ports of endpoints that were opened with port 0. Call it after Signals is constructed: a program that waits
+// for these lines may send a signal at once.
 void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints);
 
 struct ReceiveOptions {
@@ -37,12 +39,12 @@ struct ReceiveOptions {
     std::string duration;  // --for
     std::string buffer = "64M";
     std::string count_text;
-    std::uint64_t count = 0;  // 0: no bound; set by `open`
+    std::uint64_t count = 0;  // 0: no limit; `open` sets it from count_text
 
     void declare(Arguments command);
     [[nodiscard]] SetupResult<std::unique_ptr<feed::Receiver>> open(const Common& common,
                                                                     const dialect::Dialect& dialect);
-    // When --for ends; the end of time without it. Call after `open`, which has checked the words.
+    // When --for ends, or MonoTime::max() without it. Call after `open`, which validates the duration.
     [[nodiscard]] MonoTime end(MonoTime start) const;
 
 private:

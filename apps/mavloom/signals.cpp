@@ -16,7 +16,7 @@ std::atomic<Signals::OnStop> stop_function{nullptr};
 std::atomic<void*> stop_context{nullptr};
 std::atomic<bool> hangup_is_remembered{false};
 std::atomic<bool> hangup{false};
-std::atomic<bool> has_begun{false};  // there is or was a Signals object
+std::atomic<bool> has_begun{false};  // a Signals object exists or existed
 
 void handle(int signal) {
     const int saved_errno = errno;
@@ -31,7 +31,7 @@ void handle(int signal) {
 
 enum class Ignored : bool { stay, are_taken };
 
-// Without SA_RESTART: a write that blocks on a slow reader returns. SIGHUP: the terminal was closed.
+// Without SA_RESTART, so that a write that blocks on a slow reader returns. SIGHUP means that the terminal was closed.
 void install(void (*handler)(int), Ignored ignored) noexcept {
     struct sigaction action {};
     action.sa_handler = handler;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and SIGTERM ask a command to end cleanly: the handler runs `on_stop` (which must be async-signal-safe) and remembers the signal. A
-// second one ends the program at once. One Signals object at a time.
+// Ends a command cleanly on SIGINT (Ctrl-C), SIGTERM or SIGHUP.
+// The handler records the signal and runs `on_stop`, which must be async-signal-safe. A second signal ends the program
+// at once. Only one Signals object may exist at a time.
 #pragma once
 
 #include "command.hpp"
@@ -10,21 +11,23 @@ namespace mavloom::app {
 class Signals {
 public:
     using OnStop = void (*)(void* context) noexcept;
-    // SIGHUP ends a command as the others do, unless it is remembered for `take_hangup` (a router reads its file again).
+    // `stop`: SIGHUP ends the command like the other signals. `remember`: `take_hangup` reports it, so that a router
+    // can reread its configuration file.
     enum class OnHangup : std::uint8_t { stop, remember };
     Signals(OnStop on_stop, void* context, OnHangup on_hangup = OnHangup::stop);
     ~Signals();
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 
-    // At the start of the program: until there is a Signals object nothing is there to be ended cleanly, and a signal ends the program at once with
-    // the status that belongs to it. Signals that the caller ignores (nohup, background jobs of scripts) stay ignored until then.
+    // Call at the start of the program. Before the first Signals object there is nothing to end cleanly: a signal ends
+    // the program at once, with the exit status for that signal. Until then, signals that were ignored at start (nohup,
+    // background jobs of scripts) stay ignored.
     static void watch() noexcept;
 
     [[nodiscard]] static bool received() noexcept;
-    // True once for each SIGHUP that was remembered (several at once are one).
+    // Returns true once for each remembered SIGHUP. Several at once count as one.
     [[nodiscard]] static bool take_hangup() noexcept;
-    // 130 or 143 after a signal, else `otherwise`.
+    // Returns 129, 130 or 143 after a signal, else `otherwise`.
     [[nodiscard]] static Exit status(Exit otherwise) noexcept;
 };
 

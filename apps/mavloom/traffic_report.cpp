@@ -32,11 +32,11 @@ struct Named {
     std::string_view name, noun, rest;
     std::uint64_t value;
 
-    // "crc_error: 2 frames with a bad checksum"
+    // For example "crc_error: 2 frames with a bad checksum".
     [[nodiscard]] std::string text() const { return fmt::format("{}: {} {}", name, counted(value, noun), rest); }
 };
 
-// Every counter that is not a good frame handed on, with the words for it.
+// Every counter of what was lost, damaged or left out, with the words for it.
 auto losses_of(const feed::Totals& t) {
     return std::array{
         Named{"kernel_drop", "datagram", "dropped by the kernel: the receive buffer was full", t.kernel_drop},
@@ -74,7 +74,7 @@ void append_row(std::string& out, const observe::TrafficRow& row, std::string_vi
 
 using Rows = std::vector<observe::TrafficRow>;
 
-// The rows of one source. Both lists have the same order: `from` goes on behind them.
+// Returns the rows of one source. Both lists are sorted alike, so `from` moves on to the next source's rows.
 std::span<const observe::TrafficRow> rows_of(const feed::SourceLoss& loss, const Rows& rows, std::size_t& from) {
     const auto key = [](const auto& x) { return std::tuple(x.link, x.source); };
     while (from < rows.size() && key(rows[from]) < key(loss)) ++from;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The end of `listen --stats` and of other commands that received: what was heard, by link, source and message, and what was lost where.
+// Reports what a command received and lost: by link, source and message (`listen --stats`), or as totals.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,19 +13,19 @@ namespace mavloom::app {
 
 using Json = nlohmann::ordered_json;
 
-// Every loss by its name, 0 included.
+// Returns every loss counter by name, including those that are 0.
 [[nodiscard]] Json losses_json(const feed::Totals& totals);
-// {"stats":...} and a newline: how a command's summary stands on stdout.
+// Returns {"stats":...} and a newline, the form of a command's summary on stdout.
 [[nodiscard]] std::string stats_line(Json stats);
 
-// A table for people. `receiver` has been joined.
+// Returns a table for people. Join `receiver` first.
 std::string traffic_text(const observe::TrafficTable& traffic, feed::Receiver& receiver,
                          const dialect::Dialect& dialect);
-// One JSON object, {"stats":{…}} and a newline; its keys are documented in docs/guide/listen.md. `unprinted`: messages that were received and
-// not printed, since nobody took them.
+// Returns one JSON object, {"stats":{…}}, and a newline. docs/guide/listen.md lists the keys. `unprinted` is the number
+// of messages that were received but not printed because the output stalled.
 std::string traffic_json(const observe::TrafficTable& traffic, feed::Receiver& receiver,
                          const dialect::Dialect& dialect, std::uint64_t unprinted);
-// Lines on stderr for whatever was lost or damaged; nothing when all is well.
+// Logs one line for each kind of loss or damage that occurred.
 void say_losses(const Common& common, const feed::Totals& totals);
 
 }  // namespace mavloom::app

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""MAVLink telemetry at C++ speed: live links, recordings as messages or as numpy columns, rings in shared memory, definitions.
+"""MAVLink telemetry at C++ speed: links, recordings, rings in shared memory, and message definitions.
 
     link = mavloom.connect("udpin://0.0.0.0:14550"); print(link.recv(timeout=1.0))
     for msg in mavloom.read("flight.tlog"): print(msg.time_ns, msg.name, msg.to_dict())
@@ -15,7 +15,7 @@ from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo,
 from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
 from ._link import Link, connect
 
-# Errors are shown, and pickled, by the names that users import.
+# Tracebacks and pickles use the names that users import.
 for _name in ("Error", "UsageError", "InputError", "SystemFailure", "NotFoundError", "PermissionDeniedError", "ClosedError"):
     getattr(_errors, _name).__module__ = "mavloom"
 

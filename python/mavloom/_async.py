@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Iteration on an asyncio loop: one descriptor for each reader, no executor. Those of links tell of themselves, behind those of rings stands one thread for all."""
+"""Iteration on an asyncio loop, without an executor: each reader has one descriptor that the loop watches.
+
+The loop thread of the links signals the descriptors of links. One thread serves the descriptors of all rings.
+"""
 from __future__ import annotations
 
 import asyncio
@@ -13,31 +16,31 @@ from ._errors import ClosedError, UsageError
 
 T = TypeVar("T")
 
-MOST_AT_ONCE = 256  # messages or records, then others on the loop get their turn
-LOOK_FOR_RING_S = 1.0  # of a ring whose file was deleted by hand nobody is told
+MOST_AT_ONCE = 256  # messages or records before other tasks on the loop get their turn
+LOOK_FOR_RING_S = 1.0  # deleting a ring's file by hand wakes no reader, so look at this interval
 
-waiting: set[int] = set()  # descriptors on which a task waits
+waiting: set[int] = set()  # descriptors on which a task waits now
 os.register_at_fork(after_in_child=waiting.clear)
 
 
 def messages(subscription: Subscription) -> AsyncGenerator[Message, None]:
-    """What arrives, until the link or the subscription is closed."""
+    """Yields messages until the link or the subscription is closed."""
     return each(subscription, lambda: subscription.recv(0))
 
 
 def records(reader: RingReader) -> AsyncGenerator[Record, None]:
-    """What is written, until the ring is removed or the reader closed."""
+    """Yields records until the ring is removed or the reader is closed."""
     return each(reader, reader.poll, look_again_s=LOOK_FOR_RING_S)
 
 
 def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[RecordBatch, None]:
-    """The same, many at once, and no longer than until nothing came for `timeout` seconds."""
+    """Like `records`, but yields batches, and also ends when no record came for `timeout` seconds."""
     return each(source, source.poll, most=1, timeout=timeout, look_again_s=LOOK_FOR_RING_S)
 
 
 async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None], most: int = MOST_AT_ONCE, timeout: float | None = None,
                look_again_s: float | None = None) -> AsyncGenerator[T, None]:
-    """What `poll` gives, until it raises ClosedError; where it gives None, the source's descriptor tells when to ask again."""
+    """Yields what `poll` returns, until it raises ClosedError. If it returns None, waits for the source's descriptor."""
     descriptor = source.event_fd()
     check_free(descriptor)
     loop = asyncio.get_running_loop()
@@ -67,7 +70,10 @@ def check_free(descriptor: int) -> None:
 
 
 async def readable(descriptor: int, timeout: float | None) -> None:
-    """Waits until the descriptor tells. Watched no longer than that: a loop that was left is cleaned up late, and the next may have begun."""
+    """Waits until the descriptor is readable, or for `timeout` seconds.
+
+    Stops watching the descriptor afterwards. A loop that was left is cleaned up late, when the next may already run.
+    """
     check_free(descriptor)
     loop = asyncio.get_running_loop()
     ready = asyncio.Event()

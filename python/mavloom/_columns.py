@@ -20,15 +20,19 @@ Array = npt.NDArray[Any]
 
 
 class Columns:
-    """The rows of one message, in the order of the file, as arrays that own their memory: contiguous, native byte order, writeable.
+    """The rows of one message, in the order of the file, as numpy arrays.
 
-    `cols["roll"]` has shape (rows,) and the field's own type (float32, uint16, ...); an array field (rows, elements); char[N] is the type S<N>. Beside the
-    fields there are `time_ns` (int64, Unix time in ns, the recorded one), `sys` and `comp` (uint8). What a sender cut off is 0. `len(cols)` is the number
-    of rows. A message that does not occur gives empty arrays of the same types.
+    The arrays own their memory, are contiguous and writeable, and have native byte order. `len(cols)` is the number of
+    rows. If the message does not occur, the arrays are empty and have the same types.
+
+    - `cols["roll"]` has shape (rows,) and the field's own type (float32, uint16, ...).
+    - An array field has shape (rows, elements). A char[N] field has the type S<N>.
+    - `time_ns` is the recorded time (int64, Unix time in ns); `sys` and `comp` are uint8.
+    - Trailing zeros that a sender left out are 0.
     """
 
     name: str
-    junk_bytes: int  # of the file that belong to no record: damaged, or cut at the end
+    junk_bytes: int  # bytes of the file that belong to no record: damaged, or cut off at the end
 
     def __init__(self, info: MessageInfo, arrays: dict[str, Array], junk_bytes: int) -> None:
         self.name = info.name
@@ -38,16 +42,16 @@ class Columns:
 
     @functools.cached_property
     def units(self) -> dict[str, str]:
-        """{field: "rad/s"} where there is one."""
+        """{field: "rad/s"} for the fields that have a unit."""
         return {field.name: field.units for field in self._info.fields if field.units}
 
     @functools.cached_property
     def enums(self) -> dict[str, str]:
-        """{field: "MAV_TYPE"} where there is one."""
+        """{field: "MAV_TYPE"} for the fields that have an enum."""
         return {field.name: field.enum for field in self._info.fields if field.enum}
 
     def __getitem__(self, column: str) -> Array:
-        """Raises KeyError for a column that the message does not have."""
+        """Returns a column. Raises KeyError if the message does not have it."""
         return self._arrays[column]
 
     def __len__(self) -> int:
@@ -57,19 +61,22 @@ class Columns:
         return column in self._arrays
 
     def __iter__(self) -> Iterator[str]:
-        """The columns' names: time_ns, sys, comp, then the fields in the order of the definition."""
+        """Iterates over the column names: time_ns, sys, comp, then the fields in the order of the definition."""
         return iter(self._arrays)
 
     def keys(self) -> list[str]:
-        """As iteration gives them."""
+        """The names of the columns, in the order of iteration."""
         return list(self._arrays)
 
     def __repr__(self) -> str:
         return f"<{self.name}: {len(self)} rows of {', '.join(self._arrays)}>"
 
     def to_arrow(self) -> pyarrow.Table:
-        """A table whose fields carry the metadata `unit` and `enum`; `time_ns` is timestamp[ns, UTC], text is UTF-8 (what is none becomes U+FFFD), array fields are
-        lists of fixed size. Parquet keeps all of it. Needs pyarrow: the extra [arrow]."""
+        """Converts the columns to a pyarrow table. Needs pyarrow: the extra [arrow].
+
+        `time_ns` becomes timestamp[ns, UTC]. Text becomes UTF-8, with U+FFFD for invalid bytes. Array fields become
+        lists of fixed size. Fields carry the metadata `unit` and `enum`. Parquet keeps all of it.
+        """
         try:
             import pyarrow
         except ImportError as error:
@@ -93,8 +100,11 @@ class Columns:
         return pyarrow.array(values)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A frame with the times as its index (UTC, datetime64[ns]); an array field becomes a column for each element, `voltages[0]`, ...; text is str. `df.attrs`
-        holds message, units and enums. Needs pandas: the extra [pandas]."""
+        """Converts the columns to a pandas data frame. Needs pandas: the extra [pandas].
+
+        The times become the index (UTC, datetime64[ns]). An array field becomes one column for each element:
+        `voltages[0]`, ... Text becomes str. `df.attrs` holds message, units and enums.
+        """
         try:
             import pandas
         except ImportError as error:
@@ -115,12 +125,16 @@ class Columns:
 
 def columns(path: str | os.PathLike[str], name: str, *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, dialect: Dialect | None = None) -> Columns:
-    """All messages `name` of a tlog as columns, read in one pass in C++ without an object for each message; the GIL is free meanwhile.
+    """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
-    `system`, `component` and `instance` (the value of the field that tells several sensors of one message apart, as BATTERY_STATUS.id or
-    NAMED_VALUE_FLOAT.name) keep the rows that agree. An unknown name, or `instance` for a message without such a field, is a UsageError (a ValueError);
-    damage in the file is skipped and counted in `junk_bytes` (checksums of other messages are not looked at while record joins record). Peak memory: the
-    rows as they were sent, and the arrays."""
+    `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
+    sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
+
+    An unknown name, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
+    file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
+
+    The GIL is free during the read. Peak memory: the rows with full-length payloads, plus the arrays.
+    """
     definitions = Dialect() if dialect is None else dialect
     info = definitions[name]
     parts, junk_bytes = read_columns(path, name, system, component, instance, definitions)
@@ -129,8 +143,11 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
 
 def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
            dialect: Dialect | None = None) -> dict[str, Columns]:
-    """Every message of a tlog as columns, {"ATTITUDE": Columns, ...} by rising id, read in one pass: those that occur, or those that `type` names. As `columns`,
-    but every checksum is looked at. Messages without definition are left out."""
+    """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
+
+    Without `type`, returns the messages that occur; with it, those that it names. Messages without a definition are
+    left out. Otherwise like `columns`, but every checksum is checked.
+    """
     definitions = Dialect() if dialect is None else dialect
     made, junk_bytes = read_tables(path, type, system, component, definitions)
     return {name: _made(definitions[name], parts, junk_bytes) for name, parts in made.items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Enums of a dialect as Python's."""
+"""The enums of a dialect as Python enum classes."""
 from __future__ import annotations
 
 import collections.abc
@@ -10,22 +10,22 @@ if TYPE_CHECKING:
     from ._core import Dialect
 
 EnumClass = type[enum.IntEnum] | type[enum.IntFlag]
-# By path and name: dialects made of one file share their classes, so that members compare by identity too.
+# By path and name. Dialects made from one file share their classes, so that members also compare by identity.
 _made: dict[tuple[str | None, str], EnumClass] = {}
 
 
 def make(dialect: Dialect, name: str) -> EnumClass:
-    """The class of an enum; made once."""
+    """Returns the class of an enum, which is created once."""
     key = (dialect.path, name)
     if key not in _made:
         bitmask, entries = dialect.enum_entries(name)
         base: Any = enum.IntFlag if bitmask else enum.IntEnum
-        return _made.setdefault(key, base(name, entries, module="mavloom.enums"))  # another thread may have been first
+        return _made.setdefault(key, base(name, entries, module="mavloom.enums"))  # another thread may have been faster
     return _made[key]
 
 
 class Enums(Mapping[str, Mapping[int, "enum.IntEnum | enum.IntFlag"]]):
-    """{"MAV_CMD": {16: <MAV_CMD.MAV_CMD_NAV_WAYPOINT>, ...}, ...}, made as it is read."""
+    """{"MAV_CMD": {16: <MAV_CMD.MAV_CMD_NAV_WAYPOINT>, ...}, ...}; each enum is created when it is read."""
 
     def __init__(self, dialect: Dialect) -> None:
         self._dialect = dialect

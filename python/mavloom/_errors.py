@@ -1,21 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""The exceptions of this package. Bytes from outside never raise one: damage is counted."""
+"""The exceptions of this package.
+
+Damaged input on a link or in a recording raises none of them: it is counted.
+"""
 
 
 class Error(Exception):
-    """Above all errors of this package."""
+    """Base class of all errors of this package."""
 
 
 class UsageError(Error, ValueError):
-    """A name, value, address or option that was given is wrong; the text says what to type."""
+    """A name, value, address or option is wrong. The text says what to use instead."""
 
 
 class InputError(Error, ValueError):
-    """The content of a file, or of bytes given to decode, is wrong; the text names file and line where there are."""
+    """The content of a file, or of bytes to decode, is wrong. The text names file and line if there are any."""
 
 
 class SystemFailure(Error, OSError):
-    """The operating system refused; `errno` says why where a system call failed."""
+    """The operating system refused an operation. If a system call failed, `errno` says why."""
 
 
 class NotFoundError(SystemFailure, FileNotFoundError):
@@ -23,8 +26,8 @@ class NotFoundError(SystemFailure, FileNotFoundError):
 
 
 class PermissionDeniedError(SystemFailure, PermissionError):
-    """The system refused access."""
+    """The operating system denied access."""
 
 
 class ClosedError(Error):
-    """The link or recording was closed, or was opened before a fork and is used in the child."""
+    """The object was closed, its ring was removed, or it was opened before a fork and is used in the child."""

@@ -15,30 +15,37 @@ if TYPE_CHECKING:
     from typing_extensions import Buffer
 
 DEFAULT_BUFFER_BYTES = 16 << 20  # about 250,000 messages
-DEFAULT_SOURCE = (255, 193)  # the system that ArduPilot obeys, with a component that is no ground station's (QGroundControl is 255/190)
+# ArduPilot accepts system 255 as its ground station. Ground stations do not use component 193: QGroundControl is
+# 255/190.
+DEFAULT_SOURCE = (255, 193)
 NO_VEHICLES = frozenset({6, 18, 26, 27, 30})  # MAV_TYPE: GCS, onboard controller, gimbal, ADS-B, camera
 AUTOPILOT_INVALID = 8
 
 
 def is_vehicle(heartbeat: Message) -> bool:
-    """Whether a HEARTBEAT is that of something with an autopilot."""
+    """Whether a HEARTBEAT comes from a vehicle with an autopilot."""
     return heartbeat["autopilot"] != AUTOPILOT_INVALID and heartbeat["type"] not in NO_VEHICLES
 
 
 class Link:
-    """One endpoint (docs/guide/endpoints.md) and all its peers: a port that listens, a connection that is made again whenever it breaks, a serial device,
-    a ring in shared memory.
+    """One endpoint (docs/guide/endpoints.md) and all its peers.
 
-    Receiving goes on in a thread of C++, whatever Python does. What was not read yet waits in a buffer of `buffer` bytes; then the oldest is overwritten, and
-    `stats.missed` tells how much. Every method may be called from any thread. Closing (`close()`, `with`, or when the object and all that was made of it, as
-    iterators and subscriptions, are gone) frees the port at once; later calls raise ClosedError, and iterations end. A process that was forked off must open
-    links of its own.
+    The endpoint is a listening port, a connection that is restored whenever it breaks, a serial device, or a ring in
+    shared memory. A C++ thread receives, whatever Python does. Unread messages wait in a buffer of `buffer` bytes. When
+    it is full, the oldest are overwritten and counted in `stats.missed`. Every method may be called from any thread.
+
+    A link closes by `close()`, at the end of `with`, or when the object and its iterators and subscriptions are gone.
+    Closing frees the port at once. Later calls raise ClosedError, and iterations end. A forked process must open links
+    of its own.
     """
 
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
                  buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
-        """Opens what can be opened at once (a port that is taken is a SystemFailure); a far side that is absent is waited for in the background, or with
-        `required=true` in the address for up to 5 s, and is then a SystemFailure too."""
+        """Opens what can be opened at once. Raises SystemFailure if, for example, the port is in use.
+
+        If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
+        call waits for it for up to 5 s and then raises SystemFailure.
+        """
         self._port = Port(url, source_system, source_component, dialect, buffer, version)
         self._reader: Subscription = self._port.reader
         self.mav = Sender(self._port)
@@ -46,55 +53,77 @@ class Link:
     # ---- receiving
 
     def __iter__(self) -> Iterator[Message]:
-        """Messages in the order of their arrival, until the link is closed."""
-        for message in self._reader:  # not `yield from`, which would close the reader with the iterator; the frame keeps the link
+        """Yields messages in the order of arrival, until the link is closed."""
+        # Not `yield from`, which would close the reader with the iterator. The generator's frame keeps the link alive.
+        for message in self._reader:
             yield message
 
     async def __aiter__(self) -> AsyncIterator[Message]:
-        """As iteration; one task at a time, others `subscribe`."""
+        """Yields messages like iteration. Only one task at a time may wait; others use `subscribe`."""
         async for message in self._reader:
             yield message
 
     def recv(self, timeout: float | None = None) -> Message | None:
-        """The next message; None after `timeout` seconds (0 polls, None waits for ever)."""
+        """Returns the next message, or None after `timeout` seconds (0 polls, None waits for ever)."""
         return self._reader.recv(timeout)
 
     def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None, blocking: bool = False,
                    timeout: float | None = None, system: int | None = None, component: int | None = None) -> Message | None:
-        """The next message of these types (names, or classes of mavloom.messages) for which `condition(message)` is true; what comes before it is passed over.
-        None when there is none: at once, or with `blocking` after `timeout` seconds. An unknown name is a ValueError with the nearest one."""
+        """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
+
+        `type` takes names or classes of mavloom.messages. An unknown name is a ValueError, which suggests the nearest
+        one. Returns None if there is no such message: at once, or with `blocking` after `timeout` seconds.
+        """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
     def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None) -> Subscription:
-        """A reader of its own, from now on: it takes nothing away from others, and keeps the link open while it is there."""
+        """Returns a new reader of the messages that arrive from now on.
+
+        Each reader gets every message. A reader keeps the link open as long as it exists.
+        """
         return self._port.subscribe(type, system, component)
 
     def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None, instance: int | str | None = None,
                max_age: float | None = None) -> Message | None:
-        """The newest message of this type that arrived; None where there is none, or none in the last `max_age` seconds. Reads nothing away."""
+        """Returns the newest message of this type; None if none arrived, or none in the last `max_age` seconds.
+
+        Takes no message away from `recv`.
+        """
         return self._port.latest(type, system, component, instance, max_age)
 
     def pump(self, writer: RingWriter, timeout: float | None = None) -> int:
-        """Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: until the link is closed). Returns how many.
-        They are taken away from `recv`; a subscription has a `pump` of its own."""
+        """Writes the frames that arrive to a ring, for `timeout` seconds (None: until the link is closed).
+
+        Works in C++ without the GIL. Returns the number of frames written. `recv` does not get these frames; a
+        subscription has its own `pump`.
+        """
         return self._reader.pump(writer, timeout)
 
     # ---- sending
 
     def send(self, message: str | Message, /, **fields: Any) -> int:
-        """Sends a message by name and fields (as Dialect.encode takes them), or a Message, from this link's source and with its next sequence number. Returns how
-        many peers it goes to; with 0 nothing is sent, and counted as `no_peer`. Waits for nobody but a loop that is behind."""
+        """Sends a message, given by name and fields as for Dialect.encode, or as a Message.
+
+        The frame has this link's source and its next sequence number. Returns the number of peers. If that is 0,
+        nothing is sent and `stats.no_peer` counts it. Blocks only while the link's loop thread is behind.
+        """
         return self._port.send(message, **fields)
 
     def forward(self, message: Message | Buffer, /) -> int:
-        """Sends a Message, or the bytes of one whole frame, as it is: its own source, sequence number, version and signature (`sign=` puts the link's in its
-        place). Also what has no definition. Returns as `send`. Bytes that are no frame are an InputError."""
+        """Sends a Message, or the bytes of one whole frame, unchanged. Returns the number of peers, like `send`.
+
+        Keeps source, sequence number, version and signature; with `sign=`, the link's signature replaces the original
+        one. Also sends messages without a definition. Raises InputError if the bytes are not a frame.
+        """
         return self._port.forward(message)
 
     def serve_inlet(self, ring: str, *, mode: int = 0o600) -> None:
-        """Opens the way back of a ring that is filled from this link (`pump`): programs that read the ring send frames to the Unix socket RUN/`ring`.in, and each
-        goes unchanged to every peer of this link. `mode` says who may send. Counted in `stats.answers`, and in `stats.unheard_answers` where no peer was there.
-        SystemFailure where another process serves that socket; UsageError for a second inlet of one link. Closing the link closes it.
+        """Opens the way back of a ring that this link fills with `pump`. Closing the link closes it.
+
+        Programs that read the ring send frames to the Unix socket RUN/`ring`.in. Each frame goes unchanged to every
+        peer of this link. `mode` is the socket's file mode: it decides who may send. `stats.answers` counts these
+        frames, and `stats.unheard_answers` those for which there was no peer. Raises SystemFailure if another process
+        serves the socket, and UsageError for a second inlet of one link.
         """
         self._port.serve_inlet(ring, mode)
 
@@ -102,17 +131,17 @@ class Link:
 
     @property
     def stats(self) -> LinkStats:
-        """A snapshot of the counters; after closing the last one."""
+        """A snapshot of the counters; after closing, the last one."""
         return self._port.stats
 
     @property
     def name(self) -> str:
-        """The endpoint's label, with the port that was given where port 0 was asked for."""
+        """The label of the endpoint. If the address asked for port 0, it shows the port that the system chose."""
         return self._port.name
 
     @property
     def port(self) -> int:
-        """The bound port; 0 where there is none."""
+        """The bound port; 0 if there is none."""
         return self._port.port
 
     @property
@@ -125,7 +154,7 @@ class Link:
         return self._port.dialect
 
     def close(self) -> None:
-        """Sends what was queued, closes, wakes who waits. May be called again."""
+        """Sends queued frames, closes the link and wakes waiting readers. May be called again."""
         self._port.close()
 
     def __enter__(self) -> Link:
@@ -141,20 +170,23 @@ class Link:
 
     @property
     def target_system(self) -> int:
-        """System of the first vehicle that was heard; 0 before."""
+        """System id of the first vehicle heard; 0 before."""
         return self._port.target_system
 
     @property
     def target_component(self) -> int:
-        """Component of the first vehicle that was heard; 0 before."""
+        """Component id of the first vehicle heard; 0 before."""
         return self._port.target_component
 
     def wait_heartbeat(self, blocking: bool = True, timeout: float | None = None) -> Message | None:
-        """The next heartbeat of a vehicle (not of a ground station, gimbal, camera, ADS-B receiver or onboard controller); None after `timeout` seconds."""
+        """Returns the next heartbeat of a vehicle, or None after `timeout` seconds.
+
+        Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles.
+        """
         return self.recv_match(is_vehicle, "HEARTBEAT", blocking, timeout)
 
     def wait_vehicle(self, timeout: float) -> Message:
-        """As wait_heartbeat, but raises TimeoutError."""
+        """Like wait_heartbeat, but raises TimeoutError after `timeout` seconds."""
         heartbeat = self.wait_heartbeat(timeout=timeout)
         if heartbeat is None:
             raise TimeoutError(f"{self.name}: no vehicle within {timeout} s")
@@ -162,21 +194,27 @@ class Link:
 
     @property
     def messages(self) -> Mapping[str, Message]:
-        """The newest messages of the target system: link.messages["ATTITUDE"], link.messages["BATTERY_STATUS[1]"], "NAMED_VALUE_FLOAT[name]"."""
+        """The newest messages of the target system, by name.
+
+        For example link.messages["ATTITUDE"], or with an instance "BATTERY_STATUS[1]" or "NAMED_VALUE_FLOAT[name]".
+        """
         return Latest(self)
 
     def field(self, type: str, field: str, default: Any = None) -> Any:
-        """The newest value of a field; `default` where there is none."""
+        """Returns the newest value of a field, or `default` if no such message arrived."""
         message = self.messages.get(type)
         return default if message is None else message[field]
 
     def time_since(self, type: str) -> float:
-        """Seconds since the newest message of this type arrived; infinity where there is none."""
+        """Returns the seconds since the newest message of this type arrived; infinity if none did."""
         message = self.messages.get(type)
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
-        """Per cent lost on the way here, of all sources or of these; late and doubled frames are no loss. `stats.sources` has each of them."""
+        """Returns the percentage of frames lost on the way here, from all sources or the selected ones.
+
+        Late and duplicate frames do not count as lost. `stats.sources` has the figures of each source.
+        """
         for what, number in (("system", system), ("component", component)):
             if number is not None and not 0 <= number <= 255:
                 raise UsageError(f"{what}: {number} is out of range, 0 to 255")
@@ -186,7 +224,7 @@ class Link:
 
 
 class Latest(Mapping[str, Message]):
-    """The newest messages of a link's target system."""
+    """A mapping from message names to the newest messages of a link's target system."""
 
     def __init__(self, link: Link) -> None:
         self._link = link
@@ -211,10 +249,13 @@ class Latest(Mapping[str, Message]):
 
 
 class Sender:
-    """link.mav: NAME_send(...) and NAME_encode(...) for every message, with the fields in the order of the definition or by name."""
+    """link.mav: NAME_send(...) and NAME_encode(...) for every message.
+
+    Fields are given in the order of the definition, or by name.
+    """
 
     def __init__(self, port: Port) -> None:
-        self._port = port  # not the Link, which has this object
+        self._port = port  # not the Link, which would make a reference cycle
 
     def send(self, message: Message) -> int:
         return self._port.send(message)
@@ -236,5 +277,8 @@ class Sender:
 
 def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
             buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
-    """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`. pymavlink's spellings (`udpin:HOST:PORT`) are taken too. `version=1` sends MAVLink 1."""
+    """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`.
+
+    Also accepts pymavlink's spelling, `udpin:HOST:PORT`. With `version=1` the link sends MAVLink 1.
+    """
     return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer, version=version)

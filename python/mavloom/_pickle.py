@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Functions that pickles name: compiled ones cannot be."""
+"""The functions that pickles refer to by name; compiled functions cannot be pickled."""
 from __future__ import annotations
 
 import functools
@@ -13,11 +13,14 @@ def restore_message(dialect: _core.Dialect, frame: bytes, time_ns: int, link: in
 
 
 def restore_dialect(path: str | None) -> _core.Dialect:
-    """Each message of a pickle brings its dialect: a file is read once for all of them, and again when it was changed."""
+    """Restores the dialect that each pickled message refers to.
+
+    The XML file is read once for all messages, and again after it has changed.
+    """
     try:
         status = None if path is None else os.stat(path)
     except OSError:
-        status = None  # the reader of the file says what is wrong
+        status = None  # reading the file raises the error
     return load(path, status and status.st_mtime_ns, status and status.st_size)
 
 

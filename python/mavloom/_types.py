@@ -5,5 +5,5 @@ from __future__ import annotations
 import collections.abc
 from typing import Union
 
-# What `type=` takes: a name, a class of mavloom.messages, or several.
+# The argument `type=`: a name, a class of mavloom.messages, or several.
 MessageTypes = Union[str, type, collections.abc.Iterable[Union[str, type]]]

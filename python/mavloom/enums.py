@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The enums of the built-in definitions: `from mavloom.enums import MAV_TYPE`. Classes are made when they are asked for; enums.pyi shows them to editors."""
+"""The enums of the built-in definitions: `from mavloom.enums import MAV_TYPE`.
+
+Each class is created at its first use. enums.pyi lists them for editors.
+"""
 from . import _enums
 from ._core import Dialect
 

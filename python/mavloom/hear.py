@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""python -m mavloom.hear URL --ring NAME: what is heard on a link goes into a ring in shared memory, and what readers of the ring send goes to the link."""
+"""python -m mavloom.hear URL --ring NAME: writes the frames of a link to a ring in shared memory.
+
+Frames that readers of the ring send go to every peer of the link.
+"""
 from __future__ import annotations
 
 import argparse
@@ -34,7 +37,7 @@ in the background) does not: use SIGTERM there. Status: 1 failed, 2 wrong use, 3
 
 
 class Signals:
-    """Remembers the signal that asks for the end; a second one ends the program at once."""
+    """Records the signal that requests the end. A second one ends the program at once."""
 
     def __init__(self) -> None:
         self.received = 0
@@ -48,7 +51,7 @@ class Signals:
 
 
 def size(text: str) -> int:
-    """Bytes of 65536, 64k, 8M, 1G."""
+    """Converts a size such as 65536, 64k, 8M or 1G to bytes."""
     unit = UNITS.get(text[-1:].lower())
     digits = text if unit is None else text[:-1]
     if not digits.isdecimal():
@@ -84,11 +87,11 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
 
 
 class Ring:
-    """The ring that is written to: made anew when somebody takes it away, by `mavloom shm remove` or by hand."""
+    """The ring that is written to. It is created again if it is removed, by `mavloom shm remove` or by hand."""
 
     def __init__(self, options: argparse.Namespace) -> None:
         self._options = options
-        self._written = 0  # to rings that are gone
+        self._written = 0  # records in rings that are gone
         self._open()
 
     def _open(self) -> None:
@@ -107,7 +110,7 @@ class Ring:
                 raise
 
     def made_anew(self) -> bool:
-        """Whether it was gone."""
+        """Creates the ring again if it was removed. Returns whether it was."""
         if not self.writer.removed:
             return False
         gone, self._written = self.writer, self.written
@@ -120,7 +123,7 @@ class Ring:
 
 
 class Answers:
-    """What readers of the ring send, and whether it found somebody."""
+    """Serves the frames that readers of the ring send, and reports those that reach no peer."""
 
     def __init__(self, link: Link, say: Callable[[str], None]) -> None:
         self._link, self._say = link, say
@@ -134,7 +137,7 @@ class Answers:
             self._say(f"{error.strerror}; readers of ring {ring} cannot send")
 
     def look(self, now: float) -> None:
-        """Says once what found nobody; about once a second."""
+        """Checks the counters about once a second. Reports each kind of failure once."""
         if now < self._look_due:
             return
         self._look_due = now + LOOK_AT_ANSWERS_S

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""A class for each message of the built-in definitions, for isinstance() and for type checkers, which then know the fields:
+"""A class for each message of the built-in definitions, for isinstance() and type checkers:
 
     if isinstance(msg, messages.ATTITUDE): print(msg.roll)
 
-They also stand for their names in `type=`. messages.pyi shows the fields to editors. Messages are always made as class Message: these classes only tell
-which one it is, whatever dialect it came with."""
+`type=` also accepts these classes instead of names. messages.pyi lists the fields for type checkers and editors.
+Every message is an instance of class Message. isinstance() with these classes compares names, whatever the dialect.
+"""
 from ._core import Dialect, Message
 
 

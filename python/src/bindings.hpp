@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each file adds to the module mavloom._core.
+// One function for each source file that adds its classes and functions to the module mavloom._core.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -14,12 +14,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_wait = 50ms;  // then signals get their turn
+constexpr auto longest_wait = 50ms;  // so that signals are handled
 
-// MAV_TYPEs that are no vehicle, and the autopilot of what has none (MAVLink, minimal.xml).
+// MAV_TYPEs that are not vehicles, and the autopilot value of components without one (MAVLink, minimal.xml).
 constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard controller, gimbal, ADS-B, camera
 constexpr std::uint8_t autopilot_invalid = 8;
-constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // offsets
+constexpr std::size_t heartbeat_type = 4, heartbeat_autopilot = 5;  // payload offsets
 
 std::uint8_t verdict_of(const link::RxFrame& rx, bool verifies) noexcept {
     using ring::FrameSignature;
@@ -229,7 +229,8 @@ void Consumer::tell() noexcept {
     armed_ = false;
     if (event_fd_ < 0) return;
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(event_fd_, &one, sizeof one);  // full means that it is readable
+    // If the counter is full, the write fails and the descriptor is readable already.
+    [[maybe_unused]] const auto written = ::write(event_fd_, &one, sizeof one);
 }
 
 SetupResult<int> Consumer::event_fd() {

@@ -20,7 +20,7 @@ std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {
     return std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
 }
 
-// `count` values of type T from `offset` of each row on.
+// Copies `count` values of type T, beginning at `offset` of each row.
 template <class T>
 std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std::size_t count) {
     auto values = room_for(rows.count() * count * sizeof(T));
@@ -35,7 +35,7 @@ std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std
                 }
             }
         };
-        if (count == 1) copy(1);  // nearly all fields
+        if (count == 1) copy(1);  // the case of nearly all fields
         else copy(count);
     });
     return values;
@@ -51,15 +51,15 @@ void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     row[component_offset] = frame.component().value;
     const auto payload = frame.payload();
     const auto length = std::min(payload.size(), payload_length_);
-    std::copy_n(payload.begin(), length,
-                row + prefix_bytes);  // GCC 12 makes `rep movs` of memcpy here, five times as slow
+    // Not memcpy: GCC 12 compiles it to `rep movs` here, which takes five times as long.
+    std::copy_n(payload.begin(), length, row + prefix_bytes);
     if (length != payload_length_) std::memset(row + prefix_bytes + length, 0, payload_length_ - length);
     ++count_;
 }
 
 namespace {
 
-// Calls take(record) for what next(bytes) gives.
+// Calls take(record) for each record that next(bytes) returns. Returns true if there may be more.
 template <class Next, class Take>
 SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_bytes, Next next, Take take) {
     using Stop = record::TlogReader::Stop;

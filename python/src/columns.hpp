@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One message of a tlog as columns: a contiguous array for each field, filled without an object for each message. Knows nothing of Python.
+// Reads a message of a tlog into columns: one contiguous array for each field, and no object for each message.
+// Does not depend on Python. Not synchronized.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@ struct ColumnsQuery {
     std::optional<Instance> instance;  // value of the field that is marked as the instance
 };
 
-// The rows of a query: receive time, source and the payload in its full length, one behind the other in blocks. Grows without moving what is there.
+// The rows of a query, stored in blocks. Each row holds receive time, source and the payload in its full length. Adding
+// a row never moves the others.
 class Rows {
 public:
     explicit Rows(const dialect::Message& message) noexcept
@@ -30,7 +32,8 @@ public:
 
     void add(std::int64_t time_ns, const wire::FrameView& frame);
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
-    // Calls take(first, rows, stride) for runs of rows that lie `stride` bytes apart: eight bytes of time, system, component, payload.
+    // Calls take(first, rows, stride) for each run of rows that lie `stride` bytes apart. A row is eight bytes of time,
+    // then system, component and payload.
     template <class Take>
     void each_run(Take take) const {
         for (std::size_t done = 0; done < count_; done += rows_per_block)
@@ -46,7 +49,7 @@ private:
     std::vector<std::unique_ptr<std::uint8_t[]>> blocks_;
 };
 
-// Values in native byte order, row by row; the type and the number for each row are the field's.
+// Values in native byte order, row by row. Type and number of values in a row are those of the field.
 struct Columns {
     using Values = std::unique_ptr<std::uint8_t[]>;
     std::size_t rows = 0;
@@ -54,16 +57,18 @@ struct Columns {
     std::vector<Values> fields;         // in the order of the definition
 };
 
-// Reads on until `most_bytes` went by, whatever they hold, or the file's end; true where there may be more. Errors as TlogReader has them.
+// Reads on until `most_bytes` of the file have passed, whatever they hold, or to its end. Returns true if there may be
+// more. Errors are those of TlogReader.
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
                                           std::uint64_t most_bytes);
 
-// The rows of many messages at once, by the message's place in the dialect's wire table; null for those that are not wanted or did not occur.
+// The rows of many messages, by the position of the message in the dialect's wire table. A null entry means that the
+// message is not wanted or did not occur.
 struct Tables {
     std::vector<bool> wanted;
     std::vector<std::unique_ptr<Rows>> rows;
 };
-// As read_rows, with `query` giving system and component; checks every checksum.
+// Like read_rows, but `query` only selects system and component, and every checksum is checked.
 [[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
                                             const ColumnsQuery& query, Tables& tables, std::uint64_t most_bytes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What mavloom.columns() is made of: numpy arrays that own what C++ filled.
+// The compiled part of mavloom.columns() and mavloom.tables(): numpy arrays that own the memory that C++ filled.
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -21,19 +21,19 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::uint64_t bytes_between_signals = 4 << 20;  // some tens of milliseconds, of nothing but damage too
+constexpr std::uint64_t bytes_between_signals = 4 << 20;  // some tens of milliseconds, even if all of it is damaged
 
-// `count` 0: one dimension, else two.
+// One dimension if `count` is 0, else two.
 template <class T>
 nb::object array_of(Columns::Values values, std::size_t rows, std::size_t count) {
     auto* data = values.get();
     const nb::capsule owner(data, [](void* held) noexcept { delete[] static_cast<std::uint8_t*>(held); });
-    values.release();  // NOLINT(bugprone-unused-return-value): the capsule has it
+    values.release();  // NOLINT(bugprone-unused-return-value): the capsule owns it
     if (count == 0) return nb::cast(nb::ndarray<nb::numpy, T>(data, {rows}, owner));
     return nb::cast(nb::ndarray<nb::numpy, T>(data, {rows, count}, owner));
 }
 
-// Text of fixed length becomes numpy's type for it.
+// char[N] becomes numpy's fixed-length type S<N>.
 nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Field& field) {
     const nb::object array = message::visit_type(
         field.type, [&](auto tag) { return array_of<decltype(tag)>(std::move(values), rows, field.array_length); });
@@ -53,7 +53,7 @@ record::TlogReader open(const nb::object& path, const dialect::Dialect& dialect)
     return value_or_raise(record::TlogReader::open(std::string(file.c_str(), file.size()), dialect.wire_table()));
 }
 
-// Runs `read` without the GIL until there is no more, with a look at signals in between.
+// Calls `read` without the GIL until there is no more. Handles signals between the calls.
 template <class Read>
 void read_all(Read read) {
     for (bool more = true; more; check_signals()) {
@@ -65,7 +65,7 @@ void read_all(Read read) {
     }
 }
 
-// Times, systems, components, {field: values}.
+// Returns (times, systems, components, {field: values}).
 nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& message, const Rows& rows) {
     auto columns = [&] {
         const WithoutGil outside;
@@ -102,7 +102,8 @@ nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const O
     for (std::size_t i = 0; i < infos.size(); ++i) {
         const bool named = filter.ids && std::ranges::find(*filter.ids, infos[i].id) != filter.ids->end();
         tables.wanted[i] = !filter.ids || named;
-        if (named) tables.rows[i] = std::make_unique<Rows>(*known.find(infos[i].id));  // also where none occurs
+        // A named message gets a table even if it does not occur.
+        if (named) tables.rows[i] = std::make_unique<Rows>(*known.find(infos[i].id));
     }
     auto reader = open(path, known);
     read_all([&] {
@@ -113,7 +114,7 @@ nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const O
         if (!tables.rows[i]) continue;
         const auto& message = *known.find(infos[i].id);
         made[definitions->names(message).message] = arrays_of(*definitions, message, *tables.rows[i]);
-        tables.rows[i].reset();  // the arrays have it
+        tables.rows[i].reset();  // the arrays hold copies
     }
     return nb::make_tuple(made, reader.counters().lost_bytes.value());
 }

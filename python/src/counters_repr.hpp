@@ -8,7 +8,7 @@
 
 namespace mavloom::python {
 
-// __repr__ of objects whose properties are all there is to them: Name(frames=12, lost=3), without those that are 0 or empty.
+// A __repr__ for objects that consist of properties: Name(frames=12, lost=3). Omits values that are 0 or empty.
 [[nodiscard]] inline std::string counters_repr(nanobind::handle self) {
     namespace nb = nanobind;
     const nb::object type = nb::borrow(self.type());

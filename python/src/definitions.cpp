@@ -97,7 +97,7 @@ void bind_infos(nb::module_& module) {
 
 // ---- class Dialect
 
-// Null where no message has this id.
+// Returns null if no message has this id.
 const dialect::Message* find_by_id(const dialect::Dialect& dialect, const nb::object& id) {
     int overflow = 0;
     const auto value = PyLong_AsLongLongAndOverflow(id.ptr(), &overflow);
@@ -134,7 +134,7 @@ nb::list enum_names(const PyDialect& dialect) {
     return names;
 }
 
-// (bitmask, {entry: value}): mavloom._enums makes the class of it.
+// Returns (bitmask, {entry: value}), from which mavloom._enums makes the class.
 nb::tuple enum_entries(const PyDialect& dialect, std::string_view name) {
     const auto& definitions = dialect.definitions->dialect();
     const auto* enumeration = definitions.find_enum(name);
@@ -148,10 +148,11 @@ nb::tuple enum_entries(const PyDialect& dialect, std::string_view name) {
     return nb::make_tuple(enumeration->bitmask, entries);
 }
 
-// System 255 is the ground station that ArduPilot obeys; component 193 is no ground station's, unlike 190, which is QGroundControl's.
+// ArduPilot accepts system 255 as its ground station. Component 193 is not used by ground stations; QGroundControl uses
+// 190.
 constexpr Source default_source{SystemId{255}, ComponentId{193}};
 
-// A message's own header stands where it is encoded again, unless the caller gives another.
+// A message that is encoded again keeps its header, except for what the caller gives.
 wire::FrameHeader header_for(const nb::object& message, const OptionalInteger& system, const OptionalInteger& component,
                              const OptionalInteger& seq, const OptionalInteger& version) {
     wire::FrameHeader header{.source = default_source};
@@ -211,9 +212,12 @@ Definitions::Definitions(dialect::Dialect dialect, std::string path)
 }
 
 std::shared_ptr<const Definitions> Definitions::builtin() {
-    // Not a static object's own lock: without a GIL, who waits for that one holds up the garbage collector, for which the other may have to wait.
+    // Uses a mutex of its own, not the hidden lock of a static object's initialization. Without a GIL, a thread that
+    // waits for the hidden lock blocks the garbage collector. The initializing thread may have to wait for the
+    // collector, which would be a deadlock.
     static nb::ft_mutex making;
-    static const std::shared_ptr<const Definitions>* made = nullptr;  // never destroyed: that would need the interpreter
+    // Never destroyed: that would need the interpreter.
+    static const std::shared_ptr<const Definitions>* made = nullptr;
     const nb::ft_lock_guard lock(making);
     if (made == nullptr)
         made = new auto(std::make_shared<const Definitions>(dialect::default_dialect(), std::string()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A dialect as Python sees it: the definitions, and the names of their fields as interned Python strings, so that reading an attribute is a comparison of
-// pointers. Immutable after construction, shared by every message that was decoded with it; made and destroyed with the GIL held.
+// Definitions: a dialect together with its field names as interned Python strings.
+// Interned names make reading an attribute a comparison of pointers. Immutable after construction, and shared by every
+// message that was decoded with it. Created and destroyed with the GIL held.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -17,20 +18,21 @@ namespace nb = nanobind;
 
 class Definitions {
 public:
-    // Of one message, in the order of its fields.
+    // The names of one message and of its fields, in the order of the definition.
     struct Names {
         nb::object message;
         std::vector<nb::object> fields;
-        // The same, but null where class Message has an attribute of that name itself, which then stands (`name`, `id`, `seq`, ...).
+        // The same, but null if class Message itself has an attribute of that name (`name`, `id`, `seq`, ...). That
+        // attribute then takes precedence.
         std::vector<PyObject*> attributes;
     };
 
-    // `path` is the file that it was read from, empty for the built-in dialect.
+    // `path` is the file that the dialect was read from; empty for the built-in dialect.
     Definitions(dialect::Dialect dialect, std::string path);
 
-    // The built-in definitions, made once.
+    // Returns the built-in definitions, which are created once.
     [[nodiscard]] static std::shared_ptr<const Definitions> builtin();
-    // The built-in ones with those of an XML file added or replaced; raises where the file is wrong.
+    // Returns the built-in definitions, with those of an XML file added or in their place. Raises if the file is wrong.
     [[nodiscard]] static std::shared_ptr<const Definitions> load(const std::string& path);
 
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
@@ -48,12 +50,12 @@ private:
 
 void bind_dialect(nb::module_& module);
 
-// What users hold: class Dialect.
+// The Python class Dialect.
 struct PyDialect {
     std::shared_ptr<const Definitions> definitions;
 };
 
-// The definitions of an argument `dialect`, the built-in ones for None.
+// Returns the definitions of an argument `dialect`; the built-in ones for None.
 [[nodiscard]] std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect);
 
 }  // namespace mavloom::python

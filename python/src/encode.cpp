@@ -24,7 +24,7 @@ bool is_real(const Field& field) noexcept {
     raise_usage(fmt::format("{}.{}: {}", builder.definition().name, field.name, why));
 }
 
-// Other errors (KeyboardInterrupt, what the value itself raises) go on as they are.
+// Clears a TypeError. Any other error is rethrown: KeyboardInterrupt, or what the value itself raised.
 void clear_type_error() {
     if (!PyErr_ExceptionMatches(PyExc_TypeError)) throw nb::python_error();
     PyErr_Clear();
@@ -94,7 +94,7 @@ void set_array(MessageBuilder& builder, const Field& field, const nb::object& va
 
 void set_value(MessageBuilder& builder, const Field& field, const nb::object& value) {
     if (field.type == dialect::FieldType::char8) return set_text(builder, field, value);
-    if (PyUnicode_Check(value.ptr())) {  // the name of an enum's entry, A|B for flags
+    if (PyUnicode_Check(value.ptr())) {  // the name of an enum entry, A|B for flags
         if (field.enumeration == nullptr || field.is_array()) refuse(builder, field, "a number is wanted, not text");
         return value_or_raise(builder.set_from_text(field, utf8_of(value)));
     }
@@ -102,7 +102,7 @@ void set_value(MessageBuilder& builder, const Field& field, const nb::object& va
     set_number(builder, field, value, 0);
 }
 
-// By a buffer's format (PEP 3118), in which names stand between colons.
+// Whether a buffer's format (PEP 3118) includes Python objects. Names in it stand between colons.
 bool has_objects(const char* format) {
     if (format == nullptr || std::strchr(format, 'O') == nullptr) return false;
     bool is_name = false;
@@ -113,7 +113,8 @@ bool has_objects(const char* format) {
     return false;
 }
 
-// Where an object does not say it, as packed structures of ctypes, it is not seen.
+// Whether an array holds Python objects. Not detected if the object does not declare it, as with packed ctypes
+// structures.
 bool has_objects(const nb::object& array) {
     if (PyBytes_Check(array.ptr()) || PyByteArray_Check(array.ptr())) return false;
     if (PyMemoryView_Check(array.ptr())) return has_objects(PyMemoryView_GET_BUFFER(array.ptr())->format);
@@ -142,7 +143,8 @@ void set_fields(const dialect::Dialect& dialect, MessageBuilder& builder, const 
         const auto name = utf8_of(key);
         const auto* field = builder.definition().find(name);
         if (field == nullptr)
-            raise(dialect.field(fmt::format("{}.{}", builder.definition().name, name)).error());  // knows the nearest
+            // This error suggests the nearest name.
+            raise(dialect.field(fmt::format("{}.{}", builder.definition().name, name)).error());
         set_value(builder, *field, nb::borrow(value));
     }
 }

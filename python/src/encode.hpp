@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From Python values to payloads and frames. Every value is checked before anything is written: what does not fit raises UsageError with message,
-// field and range. The GIL is held.
+// Converts Python values to payloads and frames.
+// Every value is checked before anything is written. A value that does not fit raises UsageError with message, field
+// and range. Call with the GIL held.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,27 +13,28 @@
 
 namespace mavloom::python {
 
-// Sets the fields that are given by name; the others stay.
+// Sets the fields that are given by name and leaves the others unchanged.
 void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builder, const nb::kwargs& fields);
 
-// A message by name, with these fields and zeros elsewhere; or a Message, with these fields replaced.
+// Builds a message from a name, with these fields and zeros elsewhere; or from a Message, with these fields replaced.
 [[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
                                             const nb::kwargs& fields);
 
 [[nodiscard]] wire::Version version_of(const char* what, const Integer& given);
-// Raises UsageError where MAVLink 1 has no room for a message.
+// Raises UsageError if MAVLink 1 cannot carry the message.
 void check_version(wire::Version version, const dialect::Message& message);
 
-// The frame of what was built; MAVLink 1 where the message fits there, else UsageError.
+// Writes the frame to `out`. Raises UsageError if the header asks for MAVLink 1 and the message does not fit there.
 [[nodiscard]] wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header,
                                     const message::MessageBuilder& builder);
 
-// The one whole frame that these bytes are; raises InputError where they are none.
+// Returns the frame that these bytes are. Raises InputError if they are not exactly one valid frame.
 [[nodiscard]] wire::FrameView whole_frame(const dialect::Dialect& dialect, ByteView bytes);
-// Makes a Message of it.
+// Decodes such bytes to a Message.
 [[nodiscard]] nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns);
 
-// A view of any bytes-like object, held as long as this lives. An array of Python objects is refused (UsageError): its bytes are pointers.
+// A view of any bytes-like object, held for the lifetime of this object. Raises UsageError for an array of Python
+// objects, because its bytes are pointers.
 class Buffer {
 public:
     explicit Buffer(const nb::object& object);

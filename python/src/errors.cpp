@@ -20,7 +20,7 @@ const char* class_of(SetupCode code) noexcept {
     return "SystemFailure";
 }
 
-// Of errors that were found without a system call.
+// The errno of errors that were found without a system call; 0 for none.
 int errno_of(SetupCode code) noexcept {
     if (code == SetupCode::not_found) return ENOENT;
     return code == SetupCode::permission ? EACCES : 0;
@@ -32,7 +32,7 @@ int errno_of(SetupCode code) noexcept {
     throw nb::python_error();
 }
 
-// File names may hold any bytes.
+// Replaces bytes that are not UTF-8, which file names may contain.
 nb::object text_of(const std::string& text) {
     return nb::steal(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
 }

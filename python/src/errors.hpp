@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Errors of the library as Python exceptions: the classes of mavloom/_errors.py, with the library's text. The GIL is held.
+// Raises the library's errors as Python exceptions: the classes of mavloom/_errors.py, with the library's text.
+// Call with the GIL held.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -13,7 +14,8 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// mavloom.UsageError, InputError, NotFoundError, PermissionDeniedError or SystemFailure, by the error's code.
+// Raises mavloom.UsageError, InputError, NotFoundError, PermissionDeniedError or SystemFailure, depending on the
+// error's code.
 [[noreturn]] void raise(const SetupError& error);
 [[noreturn]] void raise_usage(std::string text);
 [[noreturn]] void raise_input(std::string text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which messages a call asks for: `type=`, `system=`, `component=`. A plain value.
+// Filter: the messages that a call selects with `type=`, `system=` and `component=`. A plain value.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -20,7 +20,7 @@ namespace mavloom::python {
 namespace nb = nanobind;
 
 struct Filter {
-    std::optional<std::vector<MessageId>> ids;  // empty: any
+    std::optional<std::vector<MessageId>> ids;  // nullopt: any
     std::optional<std::uint8_t> system, component;
 
     [[nodiscard]] bool takes(const wire::FrameView& frame) const noexcept {
@@ -29,19 +29,20 @@ struct Filter {
     }
 };
 
-// Value of the field that tells several sensors of one message apart: a number, or text without the NULs at its end.
+// Value of the field that distinguishes several sensors in one message: a number, or text without trailing NULs.
 using Instance = std::variant<std::int64_t, std::string>;
 
-// That field; null where there is none.
+// Returns that field, or null if the message has none.
 [[nodiscard]] const dialect::Field* instance_field(const dialect::Message& message) noexcept;
 [[nodiscard]] Instance instance_of(const dialect::Message& message, const dialect::Field& field,
                                    const wire::FrameView& frame);
 
-// `type` is None, a name, a class of mavloom.messages, or an iterable of those; an unknown name raises UsageError with the nearest.
+// `type` is None, a name, a class of mavloom.messages, or an iterable of these. An unknown name raises UsageError,
+// which suggests the nearest one.
 [[nodiscard]] Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
                                  const OptionalInteger& component);
 
-// Raises TypeError unless `condition` is None or callable: pymavlink's text for eval() is not taken.
+// Raises TypeError unless `condition` is None or callable. Text for eval(), which pymavlink accepts, is rejected.
 void check_condition(const nb::object& condition);
 
 }  // namespace mavloom::python

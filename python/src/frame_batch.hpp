@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames that were read without the GIL, to be handed out as objects with it. One owner; memory is kept from batch to batch.
+// FrameBatch: frames that were read without the GIL, to be returned as Python objects with it.
+// Single owner. The memory is reused from batch to batch.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ public:
         std::uint32_t link = 0;
         std::uint32_t offset = 0;  // in the batch's bytes
         std::uint16_t size = 0;
-        std::uint8_t verdict = 0;  // ring/frames.hpp
+        std::uint8_t verdict = 0;  // see mavloom/ring/frames.hpp
     };
 
     void clear() noexcept {
@@ -36,9 +37,9 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return items_.size(); }
     [[nodiscard]] std::size_t left() const noexcept { return items_.size() - next_; }
 
-    // The next one, or null behind the last.
+    // Returns the next frame, or null after the last one.
     [[nodiscard]] const Item* next() noexcept { return next_ == items_.size() ? nullptr : &items_[next_++]; }
-    // Gives the last one back: it comes again.
+    // Undoes the last `next`, which then returns the same frame again.
     void put_back() noexcept { --next_; }
     [[nodiscard]] wire::FrameView frame(const Item& item) const noexcept {
         return wire::FrameView::unchecked({bytes_.data() + item.offset, item.size});

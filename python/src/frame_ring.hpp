@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The frames of a link in a bounded ring of bytes: one writer that never waits and overwrites the oldest, any number of readers that are told how many they
-// missed. Whole frames only. Not synchronised: its owner's mutex guards it. Allocates once; memory is touched as it is needed.
+// FrameRing: the frames of a link in a bounded ring of bytes.
+// The writer never waits and overwrites the oldest frames. Each of any number of readers learns how many frames it
+// missed. Holds whole frames only. Not synchronized: the owner's mutex guards it. Allocates once; the system provides
+// the memory as it is first used.
 #pragma once
 
 #include <bit>
@@ -17,17 +19,17 @@ public:
     struct Head {
         std::int64_t time_ns = 0;
         std::uint32_t link = 0;
-        std::uint16_t size = 0;    // of the frame; `padding`: nothing follows before the ring's start
-        std::uint8_t verdict = 0;  // ring/frames.hpp
+        std::uint16_t size = 0;    // of the frame; `padding`: no frame follows before the ring wraps
+        std::uint8_t verdict = 0;  // see mavloom/ring/frames.hpp
     };
-    // A reader: the next byte and the number of the next frame. Never wraps.
+    // The position of a reader: its next byte and the number of its next frame. Neither wraps.
     struct Position {
         std::uint64_t byte = 0, frame = 0;
     };
 
     static constexpr std::size_t max_capacity = std::size_t{1} << 36;
 
-    // Rounded up to a power of two, at least 64 KiB. At most max_capacity.
+    // Rounds the capacity up to a power of two, at least 64 KiB. It must not exceed max_capacity.
     explicit FrameRing(std::size_t capacity_bytes)
         : capacity_(std::bit_ceil(std::max<std::size_t>(capacity_bytes, 64 * 1024))),
           memory_(std::make_unique_for_overwrite<std::uint8_t[]>(capacity_)) {}
@@ -48,7 +50,8 @@ public:
         ++head_.frame;
     }
 
-    // The next frame of a reader, whose view lives until the next push; false when there is none. Adds to `missed` what was overwritten.
+    // Reads the next frame of a reader; false if there is none. The view is valid until the next push. Adds the number
+    // of overwritten frames to `missed`.
     bool next(Position& at, std::uint64_t& missed, Head& head, wire::FrameView& frame) const noexcept {
         missed += catch_up(at);
         if (at.frame == head_.frame) return false;
@@ -59,14 +62,15 @@ public:
         ++at.frame;
         return true;
     }
-    // How many a reader would be told that it missed.
+    // How many frames `next` would add to `missed`.
     [[nodiscard]] std::uint64_t overwritten(const Position& at) const noexcept {
         return at.frame < tail_.frame ? tail_.frame - at.frame : 0;
     }
     [[nodiscard]] Position newest() const noexcept { return head_; }
-    // Whether so many more frames of any length leave what this reader has not read.
+    // Whether `frames` more frames of any length fit without overwriting what this reader has not read.
     [[nodiscard]] bool has_room(const Position& reader, std::size_t frames) const noexcept {
-        const std::size_t needed = (frames + 1) * length_of(wire::max_frame_length);  // one for what the wrap wastes
+        // One more for the padding at the wrap.
+        const std::size_t needed = (frames + 1) * length_of(wire::max_frame_length);
         return head_.byte - reader.byte + needed <= capacity_;
     }
 
@@ -103,7 +107,7 @@ private:
 
     std::size_t capacity_;
     std::unique_ptr<std::uint8_t[]> memory_;
-    Position head_, tail_;  // the next to write, the oldest that is there
+    Position head_, tail_;  // the next frame to write, the oldest frame that is left
 };
 
 static_assert(sizeof(FrameRing::Head) == 16);

@@ -12,20 +12,21 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// Runs what follows without the GIL. A thread that wanted it back from an interpreter that has ended would take the process with it: from the
-// interpreter's exit on, all but the exiting thread stay outside for good, as Python 3.14 has it.
+// Releases the GIL until the end of the scope. A thread that wants the GIL back after the interpreter has ended would
+// end the process. Therefore, once the interpreter begins to exit, every thread but the exiting one sleeps for ever
+// instead, as in Python 3.14.
 class WithoutGil {
 public:
-    // The exiting thread, without the GIL. Who is on the way back gets there first.
+    // Called by the exiting thread, without the GIL. Waits for the threads that are on their way back to the GIL.
     static void end() {
         exiting = std::this_thread::get_id();
         over.store(true);
         while (returning.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     [[nodiscard]] static bool ended() noexcept { return over.load(); }
-    // Whether this thread, which is outside, will not come back.
+    // Whether this thread, which runs without the GIL, will never get it back.
     [[nodiscard]] static bool is_for_good() noexcept { return over.load() && std::this_thread::get_id() != exiting; }
-    // In a forked child: the threads that were on the way stayed in the parent.
+    // Called in a forked child: the threads that were on their way back stayed in the parent.
     static void forked() noexcept {
         returning.store(0);
         over.store(false);
@@ -53,13 +54,13 @@ private:
             for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
         }
     };
-    // Destroyed from the last on: through the turnstile, the GIL, no longer on the way.
+    // Destroyed in reverse order: pass the turnstile, take the GIL, then stop counting as returning.
     Counted counted_;
     nb::gil_scoped_release release_;
     Turnstile turnstile_;
 };
 
-// Takes a mutex whose holder may need the GIL: never waits for it with the GIL held.
+// Locks a mutex whose holder may need the GIL. Never waits for it with the GIL held.
 [[nodiscard]] inline std::unique_lock<std::mutex> lock_without_gil(std::mutex& mutex) {
     std::unique_lock lock(mutex, std::try_to_lock);
     if (!lock.owns_lock()) {
@@ -69,7 +70,7 @@ private:
     return lock;
 }
 
-// Runs Python's signal handlers; raises what they raise.
+// Runs Python's signal handlers and raises what they raise.
 inline void check_signals() {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }

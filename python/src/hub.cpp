@@ -12,11 +12,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto longest_flush = 1s, required_limit = 5s;
-constexpr std::size_t ring_frames_a_turn = 4096;  // of all that are lossy
+constexpr std::size_t ring_frames_a_turn = 4096;  // in total, over all lossy rings
 
 std::mutex registry_mutex;
 std::vector<std::weak_ptr<Hub>>& registry() {
-    static auto& hubs = *new std::vector<std::weak_ptr<Hub>>;  // never destroyed: the interpreter ends before static objects do
+    // Never destroyed: the interpreter ends before static objects do.
+    static auto& hubs = *new std::vector<std::weak_ptr<Hub>>;
     return hubs;
 }
 
@@ -31,7 +32,7 @@ bool listens(endpoint::Scheme scheme) noexcept {
 void Hub::watch_forks() {
     static const int registered = ::pthread_atfork([] { registry_mutex.lock(); }, [] { registry_mutex.unlock(); },
                                                    [] {
-                                                       registry().clear();  // the parent's hubs are left alone
+                                                       registry().clear();  // leaves the parent's hubs untouched
                                                        registry_mutex.unlock();
                                                        fork_count.fetch_add(1, std::memory_order_relaxed);
                                                        WithoutGil::forked();
@@ -213,7 +214,7 @@ bool Hub::is_up(link::EndpointId endpoint) {
     return std::ranges::any_of(links, [&](const auto& link) { return link.endpoint == endpoint && link.up; });
 }
 
-// A ring that is required was there when it was added.
+// A required ring was already there when it was added.
 std::optional<SetupError> Hub::wait_for_far_side(const Opened& opened) {
     std::optional<SetupError> failure;
     bool is_there = opened.is_ring;
@@ -266,7 +267,7 @@ SetupResult<void> Hub::serve_now(link::EndpointId endpoint, const std::string& r
     return {};
 }
 
-// Unrouted: a program that fills a ring has vehicles of one kind behind it, all of which hear what is said.
+// Does not route: a program that fills a ring has vehicles of one kind behind it, and all of them get each answer.
 void Hub::pass_answer(const link::RxFrame& rx) {
     const auto filled = filled_from_.find(rx.endpoint);
     if (filled == filled_from_.end()) return;
@@ -275,7 +276,7 @@ void Hub::pass_answer(const link::RxFrame& rx) {
     if (links().send(to, rx.frame) == 0) ++served.unheard_answers;
 }
 
-// What is sent goes there.
+// The endpoint that carries what is sent: the inlet of a ring, else the endpoint itself.
 link::EndpointId Hub::way_out(link::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
 
 LinkStats Hub::stats_now(link::EndpointId endpoint) {
@@ -306,7 +307,7 @@ LinkStats Hub::stats_now(link::EndpointId endpoint) {
     return stats;
 }
 
-// Over the senders that are there and those that are gone.
+// Sums over the senders that are there and those that are gone.
 std::uint64_t Hub::frames_in(link::EndpointId endpoint) {
     std::uint64_t sum = 0;
     for (const auto& link : links().links())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The loop thread behind all links of the process, whatever their dialects: it receives, sends and reconnects without ever touching Python.
-// It runs while a link is open.
+// Hub: the one loop thread behind all links of the process, whatever their dialects.
+// It receives, sends and reconnects without ever touching Python. It runs while a link is open. Other threads call the
+// public members, which hand the work to the loop thread.
 #pragma once
 
 #include <atomic>
@@ -19,13 +20,13 @@
 
 namespace mavloom::python {
 
-// Sums over the peers of one endpoint, those that went included.
+// Totals over all peers of one endpoint, including those that are gone.
 struct LinkStats {
     link::LinkCounters links;
     link::EndpointCounters endpoint;
     feed::Totals ring;
     std::uint64_t missed = 0, not_kept = 0, no_peer = 0, peers = 0;
-    std::uint64_t answers = 0, unheard_answers = 0;  // of programs that read a ring which is filled from here
+    std::uint64_t answers = 0, unheard_answers = 0;  // of programs that read a ring which this link fills
     Losses losses;
     std::map<MessageId, Channel::CrcErrors> crc_errors;
     std::vector<std::string> hints;
@@ -33,13 +34,14 @@ struct LinkStats {
 
 class Hub : private link::LinkHandler {
 public:
-    // The one that is running, or a new one.
+    // Returns the hub that is running, or a new one.
     [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
-    // Ends every loop thread and closes their channels: at the interpreter's exit.
+    // Ends every loop thread and closes its channels. Called when the interpreter exits.
     static void stop_all();
-    // Once, before anything else: a forked child begins with nothing open.
+    // Installs the fork handler, so that a forked child begins with nothing open. Call it before anything else.
     static void watch_forks();
-    // How often this process was forked off: what was opened before must not be used.
+    // The number of forks between the first process and this one. What was opened under a smaller number must not be
+    // used.
     [[nodiscard]] static std::uint64_t forks() noexcept;
 
     ~Hub() override;
@@ -50,19 +52,22 @@ public:
         std::string name;
         bool is_ring = false;
     };
-    // `channel` gets what arrives from the first frame on. What can be opened at once is open when this returns; with `required=true` it waits up to 5 s for
-    // the far side and fails without it. A ring that is lossless is held for `reader`.
+    // Opens an endpoint. `channel` gets its frames, from the first one on. On return, everything that can be opened at
+    // once is open. With `required=true`, waits up to 5 s for the far side and fails without it. A lossless ring is
+    // held for `reader`.
     [[nodiscard]] SetupResult<Opened> open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                            const Consumer& reader);
-    // Where what is sent to a ring's router goes, opened at the first call.
+    // Returns the endpoint that carries frames to the router of a ring. Opened at the first call.
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // Opens the way back of the ring `ring`, which is filled from this endpoint: what programs send to the socket RUN/`ring`.in goes to every peer
-    // of the endpoint. In use where somebody serves it; closed with the endpoint.
+    // Opens the way back of the ring `ring`, which this endpoint fills. Frames that programs send to the socket
+    // RUN/`ring`.in go to every peer of the endpoint. Fails with `in_use` if that socket is already served. Closed with
+    // the endpoint.
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
-    // What was sent goes out first, for at most a second, in which others are served as ever. Returns the last counters.
+    // Closes an endpoint and returns its last counters. Queued frames are sent first, for at most one second; other
+    // links are served meanwhile.
     LinkStats close(link::EndpointId endpoint);
     [[nodiscard]] LinkStats stats(link::EndpointId endpoint);
-    // Queues a frame for every peer of the endpoint. Waits while too much is queued already.
+    // Queues a frame for every peer of the endpoint. Waits while too many frames are queued.
     void send(link::EndpointId endpoint, const wire::FrameView& frame);
 
 private:
@@ -83,8 +88,8 @@ private:
     struct Served {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
-        std::optional<link::EndpointId> inlet{};         // of a ring that is read: where what is sent goes
-        std::optional<link::EndpointId> served_inlet{};  // of a ring that is filled
+        std::optional<link::EndpointId> inlet{};         // of a ring that is read: carries frames to its router
+        std::optional<link::EndpointId> served_inlet{};  // of a ring that is filled: receives frames of its readers
         std::uint64_t unheard_answers = 0;
     };
     struct Wait {
@@ -100,7 +105,7 @@ private:
     [[nodiscard]] SetupResult<Opened> open_now(const endpoint::Endpoint& endpoint,
                                                const std::shared_ptr<Channel>& channel, const Consumer& reader);
     [[nodiscard]] bool is_up(link::EndpointId endpoint);
-    // Null where what is required is there.
+    // Returns nullopt if the far side was reached, else the error.
     [[nodiscard]] std::optional<SetupError> wait_for_far_side(const Opened& opened);
     void remove(link::EndpointId endpoint);
     [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
@@ -113,20 +118,21 @@ private:
     [[nodiscard]] Served* served_by(link::EndpointId endpoint) noexcept;
     [[nodiscard]] std::uint64_t frames_in(link::EndpointId endpoint);
     [[nodiscard]] LinkStats stats_now(link::EndpointId endpoint);
-    // Runs `work` on the loop thread and waits for it; false when that has ended.
+    // Runs `work` on the loop thread and waits for it. Returns false if the loop thread has ended.
     bool on_loop(std::function<void()> work);
-    // Waits until the loop thread finds it over, which it asks after each turn, or the limit.
+    // Waits until `over` returns true or `limit` has passed. The loop thread calls `over` after each turn.
     void wait_on_loop(std::function<bool()> over, Nanoseconds limit);
 
-    // The loop thread's. Channels have the dialects that the sources read by, and go after them.
+    // Used by the loop thread only. sources_ refers to dialects that the channels in served_ own, so served_ is
+    // destroyed after it.
     std::unordered_map<link::EndpointId, Served> served_;
-    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // by served inlet
+    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // the filled endpoint, by served inlet
     feed::Sources sources_;
     std::vector<Wait> waits_;
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    // Guarded by mutex_.
+    // Guarded by mutex_:
     std::vector<std::function<void()>> work_;
     std::vector<Outgoing> outgoing_;
     bool ended_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whole numbers as arguments: one of any size comes through, and what does not fit is a UsageError that says what does. (nanobind's own casters
-// refuse it as an argument of the wrong type.)
+// Integer: an integer argument of any size, which is checked against a range when it is used.
+// A number that does not fit raises a UsageError that states the range. nanobind's own casters would reject it as an
+// argument of the wrong type. Call with the GIL held.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@
 
 namespace mavloom::python {
 
-// Of an int. Python writes none of more than 4,300 digits.
+// Returns the decimal digits of an int. Python does not convert ints of more than 4,300 digits.
 [[nodiscard]] inline std::string digits_of(const nb::object& number) {
     const nb::object digits = nb::steal(PyLong_Type.tp_repr(number.ptr()));
     if (digits.is_valid()) return nb::borrow<nb::str>(digits).c_str();
@@ -26,7 +27,7 @@ namespace mavloom::python {
 
 class Integer {
 public:
-    // Raises UsageError, which begins with `what`.
+    // Returns the value, or raises a UsageError that begins with `what`.
     template <class T>
         requires(sizeof(T) < sizeof(std::int64_t) || std::is_signed_v<T>)
     [[nodiscard]] T in(const char* what) const {
@@ -38,7 +39,7 @@ public:
             raise_usage(fmt::format("{}: {} is out of range, {} to {}", what, digits_of(number_), least, most));
         return static_cast<T>(value_);
     }
-    // False with an error of Python's: no whole number.
+    // Returns false, with a Python error set, if `given` is not an integer.
     [[nodiscard]] bool take(nb::handle given) noexcept {
         number_ = nb::steal(PyNumber_Index(given.ptr()));
         if (!number_.is_valid()) return false;
@@ -68,7 +69,7 @@ struct nanobind::detail::type_caster<mavloom::python::Integer> {
     NB_TYPE_CASTER(mavloom::python::Integer, const_name("int"))
     bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
         if (value.take(source)) return true;
-        PyErr_Clear();  // whatever it was, nanobind raises TypeError
+        PyErr_Clear();  // nanobind raises TypeError instead
         return false;
     }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Iterators as Python's slots have them: nanobind has no class for that.
+// Python's iterator slots, for which nanobind has no class.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -10,7 +10,7 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// `T::iterate` gives a new reference, or null at the end.
+// `T::iterate` returns a new reference, or null at the end.
 template <class T>
 PyObject* next_of(PyObject* self) noexcept {
     try {

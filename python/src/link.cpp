@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Links as Python sees them: _core.Port (mavloom.Link is built on it) and class Subscription.
+// Links for Python: _core.Port, on which mavloom.Link is built, and class Subscription.
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
@@ -35,13 +35,14 @@ public:
         if (!fork_.is_here()) static_cast<void>(consumer_.release());
     }
 
-    // When a call gives up: at its deadline. One that only polls: when it has looked at what was there as it began, whatever arrives meanwhile.
+    // When a call gives up: at its deadline. A poll gives up once it has looked at every frame that was there when it
+    // began, whatever arrives meanwhile.
     struct Limit {
         MonoTime deadline;
-        std::optional<std::uint64_t> end;  // of a poll: the frame behind
+        std::optional<std::uint64_t> end;  // for a poll: one past the last frame to look at
     };
 
-    // Invalid when nothing came in time, or, with `ended`, when nothing ever will.
+    // Returns an invalid object if nothing came in time or, with `ended` set, if nothing will ever come.
     nb::object next(const Filter& filter, const Limit& limit, bool& ended) {
         for (;;) {
             fork_.check();
@@ -76,12 +77,13 @@ public:
         return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
     }
 
-    // A ring to pump into must be another than the one that is read.
+    // Raises UsageError if `ring` is the ring that is read: it would be filled with itself.
     void check_target(const std::string& ring) const {
         if (ring == channel().ring_name())
             raise_usage(fmt::format("ring {} is what is heard here: it would be filled with itself", ring));
     }
-    // Into a ring, without an object for each message; how many. Also after the time what was there when it began, as far as the ring has room.
+    // Writes frames to a ring without an object for each message; returns how many. After the time-out it still writes
+    // the frames that were there when it began, as far as the ring has room.
     std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout) {
         fork_.check();
         check_target(writer.name());
@@ -100,7 +102,7 @@ public:
         }
     }
 
-    // For asyncio: tells when to ask again after a poll that found nothing.
+    // For asyncio: after a poll that found nothing, this descriptor becomes readable when another poll is worthwhile.
     int event_fd() {
         fork_.check();
         return value_or_raise(consumer_->event_fd());
@@ -119,7 +121,7 @@ public:
 private:
     static constexpr std::size_t batch_frames = 256;
 
-    // With mutex_ held.
+    // Call with mutex_ held.
     const FrameBatch::Item* next_item() {
         ended_ = consumer_->closed();
         if (ended_) return nullptr;
@@ -139,7 +141,7 @@ private:
         bool full = false, ended = false;
     };
 
-    // Without the GIL.
+    // Call without the GIL.
     void pump_slice(PyRingWriter& writer, MonoTime deadline, Pumped& pumped) {
         const MonoTime now = mono_now();
         const MonoTime end = now + longest_slice;
@@ -155,7 +157,7 @@ private:
         } while (!pumped.ended && mono_now() < waits_until);
     }
 
-    // With mutex_ held. What the ring has no room for comes again.
+    // Call with mutex_ held. A frame for which the ring has no room is put back.
     bool put(PyRingWriter& writer, const FrameBatch::Item& item, MonoTime deadline, Pumped& pumped) {
         const auto frame = batch_.frame(item);
         const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
@@ -165,7 +167,7 @@ private:
         const auto written = writer.put(frame.bytes(), info, deadline);
         pumped.full = !written && written.error() == shm::WriteError::full;
         if (written) return ++pumped.count, true;
-        if (pumped.full && !writer.waits()) return true;  // dropped, as it was asked to, and counted by the ring
+        if (pumped.full && !writer.waits()) return true;  // dropped as the ring's policy says, and counted by the ring
         if (!pumped.full) pumped.error = written.error();
         batch_.put_back();
         return false;
@@ -190,7 +192,7 @@ private:
         return is_over({{}, end});
     }
 
-    // With mutex_ held.
+    // Call with mutex_ held.
     [[nodiscard]] bool is_over(const Limit& limit) const {
         if (limit.end) return batch_.left() == 0 && consumer_->seen() >= *limit.end;
         return mono_now() >= limit.deadline;
@@ -199,7 +201,7 @@ private:
     const BeforeFork fork_;
     std::unique_ptr<Consumer> consumer_;
     std::mutex mutex_;
-    FrameBatch batch_;  // this and the next: guarded by mutex_
+    FrameBatch batch_;  // batch_ and ended_ are guarded by mutex_
     bool ended_ = false;
 };
 
@@ -223,7 +225,7 @@ public:
         const auto endpoint = endpoint_of(url);
         channel_ = std::make_shared<Channel>(origin_, buffer.in<std::size_t>("buffer", 0, FrameRing::max_capacity),
                                              endpoint);
-        // Before anything can arrive.
+        // The reader must exist before anything can arrive.
         reader_ = nb::cast(new Subscription(channel_, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<Hub::Opened> {
             const WithoutGil outside;
@@ -241,8 +243,8 @@ public:
             close();
             return;
         }
-        static_cast<void>(
-            new std::shared_ptr(std::move(hub_)));  // left alone in a forked child, and at the interpreter's end
+        // In a forked child and at the interpreter's end, neither may be destroyed: leak them.
+        static_cast<void>(new std::shared_ptr(std::move(hub_)));
         static_cast<void>(new std::shared_ptr(std::move(channel_)));
     }
     Port(const Port&) = delete;
@@ -334,7 +336,7 @@ public:
     }
 
 private:
-    // `make` gives the frame, once it is known that it goes to somebody.
+    // `make` returns the frame. It is called only if there is a peer.
     template <class Make>
     std::size_t send_frame(Make make) {
         const auto peers = send_if_open(make);
@@ -357,7 +359,7 @@ private:
         const auto lock = lock_without_gil(mutex_);
         if (!hub_) raise_closed("the link is closed");
     }
-    // Ends the loop thread where nothing else needs it.
+    // Lets go of the hub, which ends the loop thread if no other link needs it.
     void hub_gone() {
         const WithoutGil outside;
         hub_.reset();
@@ -371,9 +373,9 @@ private:
     nb::object reader_;
     Hub::Opened opened_;
     std::mutex mutex_;
-    // Guarded by mutex_.
+    // Guarded by mutex_:
     std::shared_ptr<Hub> hub_;  // null: closed
-    link::EndpointId to_;       // where sending goes: of a ring another, from the first time on
+    link::EndpointId to_;       // where frames are sent; for a ring its inlet, from the first frame on
     LinkStats last_;
     std::uint64_t no_peer_ = 0;
     std::uint8_t sequence_ = 0;

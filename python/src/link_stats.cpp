@@ -10,9 +10,9 @@
 
 namespace mavloom::python {
 
-// What a user should look at: a message whose checksum never agrees is defined otherwise at its sender.
+// If the checksum of a message never matches, its sender has another definition of it.
 std::vector<std::string> hints_of(const dialect::Dialect& dialect, const LinkStats& stats) {
-    constexpr std::uint64_t enough = 5;  // damage alone hits others too
+    constexpr std::uint64_t enough = 5;  // fewer may be mere damage
     std::vector<std::string> hints;
     for (const auto& [id, errors] : stats.crc_errors) {
         const auto* message = dialect.find(id);

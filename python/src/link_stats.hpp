@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The counters of a link as Python sees them: LinkStats and SourceStats.
+// The Python classes LinkStats and SourceStats: the counters of a link.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -13,7 +13,7 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// What a user should look at, in words.
+// Returns advice on what the user should check.
 [[nodiscard]] std::vector<std::string> hints_of(const dialect::Dialect& dialect, const LinkStats& stats);
 
 void bind_link_stats(nb::module_& module);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts those who look at bytes that somebody else ends. Any thread.
+// Looks: counts the accesses in progress to bytes that another party may end. Any thread.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@ namespace mavloom::python {
 
 class Looks {
 public:
-    // Whoever looks does so between these two. False: the bytes have ended.
+    // Enclose each access in `begin` and `end`. `begin` returns false if the bytes have ended.
     [[nodiscard]] bool begin() noexcept {
         int looks = count_.load(std::memory_order_relaxed);
         do
@@ -16,10 +16,11 @@ public:
         while (!count_.compare_exchange_weak(looks, looks + 1, std::memory_order_acquire));
         return true;
     }
-    // Whether nobody looks any more.
+    // Returns true if no access is left.
     bool end() noexcept { return count_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
 
-    // Nobody looks from now on. False: somebody does. Success again and again.
+    // Ends the bytes: no access can begin any more. Returns false while an access is in progress, and true again on
+    // later calls.
     [[nodiscard]] bool finish() noexcept {
         int nobody = 0;
         return count_.compare_exchange_strong(nobody, over, std::memory_order_acq_rel) || nobody == over;

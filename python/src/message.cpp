@@ -22,7 +22,7 @@ namespace mavloom::python {
 
 void Origin::name_link(std::uint32_t link, std::string name) {
     const std::lock_guard lock(mutex_);
-    if (!names_.insert_or_assign(link, std::move(name)).second) std::erase(gone_, link);  // it is back
+    if (!names_.insert_or_assign(link, std::move(name)).second) std::erase(gone_, link);  // the link is back
 }
 
 void Origin::link_gone(std::uint32_t link) {
@@ -66,7 +66,7 @@ std::string_view text_bytes(const Message& message, const Field& field) noexcept
     return message::MessageView(*message.definition, message.frame().payload()).text(field);
 }
 
-// A new reference, or null with an exception set.
+// Returns a new reference, or null with an exception set.
 PyObject* value_of(const Message& message, const Field& field) {
     if (field.type == dialect::FieldType::char8) {
         const auto text = text_bytes(message, field);
@@ -133,7 +133,7 @@ PyObject* get_attribute(PyObject* self, PyObject* name) noexcept {
     if (text == nullptr) return nullptr;
     const std::string_view wanted(text, static_cast<std::size_t>(size));
     if (const auto* field = message.definition == nullptr ? nullptr : message.definition->find(wanted)) {
-        PyErr_Clear();  // a name made at run time, which is not interned
+        PyErr_Clear();  // the name was made at run time and is not interned
         return value_of(message, *field);
     }
     suggest_attribute(message, wanted);
@@ -165,7 +165,7 @@ std::string to_json(const Message& message) {
     return {buffer.data(), buffer.size() - 1};  // without the newline
 }
 
-// As pymavlink prints one.
+// Formats a message as pymavlink does.
 std::string to_text(const Message& message) {
     std::string text = type_of(message) + " {";
     const nb::dict fields = to_dict(message);
@@ -215,7 +215,7 @@ nb::object route_verdict(const Message& message) {
     return nb::str(name.data(), name.size());
 }
 
-// {field: text} of those fields for which `text` gives one, as pymavlink's message classes have them.
+// Returns {field: text} for the fields for which `text` is not empty, as pymavlink's message classes have them.
 template <class Text>
 nb::dict texts_by_name(const Message& message, Text text) {
     nb::dict dict;
@@ -259,7 +259,7 @@ nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_
     return make_message(origin, origin->dialect().find(view.id()), time_ns, link, view, verdict);
 }
 
-// What pymavlink's get_header() gives.
+// The result of pymavlink's get_header().
 struct Header {
     // NOLINTBEGIN(readability-identifier-naming): pymavlink's names
     std::uint32_t msgId;
@@ -292,7 +292,7 @@ PyType_Slot slots[] = {
     {0, nullptr},
 };
 
-// Names that pymavlink's messages have.
+// Adds the names that pymavlink's messages have.
 void bind_pymavlink_names(nb::class_<Message>& type) {
     type.def("get_type", &type_of, "The name; \"UNKNOWN_<id>\" for an id without definition.")
         .def("get_msgId", from_frame<id_of>(), "As `id`.")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One received frame with what is known of it: class mavloom.Message. A field is decoded when it is read. Immutable; any thread.
+// Message: one received frame with its time, link and definition (class mavloom.Message).
+// A field is decoded when it is read. Immutable; any thread.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -16,7 +17,7 @@
 
 namespace mavloom::python {
 
-// Where messages come from: their definitions, and the names of the links that they arrived on. Any thread.
+// Origin: the definitions of messages, and the names of the links on which they arrived. Any thread.
 class Origin {
 public:
     explicit Origin(std::shared_ptr<const Definitions> definitions) : definitions_(std::move(definitions)) {}
@@ -25,7 +26,7 @@ public:
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
 
     void name_link(std::uint32_t link, std::string name);
-    // It keeps its name for the messages that are still there, until many others went after it.
+    // The link keeps its name for messages that still refer to it. The name is dropped after many other links are gone.
     void link_gone(std::uint32_t link);
     // Empty for a link that has no name.
     [[nodiscard]] std::string link_name(std::uint32_t link) const;
@@ -35,9 +36,9 @@ private:
 
     std::shared_ptr<const Definitions> definitions_;
     mutable std::mutex mutex_;
-    // Guarded by mutex_.
+    // Guarded by mutex_:
     std::unordered_map<std::uint32_t, std::string> names_;
-    std::deque<std::uint32_t> gone_;  // those of them that went, the latest last
+    std::deque<std::uint32_t> gone_;  // links in names_ that are gone, the latest last
 };
 
 struct Message {
@@ -46,13 +47,13 @@ struct Message {
     std::int64_t time_ns = 0;                      // Unix time
     std::uint32_t link = 0;
     std::uint16_t size = 0;
-    std::uint8_t verdict = 0;  // of its signature, and of the router whose ring it comes from: ring/frames.hpp
+    std::uint8_t verdict = 0;  // of the signature check and, in a ring, of the router: see mavloom/ring/frames.hpp
     std::unique_ptr<const std::uint8_t[]> bytes;
 
     [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }
 };
 
-// A new Python object with a copy of the frame.
+// Returns a new Python object with a copy of the frame. Call with the GIL held.
 [[nodiscard]] nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
                                       std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame,
                                       std::uint8_t verdict = 0);

@@ -9,7 +9,7 @@
 
 NB_MODULE(_core, module) {
     using namespace mavloom::python;
-    nb::set_leak_warnings(false);  // users take them for bugs
+    nb::set_leak_warnings(false);  // users would take the warnings for bugs
     module.def("set_leak_warnings", &nb::set_leak_warnings, nb::arg("on"),
                "Whether the interpreter's exit says which objects of this module are left: for tests of this package.");
     module.doc() = "The compiled part of mavloom: use the package.";

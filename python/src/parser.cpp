@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// class Parser: the frames of bytes that arrive in chunks of any size.
+// Class Parser: finds the frames in bytes that arrive in chunks of any size.
 #include <nanobind/nanobind.h>
 
 #include <mutex>
@@ -51,7 +51,7 @@ private:
 
     std::shared_ptr<const Origin> origin_;
     std::mutex mutex_;
-    wire::StreamParser parser_;  // this and the batch: guarded by mutex_
+    wire::StreamParser parser_;  // parser_ and batch_ are guarded by mutex_
     FrameBatch batch_;
 };
 

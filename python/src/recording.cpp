@@ -37,7 +37,7 @@ public:
         origin_->name_link(0, "tlog://" + path_);
     }
 
-    // A new reference, or null at the end.
+    // Returns a new reference, or null at the end.
     PyObject* iterate() { return next_match({}, {}).release().ptr(); }
 
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
@@ -86,9 +86,9 @@ public:
 
 private:
     static constexpr std::size_t batch_frames = 512;
-    static constexpr std::uint64_t most_damage = 1 << 20;  // bytes, then signals get their turn
+    static constexpr std::uint64_t most_damage = 1 << 20;  // bytes to read before signals are handled
 
-    // When a call gives up. A poll looks at all that is there, and all of a file is.
+    // When a call gives up. A poll (time-out 0) looks at everything that is there: for a file, all of it.
     struct Limit {
         Limit() = default;
         explicit Limit(const nb::object& timeout) {
@@ -118,7 +118,8 @@ private:
                   c.unknown_flags.value(), c.lost_bytes.value(),   c.damaged_places.value()};
     }
 
-    // Invalid at the end, or when it gives up. Signal handlers, which may use the recording, run without the lock.
+    // Returns an invalid object at the end or when the limit is reached. Signal handlers run without the lock, because
+    // they may use the recording.
     nb::object next_match(const Filter& filter, const Limit& limit) {
         for (;; check_signals()) {
             const auto lock = lock_without_gil(mutex_);
@@ -137,7 +138,8 @@ private:
         }
     }
 
-    // False where a pipe is empty. A pipe gives one frame at a time, so that none is held back.
+    // Reads the next batch. Returns false if a pipe is empty. A pipe is read one frame at a time, so that no frame is
+    // held back.
     bool fill() {
         batch_.clear();
         delivered_ = 0;
@@ -167,10 +169,10 @@ private:
     const std::shared_ptr<Origin> origin_;
     const Filter filter_;
     std::mutex mutex_;
-    // All of these are guarded by mutex_.
+    // Guarded by mutex_:
     std::optional<record::TlogReader> reader_;  // empty: closed
     FrameBatch batch_;
-    std::size_t delivered_ = 0;  // of the batch
+    std::size_t delivered_ = 0;  // frames of batch_ that were delivered
     bool ended_ = false;
     RecordingStats stats_{};
 };

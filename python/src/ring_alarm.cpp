@@ -12,7 +12,8 @@
 
 namespace mavloom::python {
 
-// All alarms of a process. In a forked child a new one takes its place: the old one's thread and locks stayed in the parent, and it is left alone.
+// All alarms of a process. A forked child makes a new Clock. It leaves the old one alone, because that one's thread and
+// locks stayed in the parent.
 class RingAlarm::Clock {
 public:
     [[nodiscard]] static Clock& here() {
@@ -44,11 +45,11 @@ public:
     void arm(RingAlarm& alarm) {
         const std::lock_guard lock(mutex_);
         alarm.armed_ = true;
-        if (waiter_) waiter_->arm();  // before the ring is looked at: what comes behind that is told
+        if (waiter_) waiter_->arm();  // before looking at the ring, so that no later record is missed
         look_at(alarm);
     }
     void stop() {
-        std::unique_ptr<shm::RingWaiter> ending;  // joined without the mutex, which the thread may want
+        std::unique_ptr<shm::RingWaiter> ending;  // joined after the mutex is unlocked, because the thread may need it
         const std::lock_guard lock(mutex_);
         ending = std::exchange(waiter_, nullptr);
         look_at_all();
@@ -64,7 +65,7 @@ private:
         waiter_->watch(std::move(words));
         look_at_all();
     }
-    // Also on the waiter's thread.
+    // Also called on the waiter's thread.
     void look_at_all() {
         if (waiter_) waiter_->arm();
         for (auto* alarm : alarms_)
@@ -81,7 +82,7 @@ private:
     inline static std::atomic<Clock*> current{nullptr};
     const BeforeFork fork_;
     std::mutex mutex_;
-    // Guarded by mutex_.
+    // Guarded by mutex_:
     std::vector<RingAlarm*> alarms_;
     bool is_crowded_ = false;  // more rings than the thread can sleep on
     std::unique_ptr<shm::RingWaiter> waiter_ = std::make_unique<shm::RingWaiter>([this] {
@@ -114,7 +115,8 @@ void RingAlarm::arm() { clock_.arm(*this); }
 
 void RingAlarm::tell() const noexcept {
     const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);  // full means that it is readable
+    // If the counter is full, the write fails and the descriptor is readable already.
+    [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
 }
 
 void RingAlarm::stop_all() {

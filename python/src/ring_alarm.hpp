@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A descriptor that tells a loop (asyncio, epoll) when a ring's reader has something to read. Behind all of a process stands one thread, which begins with
-// the first of them and never touches Python. Any thread.
+// RingAlarm: a descriptor that becomes readable when a ring's reader has something to read, for asyncio or epoll.
+// One thread serves all alarms of a process. It starts with the first alarm and never touches Python. Any thread.
 #pragma once
 
 #include <functional>
@@ -13,10 +13,11 @@ namespace mavloom::python {
 
 class RingAlarm {
 public:
-    // How long the reader may be left alone, 0 when something waits for it. Called with a lock held, on the thread as well: must not wait.
+    // Returns how long the reader can be left alone; 0 if something waits for it. It is called with a lock held, also
+    // on the alarm thread, and must not wait.
     using Nap = std::function<Nanoseconds()>;
     [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, Nap nap);
-    // At the interpreter's exit: ends the thread. Those that are armed later tell at once.
+    // Ends the thread when the interpreter exits. Alarms that are armed later become readable at once.
     static void stop_all();
 
     RingAlarm(const RingAlarm&) = delete;
@@ -24,9 +25,9 @@ public:
     ~RingAlarm();
 
     [[nodiscard]] int fd() const noexcept { return fd_; }
-    // Becomes readable, once, when something waits; at once where it does already.
+    // Makes the descriptor readable once, when something waits; at once if something waits already.
     void arm();
-    // Becomes readable now.
+    // Makes the descriptor readable now.
     void tell() const noexcept;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What looks at a claim is counted as what looks at a record is (ring_reader_binding.cpp): by objects whose life is that of all that was made of them.
+// Views of a claim are counted like views of a record (ring_reader_binding.cpp): through objects that live as long as
+// everything that was made of them.
 #include "ring_claim.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@
 namespace mavloom::python {
 namespace {
 
-// Memory that the writer, and so the mapping, lives for.
+// A view of claimed memory. It keeps the writer alive, and so the mapping.
 class ClaimView {
 public:
     ClaimView(nb::object holder, PyRingWriter& writer, std::shared_ptr<Claimed> claimed)
@@ -62,7 +63,7 @@ public:
         if (!is_over_) writer_->give_up(*claimed_);
     }
 
-    // One memoryview, which ends with the claim.
+    // Returns the one memoryview of the room. It ends with the claim.
     [[nodiscard]] nb::object data() {
         fork_.check();
         if (is_over_) PyRingWriter::raise_over();
@@ -83,7 +84,8 @@ public:
         return written;
     }
 
-    // What still looks keeps the room: it is no error here, where an error may be on its way already.
+    // A view that is still alive keeps the room. That is no error here, because another exception may be on its way
+    // already.
     void abandon() {
         if (is_over_) return;
         is_over_ = true;
@@ -99,7 +101,8 @@ public:
     }
 
 private:
-    // Also where the user has it in a name: what remains are slices, and arrays.
+    // Ends the memoryview even if the user still has a name for it. Raises BufferError if slices or arrays of it
+    // remain.
     void end_view() {
         if (!view_.is_valid()) return;
         try {
@@ -112,7 +115,7 @@ private:
     }
 
     const BeforeFork fork_;
-    nb::object holder_;  // of writer_
+    nb::object holder_;  // keeps writer_ alive
     PyRingWriter* writer_;
     std::shared_ptr<Claimed> claimed_;
     nb::object view_;

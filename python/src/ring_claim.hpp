@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Class RingClaim: a record of a RingWriter that is filled in place.
+// Class RingClaim: room for one record of a RingWriter, to be filled in place.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,7 +12,7 @@ namespace mavloom::python {
 
 void bind_ring_claim(nb::module_& module);
 
-// RingWriter.claim; `writer` is one.
+// Implements RingWriter.claim; `writer` is a RingWriter.
 [[nodiscard]] nb::object claim_room(const nb::object& writer, const Integer& length, const OptionalInteger& time_ns,
                                     const Integer& link, const Integer& kind, const Integer& verdict);
 

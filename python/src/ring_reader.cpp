@@ -6,7 +6,7 @@
 namespace mavloom::python {
 namespace {
 
-constexpr std::size_t most_copied_bytes = 1 << 20;  // in one batch, and one record more
+constexpr std::size_t most_copied_bytes = 1 << 20;  // in one batch, plus one record
 
 RingSource::State state_of(shm::ReadError error) noexcept {
     using State = RingSource::State;
@@ -20,7 +20,7 @@ RingSource::State state_of(shm::ReadError error) noexcept {
     return State::forked;
 }
 
-// Where the copies lie, once they do not move any more.
+// Points the records at their copies, once the copies no longer move.
 void point_to(std::vector<shm::RingRecord>& records, const std::vector<std::uint64_t>& copies) {
     const auto* at = reinterpret_cast<const std::uint8_t*>(copies.data());
     for (auto& record : records) {
@@ -97,7 +97,7 @@ RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
     if (is_closed()) return State::closed;
     if (pending_.lease) return State::found;
     if (lossless_ && !release_current()) {
-        const auto lease = current_.lock();  // gone by now, if another thread let it go
+        const auto lease = current_.lock();  // null if another thread released it meanwhile
         return lease && !lease->is_another_threads() ? State::looked_at : State::used_elsewhere;
     }
     const State state = lossless_ ? view(most, deadline) : copy(most, deadline);

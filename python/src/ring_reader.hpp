@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ring's reader between the Python objects that share it, and what it gives out. Knows nothing of Python but how to stay out of its way; any thread.
+// RingSource: a ring's reader that several Python objects share. Lease: the records that it returned.
+// Neither uses Python, except to work without the GIL. Any thread.
 #pragma once
 
 #include <atomic>
@@ -18,8 +19,10 @@ namespace mavloom::python {
 
 class RingSource;
 
-// Records that were read together: copies, or (lossless) views into the ring. Views end with the next read of their thread, and that must wait for those
-// who look at them; before one of another thread they become copies, for theirs may be about to look. Immutable but for that.
+// Records that were read together: copies, or views into the ring (lossless). Views end or become copies:
+// - The next read of the thread that took the views ends them. It fails while they are in use.
+// - The next read of another thread waits while they are in use, and then replaces them by copies: the first thread may
+//   be about to use them again.
 class Lease {
 public:
     Lease(std::shared_ptr<RingSource> source, std::vector<shm::RingRecord> records)
@@ -27,21 +30,24 @@ public:
     Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
         : records_(std::move(records)), copies_(std::move(copies)) {}
 
-    // Where the bytes are: look first, or they may move.
+    // The records and where their bytes are. Call `look` first: without it, the bytes may move.
     [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
     [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr || kept_.load() == Kept::copies; }
-    // Where the ring is; null for copies. Keeps it mapped.
+    // The ring's source, which keeps the ring mapped; null for records that were copied when they were read.
     [[nodiscard]] const std::shared_ptr<RingSource>& source() const noexcept { return source_; }
 
-    // Whoever looks at the bytes does so between these two, but for copies of what was in the ring, which nobody ends.
+    // Call `look` before using the bytes.
+    // - `counted`: call `look_away` afterwards.
+    // - `free`: the views became copies, which never end. Do not call `look_away`.
+    // - `refused`: the bytes have ended.
     enum class Look : std::uint8_t { refused, counted, free };
     [[nodiscard]] Look look() noexcept;
     void look_away() noexcept;
-    // Whether this thread is not among those that looked, and only one other is.
+    // Whether at most one thread has looked, and it is not this one.
     [[nodiscard]] bool is_another_threads() const noexcept;
-    // False: somebody looks. Success again and again.
+    // Ends the records. Returns false while they are in use, and true again on later calls.
     [[nodiscard]] bool release() noexcept { return looks_.finish(); }
-    // Makes copies of views, while the ring is held for them. False: somebody looks.
+    // Replaces views by copies while the ring is still held for them. Returns false while they are in use.
     [[nodiscard]] bool keep();
 
 private:
@@ -50,14 +56,14 @@ private:
     const std::shared_ptr<RingSource> source_;
     const std::vector<shm::RingRecord> records_;
     std::vector<std::uint64_t> copies_;
-    std::vector<shm::RingRecord> kept_records_;  // the same, in copies_
+    std::vector<shm::RingRecord> kept_records_;  // records_, with the data in copies_
     std::atomic<Kept> kept_{Kept::nothing};
     Looks looks_;
-    std::atomic<std::uint64_t> looker_{0};  // the first
+    std::atomic<std::uint64_t> looker_{0};  // the first thread that looked
     std::atomic<bool> has_several_lookers_{false};
 };
 
-// Some of a lease's records: those from `first` on.
+// Part of a lease: its records from `first` on.
 struct Portion {
     std::shared_ptr<Lease> lease;
     std::size_t first = 0;
@@ -78,27 +84,31 @@ public:
         looked_at,
         used_elsewhere
     };
-    // Reading is two steps, and what the first one found waits for the second, of whatever thread: a signal's handler may come between them.
-    // Up to `most` records, where none wait yet. Waits until `deadline` or the end of a slice, without the GIL; MonoTime{}: not at all. `nothing`: worth
-    // another call; it may have been another thread's turn. `used_elsewhere`: another thread looks at what was read last.
+    // Reading takes two steps, because a signal handler may run between them: `fetch` makes records pending, and
+    // `take`, by any thread, takes them.
+    // `fetch` reads up to `most` records, unless some are pending already. It waits until `deadline`, but at most for a
+    // slice. To wait, call it without the GIL. MonoTime{} means not to wait.
+    // `nothing`: call again; it may have been another thread's turn. `used_elsewhere`: another thread is using the
+    // records that were read last.
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
-    // One of them, or all that are left of what was read together. `nothing`: another thread took them, or has its turn.
+    // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
     [[nodiscard]] State take(std::size_t most, Portion& out);
     void give_way() const { turns_.give_way(); }
 
-    // For loops: a descriptor, made at the first call, that `arm` lets become readable when there may be something to fetch, or nothing ever will.
+    // For event loops: returns a descriptor, created at the first call. After `arm` it becomes readable when there may
+    // be something to fetch, or when nothing ever will be.
     [[nodiscard]] SetupResult<int> event_fd();
     void arm();
 
-    // Ends the views of a lease, and tells the writer. False: somebody looks.
+    // Ends the views of a lease and lets the writer pass them. Returns false while they are in use.
     [[nodiscard]] bool release(Lease& lease);
-    // Gives the slot back. False: somebody looks at what was read last.
+    // Gives the reader slot back. Returns false while the records that were read last are in use.
     [[nodiscard]] bool close();
-    // Nobody will read or close it any more: closed as soon as nobody looks.
+    // The owner is gone: closes the reader at once, or when its records are no longer in use (`nobody_looks`).
     void abandon();
     void nobody_looks();
 
-    // In a forked child the ring is no longer held for the records.
+    // In a forked child, the ring is no longer held for the records.
     [[nodiscard]] const BeforeFork& fork() const noexcept { return fork_; }
     [[nodiscard]] bool holds() const noexcept { return reader_.holds(); }
     [[nodiscard]] bool is_lossless() const noexcept { return lossless_; }
@@ -109,7 +119,7 @@ public:
     [[nodiscard]] bool is_removed() const noexcept { return reader_.is_retired() || !reader_.is_named(); }
 
 private:
-    // All of these with turns_ held.
+    // Call these with turns_ held.
     [[nodiscard]] State fill(std::size_t most, MonoTime deadline);
     [[nodiscard]] State view(std::size_t most, MonoTime deadline);
     [[nodiscard]] State copy(std::size_t most, MonoTime deadline);
@@ -117,7 +127,7 @@ private:
     [[nodiscard]] bool release_current();
     [[nodiscard]] bool close_locked();
 
-    // For the alarm: without waiting for a turn.
+    // For the alarm: these never wait for a turn.
     [[nodiscard]] Nanoseconds nap();
     [[nodiscard]] RingAlarm* alarm();
 
@@ -126,15 +136,15 @@ private:
     Turns turns_;
     std::atomic<bool> closed_{false}, abandoned_{false};
     std::atomic<std::uint64_t> missed_{0};
-    // Guarded by turns_, but for its const members.
+    // Guarded by turns_, except for const members of reader_:
     shm::RingReader reader_;
-    Portion pending_;                       // was fetched, and not taken yet
-    std::weak_ptr<Lease> current_;          // of a lossless reader: what it holds
-    std::uint64_t taker_ = 0;               // of that; none where several took of it
-    std::vector<shm::RingRecord> scratch_;  // likewise: where batches are read to
+    Portion pending_;                       // fetched, but not taken yet
+    std::weak_ptr<Lease> current_;          // the lease that a lossless reader holds
+    std::uint64_t taker_ = 0;               // the thread that took from current_; 0 if several did
+    std::vector<shm::RingRecord> scratch_;  // lossless: the buffer for batches
 
     std::mutex making_alarm_;
-    std::unique_ptr<RingAlarm> alarm_;  // made under that mutex, and never changed
+    std::unique_ptr<RingAlarm> alarm_;  // created with making_alarm_ held, then never changed
 };
 
 }  // namespace mavloom::python

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Classes RingReader, Record and RecordBatch.
 //
-// A record's bytes are looked at through a View: an object that the lease counts as long as it lives, whatever was made of it. numpy keeps the object
-// behind a memoryview and drops the memoryview itself, so that counting exports of the record would not do.
+// A record's bytes are used through a View. The lease counts a View as in use as long as it lives, whatever was made of
+// it. Counting the exports of the record would not suffice: numpy keeps the object behind a memoryview, but drops the
+// memoryview itself.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -19,14 +20,15 @@ namespace mavloom::python {
 namespace {
 
 constexpr std::size_t most_in_batch = 1024;
-constexpr auto look_again = std::chrono::microseconds{100};  // whether another thread still looks at what it read
-constexpr auto longest_patience = std::chrono::seconds{10};  // with one that does not stop
+// How often to check whether another thread still uses what it read.
+constexpr auto look_again = std::chrono::microseconds{100};
+constexpr auto longest_patience = std::chrono::seconds{10};  // how long to wait for such a thread
 
 // ---- what is given out
 
 class View {
 public:
-    // `bytes_of(lease)`: what is looked at, asked once it cannot move any more.
+    // `bytes_of(lease)` returns the bytes to view. It is called once they can no longer move.
     template <class BytesOf>
     View(std::shared_ptr<Lease> lease, BytesOf bytes_of) {
         if (!lease->is_copy()) lease->source()->fork().check();
@@ -44,7 +46,7 @@ public:
     View& operator=(View&&) = delete;
     ~View() { end(); }
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
-    // What was copied counts only if this comes behind it.
+    // Call after copying from the view: if this raises, the copy is not valid.
     void check() const {
         if (!holds()) raise_taken_away();
     }
@@ -63,7 +65,7 @@ private:
     ByteView bytes_;
 };
 
-// The type's slots are C: what was thrown becomes Python's current error.
+// Type slots are C functions, so a C++ exception becomes Python's current error.
 template <class Work>
 int guarded(Work&& work) noexcept {
     try {
@@ -85,7 +87,7 @@ bool is_ready(PyObject* self, Py_buffer* out) noexcept {
 int view_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
     if (!is_ready(self, out)) return -1;
     const auto bytes = nb::inst_ptr<View>(self)->bytes();
-    // Never written to: the buffer is read-only.
+    // The const_cast is safe: the buffer is read-only.
     auto* const begin = const_cast<std::uint8_t*>(bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     return PyBuffer_FillInfo(out, self, begin, static_cast<Py_ssize_t>(bytes.size()), 1, flags);
 }
@@ -120,7 +122,8 @@ int record_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
     return guarded([&] { return PyObject_GetBuffer(nb::inst_ptr<Record>(self)->view().ptr(), out, flags); });
 }
 
-// Never called, for the buffer is the view's; but numpy.frombuffer holds on to the buffers of types that have it, to others' objects only.
+// Never called, because the buffer belongs to the View. But only if a type has this slot does numpy.frombuffer keep its
+// buffer; of other types it keeps the object alone.
 void release_record_buffer(PyObject*, Py_buffer*) noexcept {}
 
 PyType_Slot record_slots[] = {
@@ -178,7 +181,8 @@ private:
                                         records[i].data.size(), expected));
         if (expected == 0) raise_usage("records without bytes make no array");
     }
-    // From record to record in memory: the same for all, which lie in one piece and are equally long.
+    // The distance in memory from record to record. It is the same for all, because they lie in one piece and have
+    // equal lengths.
     [[nodiscard]] std::size_t distance() const {
         const auto records = this->records();
         if (records.size() == 1) return records.front().data.size();
@@ -217,13 +221,14 @@ public:
     PyRingReader(const PyRingReader&) = delete;
     PyRingReader& operator=(const PyRingReader&) = delete;
 
-    // Empty: nothing came in time, or nothing comes because nobody writes.
+    // Returns an empty portion if nothing came in time, or if nothing will come because there is no writer.
     [[nodiscard]] Portion take(std::size_t most, MonoTime deadline) {
         Portion taken;
         check(take(most, deadline, taken));
         return taken;
     }
-    // Empty: the descriptor tells when to ask again.
+    // Returns an empty portion if there is no record. The descriptor then becomes readable when another call is
+    // worthwhile.
     [[nodiscard]] Portion poll(std::size_t most) {
         Portion taken;
         const State state = take(most, MonoTime{}, taken);
@@ -238,7 +243,7 @@ public:
         return value_or_raise(source_->event_fd());
     }
 
-    // None where there is no record.
+    // Returns None if there is no record.
     [[nodiscard]] nb::object read(MonoTime deadline) { return record_or_none(take(1, deadline)); }
     [[nodiscard]] nb::object poll_record() { return record_or_none(poll(1)); }
     [[nodiscard]] nb::object next() {
@@ -262,7 +267,8 @@ public:
         if (!closed) check(State::looked_at);
     }
 
-    // The end of a `with` block: an exception that is on its way is not replaced by one about views that it keeps alive.
+    // The end of a `with` block. An exception on its way is not replaced by a BufferError about views that it keeps
+    // alive.
     void leave(const nb::args& why) {
         try {
             close();
@@ -281,11 +287,11 @@ public:
 private:
     [[nodiscard]] State take(std::size_t most, MonoTime deadline, Portion& taken) {
         fork_.check();
-        // One record costs less than letting go of the GIL.
+        // Reading one record costs less than releasing the GIL, so try that first.
         State state = most == 1 ? source_->fetch(most, MonoTime{}) : State::nothing;
         MonoTime patient_until{};
         for (bool first = most != 1;; first = false) {
-            check_signals();  // what a handler that raises, or reads, finds here is not in hand yet
+            check_signals();  // if a handler raises or reads here, the records are still pending
             if (state == State::found) state = source_->take(most, taken);
             const bool is_used = state == State::used_elsewhere;
             if ((state != State::nothing && !is_used) || !(first || mono_now() < deadline)) return state;
@@ -344,7 +350,7 @@ public:
         if (!holder_.is_valid()) throw nb::stop_iteration();
         return reader_->event_fd();
     }
-    // Seconds, or None.
+    // Returns seconds, or None.
     [[nodiscard]] nb::object timeout() const {
         if (!timeout_) return nb::none();
         return nb::cast(std::chrono::duration<double>(*timeout_).count());
@@ -354,7 +360,7 @@ public:
 
 private:
     PyRingReader* reader_;
-    nb::object holder_;  // keeps reader_; empty once the garbage collector cleared it
+    nb::object holder_;  // keeps reader_ alive; empty after the garbage collector cleared it
     std::optional<Nanoseconds> timeout_;
 };
 

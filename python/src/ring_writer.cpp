@@ -27,9 +27,10 @@ shm::WhenFull policy_of(const std::string& full) {
     return static_cast<shm::WhenFull>(found - policies.begin());
 }
 
-// Used with the GIL, or once there is no interpreter any more.
+// Used with the GIL held, or after the interpreter has ended.
 std::vector<PyRingWriter*>& open_writers() {
-    static auto* const writers = new std::vector<PyRingWriter*>;  // outlives the writers that the interpreter's end leaves
+    // Never destroyed: some writers may outlive the interpreter.
+    static auto* const writers = new std::vector<PyRingWriter*>;
     return *writers;
 }
 
@@ -55,7 +56,7 @@ PyRingWriter::PyRingWriter(const std::string& name, const Integer& capacity, con
         .when_full = when_full_,
         .mode = mode.in<std::uint16_t>("mode")};
     auto opened = [&] {
-        const WithoutGil outside;  // a large ring takes its memory here
+        const WithoutGil outside;  // allocating a large ring takes time
         auto made = shm::RingWriter::open(name, options);
         if (made && WithoutGil::is_for_good()) static_cast<void>(made->close(shm::RingWriter::Leave::ring));
         return made;
@@ -105,7 +106,8 @@ shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::Recor
 
 shm::WriteResult<void> PyRingWriter::put(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
     auto lock = turn(deadline);
-    while (!lock.owns_lock() && !waits()) lock = turn(MonoTime::max());  // `full` would say that it was dropped
+    // `full` would mean that the record was dropped.
+    while (!lock.owns_lock() && !waits()) lock = turn(MonoTime::max());
     if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
     return put_locked(data, info, deadline);
 }
@@ -210,7 +212,8 @@ void PyRingWriter::give_up(Claimed& claimed) noexcept {
     nobody_looks(claimed);
 }
 
-// While a claim is open the lock is held for moments only, and by nobody who needs the GIL.
+// Waiting with the GIL held is safe here: while a claim is open, the lock is held for moments only, and never by a
+// thread that needs the GIL.
 void PyRingWriter::nobody_looks(Claimed& claimed) noexcept {
     if (!claimed.given_up.load() || !fork_.is_here() || !claimed.looks.finish()) return;
     const auto lock = turns_.take();
@@ -291,7 +294,7 @@ std::uint64_t PyRingWriter::dropped() {
 void bind_ring_writer(nb::module_& module) {
     using namespace nb::literals;
     bind_ring_claim(module);
-    static_cast<void>(Py_AtExit(close_what_is_left));  // no place left there: an exit may look like a kill
+    static_cast<void>(Py_AtExit(close_what_is_left));  // if Python has no free slot, an exit may look like a kill
     nb::class_<PyRingWriter>(
         module, "RingWriter", nb::is_final(),
         "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// class RingWriter. Any thread; the GIL is needed by none of it but `write` and `close`.
+// PyRingWriter: the Python class RingWriter, a writer that several threads may share.
+// Any thread. Call with the GIL held unless a comment says otherwise; a call that waits releases it meanwhile.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -18,7 +19,7 @@
 
 namespace mavloom::python {
 
-// Room in the ring that is being filled; or, where a full ring drops the record, memory that is thrown away.
+// Memory for one record to be filled: room in the ring, or memory to be discarded if a full ring drops the record.
 struct Claimed {
     explicit Claimed(ByteSpan room) : bytes(room) {}
     explicit Claimed(std::size_t length) : thrown_away(length), bytes(thrown_away), is_dropped(true) {}
@@ -30,7 +31,8 @@ struct Claimed {
     std::atomic<bool> given_up{false};
 };
 
-// As users give it: now unless a time is given; UsageError for what is out of range.
+// Makes a RecordInfo from a user's arguments; the time is now unless given. Raises UsageError for a value that is out
+// of range.
 [[nodiscard]] shm::RecordInfo record_info(const OptionalInteger& time_ns, const Integer& link, const Integer& kind,
                                           const Integer& verdict);
 [[nodiscard]] WallTime wall_time(const Integer& time_ns);
@@ -42,27 +44,30 @@ public:
     PyRingWriter& operator=(const PyRingWriter&) = delete;
     ~PyRingWriter();
 
-    // Waits while lossless readers hold the ring. False: the record was dropped, and counted (`drop_newest`).
+    // Waits while lossless readers hold the ring. Returns false if the record was dropped and counted (`drop_newest`).
     bool write(const nb::object& data, const shm::RecordInfo& info);
     void close(bool remove);
-    // For a writer that the interpreter's end did not destroy: a daemon thread's, or one that such a thread's frames keep alive. No Python any more;
-    // its threads wait for ever. A claim that somebody looks at keeps its writer open.
+    // Closes a writer that the end of the interpreter did not destroy: one of a daemon thread, or one that the frames
+    // of such a thread keep alive. Runs without Python, when those threads already sleep for ever. A claim in use keeps
+    // its writer open.
     void close_at_exit() noexcept;
 
-    // Room for one record. One is open at a time: other threads wait until it is committed or given up, and its own gets BufferError from all that writes.
+    // Returns room for one record. Only one claim is open at a time: other threads wait until it is committed or given
+    // up. The thread that has it gets BufferError from everything that writes.
     [[nodiscard]] std::shared_ptr<Claimed> claim(std::size_t length);
-    // Publishes the first `length` bytes; false: dropped. BufferError while somebody looks at them, ClosedError for a claim that is over.
+    // Publishes the first `length` bytes; false if the record was dropped. Raises BufferError while the bytes are in
+    // use, and ClosedError if the claim is over.
     bool commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
-    // At once, or as soon as nobody looks.
+    // Gives the room back: at once, or when the bytes are no longer in use (`nobody_looks`). Neither needs the GIL.
     void give_up(Claimed& claimed) noexcept;
     void nobody_looks(Claimed& claimed) noexcept;
 
     [[noreturn]] static void raise_over();
     [[noreturn]] static void raise_looked_at();
 
-    // Without the GIL: waits for room until `deadline`. `removed` once it is closed.
+    // Call without the GIL. Waits for room until `deadline`. Returns `removed` once the writer is closed.
     [[nodiscard]] shm::WriteResult<void> put(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
-    // What `put` says that is neither success nor `full`.
+    // Raises the exception for an error of `put` other than `full`.
     [[noreturn]] void raise(shm::WriteError error, std::size_t length) const;
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -72,21 +77,21 @@ public:
     [[nodiscard]] bool is_removed();
     [[nodiscard]] std::uint64_t records();
     [[nodiscard]] std::uint64_t dropped();
-    // Raises ClosedError; BufferError where this thread has a claim open.
+    // Raises ClosedError if closed, and BufferError if this thread has a claim open.
     void check() const;
 
 private:
     void check_open() const;
-    // The turn to write, with no claim open; not owned: not yet, or not before the deadline.
+    // Returns the lock, with no claim open. The lock is not owned if that took longer than `deadline` or a slice.
     [[nodiscard]] Turns::Lock turn(MonoTime deadline);
-    // With the GIL. Until no other thread's claim is open.
+    // Waits until no other thread has a claim open.
     void let_claim_end();
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_locked(std::size_t length, MonoTime deadline);
     enum class Committed : std::uint8_t { yes, dropped, over, looked_at };
     [[nodiscard]] Committed commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
     void end_claim() noexcept;
-    // With the GIL, which is let go where there is no room at once, for a slice at most.
+    // Releases the GIL only if there is no room at once, and then waits for at most a slice.
     [[nodiscard]] shm::WriteResult<void> put_or_wait(ByteView data, const shm::RecordInfo& info);
     [[nodiscard]] shm::WriteResult<void> put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
     [[nodiscard]] SetupResult<void> close_locked(bool remove);
@@ -99,12 +104,12 @@ private:
     bool created_ = false;
     Turns turns_;
     std::condition_variable_any claim_ended_;
-    std::atomic<std::uint64_t> claimer_{0};  // whose thread's claim is open; set with turns_ held
+    std::atomic<std::uint64_t> claimer_{0};  // thread with the open claim; set with turns_ held
     std::atomic<bool> closed_{false};
-    // Guarded by turns_.
+    // Guarded by turns_:
     std::optional<shm::RingWriter> writer_;  // empty once closed
-    std::shared_ptr<Claimed> claim_;         // that is open
-    bool removed_ = false;                   // with the ring
+    std::shared_ptr<Claimed> claim_;         // the open claim
+    bool removed_ = false;                   // this writer closed and removed the ring
     std::uint64_t records_ = 0, dropped_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How calls of Python wait: time-outs as users give them, threads that take turns, what a forked child must leave alone.
+// Helpers for Python calls that wait: time-outs, turns between threads, and protection of forked children.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -19,26 +19,27 @@
 
 namespace mavloom::python {
 
-// A wait ends after this time for a moment, so that signals and other threads get their turn.
+// The longest wait without a pause. In the pause, signals are handled and other threads get their turn.
 inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 
-// Seconds as users give them; 0 for less, a year at most. `what` is the argument's name.
+// Converts a number of seconds: negative ones become 0, more than a year becomes a year. Errors begin with `what`, the
+// name of the argument.
 [[nodiscard]] Nanoseconds duration_of(const char* what, const nb::object& given);
-// A time-out as users give it; None, and nothing here, waits for ever.
+// Converts a time-out. None becomes nullopt, which means to wait for ever.
 [[nodiscard]] std::optional<Nanoseconds> timeout_of(const nb::object& given);
-// When a wait ends that begins now.
+// Returns the deadline of a wait that begins now.
 [[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);
 [[nodiscard]] inline MonoTime deadline_after(const nb::object& timeout) { return deadline_after(timeout_of(timeout)); }
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
 
-// Never 0, and never another thread's, as a std::thread::id may be once its thread has ended.
+// Returns a number of this thread. It is never 0 and never reused, unlike a std::thread::id.
 [[nodiscard]] inline std::uint64_t this_thread() noexcept {
     static std::atomic<std::uint64_t> threads{0};
     thread_local const std::uint64_t number = threads.fetch_add(1, std::memory_order_relaxed) + 1;
     return number;
 }
 
-// Something that a forked child must neither use nor destroy: its threads and locks stayed in the parent.
+// Marks an object that a forked child must neither use nor destroy, because its threads and locks stayed in the parent.
 class BeforeFork {
 public:
     [[nodiscard]] bool is_here() const noexcept { return born_ == Hub::forks(); }
@@ -50,8 +51,10 @@ private:
     std::uint64_t born_ = Hub::forks();
 };
 
-// A mutex that is held while waiting, slice by slice; between two of them those who ask come first. Nobody holds it who needs the GIL. One thread may
-// glance: hold it for a moment, without waiting, which takes no turn from those that try.
+// A mutex that threads hold while they wait, slice by slice. Between two slices, threads that already ask for it come
+// first. A thread that needs the GIL must not hold it.
+// One thread may also `glance`: hold the mutex for a moment, without waiting. Threads in `try_take` lose no turn to a
+// glance.
 class Turns {
 public:
     using Lock = std::unique_lock<std::timed_mutex>;
@@ -60,7 +63,7 @@ public:
         const Asking asking(asking_);
         return Lock(mutex_);
     }
-    // Those that come back without owning it say that it is not their turn: yet, or before the deadline and the slice's end.
+    // If the returned lock is not owned, another thread has its turn.
     [[nodiscard]] Lock try_take() {
         for (;;) {
             const unsigned glances = glances_.load();
@@ -70,12 +73,14 @@ public:
             std::this_thread::yield();
         }
     }
-    // `look(is_free)` with the lock where nobody has it; at once in either case. One call at a time.
+    // Calls `look(is_free)`, with the lock held if it was free. Never waits. One call at a time.
     [[nodiscard]] auto glance(auto&& look) {
         const Glance glance(glances_);
         const Lock lock(mutex_, std::try_to_lock);
         return look(lock.owns_lock());
     }
+    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has its
+    // turn.
     [[nodiscard]] Lock take_until(MonoTime deadline) {
         Lock lock = try_take();
         if (lock.owns_lock()) return lock;
@@ -83,7 +88,7 @@ public:
         static_cast<void>(lock.try_lock_until(std::min(deadline, mono_now() + longest_slice)));
         return lock;
     }
-    // Between two slices, without the lock.
+    // Call between two slices, without the lock: lets threads that ask for it go first.
     void give_way() const {
         if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
@@ -107,7 +112,7 @@ private:
 
     std::timed_mutex mutex_;
     std::atomic<int> asking_{0};
-    std::atomic<unsigned> glances_{0};  // odd during one
+    std::atomic<unsigned> glances_{0};  // odd during a glance
 };
 
 }  // namespace mavloom::python

@@ -12,7 +12,7 @@ namespace mavloom {
 
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// Levenshtein's distance over one row, case ignored.
+// The Levenshtein distance, ignoring case, computed with a single row.
 static std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,7 +28,7 @@ static std::size_t distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-// A word that somebody began and did not end: `dedup` for `dedup_ms`.
+// True if `typed` is the beginning of `candidate`, for example `dedup` for `dedup_ms`.
 static bool begins(std::string_view typed, std::string_view candidate) {
     constexpr std::size_t shortest = 3;
     return typed.size() >= shortest && typed.size() < candidate.size() &&
@@ -37,7 +37,7 @@ static bool begins(std::string_view typed, std::string_view candidate) {
 }
 
 std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates) {
-    constexpr std::size_t longest_name = 64;  // bounds the work for a name that came from a file
+    constexpr std::size_t longest_name = 64;  // limits the work for names that come from files
     if (typed.empty() || typed.size() > longest_name) return {};
     std::string_view best;
     std::size_t best_distance = typed.size() / 3 + 1;

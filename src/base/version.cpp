@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/base/version.hpp"
 
-// Written by cmake/WriteVersion.cmake at every build. Nothing else includes it, so that a new commit compiles this file only.
+// cmake/WriteVersion.cmake writes this header at every build. Only this file includes it, so a new commit recompiles
+// nothing else.
 #include "mavloom_version_text.hpp"
 
 namespace mavloom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that only a router needs. `mavloom check` and `route` both run them.
+// Checks that only a router needs. `mavloom check` and `mavloom route` both run them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,13 +27,13 @@ SetupResult<void> check_no_rings(const Config& config, std::string_view file_nam
         });
 }
 
-// Where the file has this section; 0 where it has none.
+// The section's line in the file; 0 if the file does not have it.
 std::uint32_t line_of_section(const Config& config, std::string_view name) {
     const auto section = std::ranges::find(config.sections, name, &Section::name);
     return section == config.sections.end() ? 0 : section->line;
 }
 
-// Without its name or path a section would be ignored silently.
+// A section without its name or path would have no effect, so it is an error.
 SetupResult<void> check_sections(const Config& config, std::string_view file_name) {
     if (const auto line = line_of_section(config, "ring"); line != 0 && config.ring.name.empty())
         return bad(file_name, line, "[ring] has no name: write name = \"...\", or start the router with --ring NAME");
@@ -42,7 +42,7 @@ SetupResult<void> check_sections(const Config& config, std::string_view file_nam
     return {};
 }
 
-// What Links::add would refuse at once.
+// Refuses what Links::add would refuse at once.
 SetupResult<void> check_links(const Config& config, std::string_view file_name) {
     return detail::each_endpoint(
         config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {

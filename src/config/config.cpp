@@ -33,7 +33,8 @@ std::string upper(std::string_view text) {
 
 std::uint32_t line_in_file(const toml::node& node) { return static_cast<std::uint32_t>(node.source().begin.line); }
 
-// A value in the words of the endpoint grammar: native types as their text, lists joined by commas, tables as KEY:VALUE. Empty: cannot be one.
+// Converts a value to the text of the endpoint grammar: scalars as text, arrays joined by commas, tables as
+// KEY:VALUE. Empty if the type has no such text.
 std::optional<std::string> text_of(const toml::node& node) {
     if (const auto* text = node.as_string()) return text->get();
     if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
@@ -84,7 +85,7 @@ private:
         return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {}", file_, line, what));
     }
 
-    // The library follows a dotted key by recursion: one of 50,000 parts would use up the stack.
+    // The TOML library handles dotted keys recursively, so a key of 50,000 parts would overflow the stack.
     [[nodiscard]] std::uint32_t line_with_endless_key(std::string_view text) const {
         constexpr int most_dots = 1000;
         std::uint32_t line = 1;
@@ -103,7 +104,7 @@ private:
             return bad(line, "more than 1000 dots in one line: expected keys like router.dedup_ms");
         try {
             return toml::parse(text, file_);
-        } catch (const toml::parse_error& error) {  // this library's only way to say it
+        } catch (const toml::parse_error& error) {  // the library reports errors only this way
             return bad(static_cast<std::uint32_t>(error.source().begin.line), error.description());
         }
     }
@@ -134,11 +135,12 @@ private:
         return fmt::format("{}{}_{}", variable_prefix, upper(key.section), upper(key.name));
     }
 
-    // A misspelt variable would silently do nothing. Others of this beginning may belong to other programs.
+    // A misspelt variable must not be ignored silently. Other variables with this prefix may belong to other
+    // programs.
     SetupResult<void> check_environment() {
         std::vector<std::string> names;
         for (const ConfigKey& key : config_keys()) names.push_back(variable_name(key));
-        // The common beginning would make everything look near.
+        // Compare without the prefix; with it, every name would look similar.
         std::vector<std::string_view> known;
         known.reserve(names.size());
         for (const std::string_view name : names) known.push_back(name.substr(variable_prefix.size()));
@@ -174,7 +176,7 @@ private:
         return {};
     }
 
-    // Default, file, environment: the later one stands.
+    // Precedence is default, file, environment: the later one wins.
     SetupResult<void> read_section(std::string_view name, const toml::table* table) {
         if (table != nullptr)
             if (auto done = check_keys(name, *table); !done) return done;
@@ -189,7 +191,7 @@ private:
         return {};
     }
 
-    // A request needs a sender.
+    // A stream request needs a sender id.
     [[nodiscard]] SetupResult<void> check_requests() const {
         if (config_.router.request_streams_hz == 0 || config_.router.heartbeat) return {};
         constexpr std::string_view what =
@@ -253,7 +255,7 @@ private:
         return found == given.end() ? nullptr : &*found;
     }
 
-    // The keys that say where the endpoint is, as far as its scheme has them.
+    // True for the keys that give the endpoint's address or path, if its scheme has them.
     static bool is_place_of(endpoint::Scheme scheme, std::string_view key) {
         if (key == "url" || key == "scheme") return true;
         const auto set = endpoint::set_of(scheme);

@@ -20,7 +20,7 @@ using namespace detail;
 
 namespace {
 
-// A key without counterpart, and the value that says the same as no key.
+// A mavlink-router key without counterpart, and the value that is the same as leaving it out.
 struct WithoutCounterpart {
     std::string_view key, default_value, advice;
 };
@@ -41,7 +41,7 @@ constexpr std::array<std::string_view, 3> uart_keys{"Device", "Baud", "FlowContr
 constexpr std::array<std::string_view, 4> udp_keys{"Mode", "Address", "Port", "Filter"};
 constexpr std::array<std::string_view, 3> tcp_keys{"Address", "Port", "RetryTimeout"};
 
-// The part of a filter key between Allow or Block and In or Out, and how our terms write such an id.
+// The part of a filter key between Allow/Block and In/Out, and our prefix for such an id.
 struct FilterKind {
     std::string_view word, prefix;
     std::uint64_t most;
@@ -76,7 +76,7 @@ std::string toml_string(std::string_view text) {
     return result + '"';
 }
 
-// The words of a section's heading: what it is, and its name.
+// Splits a section's heading into its kind and its name.
 std::pair<std::string_view, std::string_view> heading(const IniSection& section) {
     const std::string_view text = section.name;
     const auto blank = text.find(' ');
@@ -121,7 +121,7 @@ private:
         toml_ += fmt::format("{} = {}\n", key, toml_value);
     }
 
-    // ---- [General] ---------------------------------------------------------------------------------------------------
+    // ---- [General] --------------------------------------------------------------------------------------------------
 
     SetupResult<void> read_general() {
         const auto found = std::ranges::find_if(sections_,
@@ -176,7 +176,7 @@ private:
         note(general, *telemetry, fmt::format("recorded to {}; an older one is kept as .1 and so on", path));
     }
 
-    // ---- endpoints ---------------------------------------------------------------------------------------------------
+    // ---- endpoints --------------------------------------------------------------------------------------------------
 
     SetupResult<void> read_section(const IniSection& section) {
         const auto [kind, name] = heading(section);
@@ -254,7 +254,7 @@ private:
         return put_destination(section, *address, port);
     }
 
-    // Normal mode: what the address is decides how we call it.
+    // In Normal mode, the kind of address decides the scheme.
     SetupResult<void> put_destination(const IniSection& section, const IniEntry& address, const IniEntry& port) {
         if (address.value == "0.0.0.0" || address.value == "[::]") {
             IniEntry here = address;
@@ -298,7 +298,7 @@ private:
         std::vector<std::string> terms;
         for (const auto& kind : filter_kinds) {
             const auto* entry = section.find(fmt::format("{}{}{}", option.action, kind.word, option.direction));
-            // `Filter` is what AllowMsgIdOut of UDP endpoints was called first.
+            // For UDP endpoints, `Filter` is the former name of AllowMsgIdOut.
             if (entry == nullptr && option.option == "out_allow" && kind.word == "MsgId") entry = udp_filter(section);
             if (entry == nullptr) continue;
             const auto ids = numbers(*entry, 0, kind.most);
@@ -313,7 +313,7 @@ private:
         return same_word(heading(section).first, "UdpEndpoint") ? section.find("Filter") : nullptr;
     }
 
-    // ---- values ------------------------------------------------------------------------------------------------------
+    // ---- values -----------------------------------------------------------------------------------------------------
 
     SetupResult<std::uint64_t> number(const IniSection& section, std::string_view key, std::uint64_t least,
                                       std::uint64_t most, std::uint64_t otherwise) const {
@@ -362,7 +362,7 @@ private:
         return name;
     }
 
-    // ---- what is not known -------------------------------------------------------------------------------------------
+    // ---- unknown keys -----------------------------------------------------------------------------------------------
 
     void note_unknown_endpoint_keys(const IniSection& section, std::span<const std::string_view> own) {
         std::vector<std::string> filters;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The INI form that mavlink-router reads: sections, `key = value`, comments on lines of their own. Names keep their case; a section that is
-// opened again goes on, a key that is given again has the last value. Private to module config.
+// Reads the INI dialect of mavlink-router: sections, `key = value`, and comments on their own lines. A repeated
+// section continues the first one; of a repeated key the last value wins. Names keep their case, but comparisons
+// ignore it. Private to module config; stateless.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +23,14 @@ struct IniSection {
     std::uint32_t line = 0;
     std::vector<IniEntry> entries;
 
-    // Case is ignored, as mavlink-router does.
+    // Ignores case, as mavlink-router does.
     [[nodiscard]] const IniEntry* find(std::string_view key) const noexcept;
 };
 
 // Errors are `bad_input` and begin with FILE:LINE:.
 [[nodiscard]] SetupResult<std::vector<IniSection>> parse_ini(std::string_view text, std::string_view file_name);
 
-[[nodiscard]] bool same_word(std::string_view a, std::string_view b) noexcept;  // but for the case of ASCII letters
+// Compares without regard to the case of ASCII letters.
+[[nodiscard]] bool same_word(std::string_view a, std::string_view b) noexcept;
 
 }  // namespace mavloom::config::detail

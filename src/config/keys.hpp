@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of configuration keys other than endpoints: section, name, default, how its text becomes a value. Private to module config.
+// The table of configuration keys outside [[endpoint]]: section, name, default, and how to parse the text. Private to
+// module config.
 #pragma once
 
 #include <span>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The messages that a configuration names, looked up in definitions: apart from reading the file, which needs none.
+// Checks the message names in a configuration against a dialect. Separate from reading the file, which needs no
+// dialect.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,7 +13,7 @@ namespace mavloom::config {
 
 namespace {
 
-// The first term that no definition has, in words.
+// The error text for the first term that the dialect does not define; empty if it defines all.
 std::string unknown_in(const endpoint::Endpoint& endpoint, std::string_view key, const dialect::Dialect& dialect) {
     const endpoint::EndpointOptions& o = endpoint.options;
     const std::array<std::pair<std::string_view, const endpoint::FilterTerms*>, 4> filters{

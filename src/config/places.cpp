@@ -21,11 +21,13 @@ using namespace detail;
 
 namespace {
 
-// A port that an endpoint is bound to for as long as it lives.
+// A port that an endpoint stays bound to for its lifetime.
 struct Bound {
-    bool tcp, shared;  // shared: with others that share it too
+    // `shared`: other sharing endpoints may bind the same port.
+    bool tcp, shared;
     endpoint::HostPort address;
-    std::string_view iface, label;  // iface: empty where the port is taken on all of them
+    // `iface`: empty if the port is bound on all interfaces.
+    std::string_view iface, label;
     std::uint32_t line;
 };
 
@@ -34,7 +36,7 @@ std::optional<Bound> bound_by(const endpoint::Endpoint& endpoint, const Section&
     static constexpr std::array<std::string_view, 1> bind{"bind"};
     const endpoint::Scheme scheme = endpoint.scheme;
     const auto& o = endpoint.options;
-    if (scheme == endpoint::Scheme::udpmcast)  // joins its group on iface, and binds to none
+    if (scheme == endpoint::Scheme::udpmcast)  // joins its group on iface, but binds to no interface
         return Bound{false, true, endpoint.address, {}, section.label, line_of(section, own)};
     if (scheme == endpoint::Scheme::udpin || scheme == endpoint::Scheme::tcpin)
         return Bound{
@@ -44,7 +46,7 @@ std::optional<Bound> bound_by(const endpoint::Endpoint& endpoint, const Section&
     return std::nullopt;
 }
 
-// :: takes the IPv4 port as well.
+// A socket on :: also takes the IPv4 port.
 bool takes_all_of(const net::Address& any, const std::optional<net::Address>& other) {
     return any.is_any() && (any.is_v6() || !other || other->is_v4());
 }

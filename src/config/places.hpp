@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the endpoints of a configuration take of this machine. Private to module config; pure.
+// Finds conflicts between endpoints over ports and files of this machine. Private to module config; pure functions.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace mavloom::config::detail {
 
-// Where the file gives the first of these keys; 0 where it gives none.
+// The line of the first of these keys that the file sets; 0 if it sets none.
 [[nodiscard]] std::uint32_t line_of(const Section& section, std::span<const std::string_view> keys);
 
-// Calls `use(endpoint, its section)` for each endpoint of the file until an error.
+// Calls `use(endpoint, its section)` for each endpoint, and stops at the first error.
 template <class Use>
 SetupResult<void> each_endpoint(const Config& config, Use&& use) {
     auto endpoint = config.endpoints.begin();
@@ -22,10 +22,11 @@ SetupResult<void> each_endpoint(const Config& config, Use&& use) {
     return {};
 }
 
-// Refuses (`bad_input`, with file and line) two endpoints that bind the same port, as far as that can be said without looking a name up.
+// Refuses two endpoints that bind the same port (`bad_input`, with file and line). It resolves no names, so it cannot
+// find every conflict.
 [[nodiscard]] SetupResult<void> check_ports(const Config& config, std::string_view file_name);
 
-// Refuses two recordings in one file.
+// Refuses two recordings to the same file.
 [[nodiscard]] SetupResult<void> check_recordings(const Config& config, std::string_view file_name);
 
 }  // namespace mavloom::config::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the text of a configuration, bounded: a recording or a device was meant for something else. Private to module config.
+// Reads a configuration file as text, up to 4 MiB. A larger file is probably a recording or a device, and an error.
+// Private to module config.
 #pragma once
 
 #include <filesystem>

@@ -23,10 +23,10 @@ namespace mavloom::control {
 
 namespace {
 
-constexpr std::size_t most_sessions = 64;  // of each kind: more are turned away
+constexpr std::size_t most_sessions = 64;  // of each kind; more are turned away
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
 
-// 0: there is nothing.
+// Returns 0 if the file does not exist.
 ino_t inode_of(const std::filesystem::path& path) noexcept {
     struct stat status {};
     return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
@@ -38,8 +38,9 @@ tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
         fmt::format("{} is served by a router that runs; --name gives this one another name", socket.string()));
 }
 
-// NAME.ctl.lock beside the socket, locked for as long as a router serves the name; the kernel frees it whatever end the router meets. Mode 0600: nobody
-// else can open it, and so hold it. Whoever gets the lock may take away a socket that is left, for its router is gone.
+// Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock
+// however the router ends. With mode 0600, other users cannot open the file and hold the lock. A router that gets the
+// lock may remove a socket left behind, because the router that created it is gone.
 class NameLock {
 public:
     NameLock() = default;
@@ -53,8 +54,8 @@ public:
         path_ = socket.string() + ".lock";
         while (!fd_) {
             net::Fd fd(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, socket_mode));
-            const bool is_others = !fd && errno == EACCES &&
-                                   inode_of(path_) != 0;  // who left or holds it is another user
+            // The file exists but belongs to another user.
+            const bool is_others = !fd && errno == EACCES && inode_of(path_) != 0;
             if (is_others) return served(socket);
             if (!fd) return system_error(fmt::format("control socket {}", path_), errno);
             if (::flock(fd.get(), LOCK_EX | LOCK_NB) != 0)
@@ -66,7 +67,7 @@ public:
     }
 
 private:
-    // Not so once the router that locked it before has ended meanwhile, and taken the file with it.
+    // False if the previous owner of the lock ended meanwhile and removed the file.
     [[nodiscard]] bool is_named(int fd) const {
         struct stat held {};
         return ::fstat(fd, &held) == 0 && held.st_ino == inode_of(path_);
@@ -76,7 +77,8 @@ private:
     net::Fd fd_;
 };
 
-// Accepts for as long as it lives. Sessions keep a share of `places_`: its use count tells how many there are.
+// Accepts clients for as long as it lives. Each session holds a share of `places_`, whose use count limits the number
+// of sessions.
 template <class Protocol, class Session>
 class Acceptor {
 public:
@@ -92,7 +94,7 @@ public:
     void accept() {
         acceptor_.async_accept([this](error_code error, typename Protocol::socket socket) {
             if (error == asio::error::operation_aborted) return;
-            if (error) return accept_later();  // no descriptors are left, say
+            if (error) return accept_later();  // for example, no free descriptors
             if (static_cast<std::size_t>(places_.use_count()) <= most_sessions)
                 std::make_shared<Session>(std::move(socket), served_, places_)->read();
             else Session::turn_away(socket);
@@ -124,7 +126,7 @@ tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::
 class Control::Impl {
 public:
     explicit Impl(Served& served) : served_(served), control_(context_, served), metrics_(context_, served) {}
-    // What a session has posted holds that session, whose socket needs the context.
+    // Posted work keeps its session alive, and the session's socket needs the context. So drop the work first.
     ~Impl() {
         context_.stop();
         if (thread_.joinable()) thread_.join();
@@ -160,7 +162,8 @@ private:
         return {};
     }
 
-    // Looks without waiting: at a socket whose backlog is full somebody listens, too.
+    // Removes a socket that no process serves. The probe does not block: a full backlog (EAGAIN) also means that a
+    // process listens.
     static SetupResult<void> remove_left_over(const std::filesystem::path& path) {
         const Local::endpoint there(path.string());
         const net::Fd probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -193,9 +196,10 @@ private:
     Acceptor<Local, ControlSession> control_;
     Acceptor<Tcp, MetricsSession> metrics_;
     std::uint16_t metrics_port_ = 0;
-    NameLock name_;  // outlives the socket
+    NameLock name_;  // destroyed after the socket is removed
     std::filesystem::path socket_;
-    ino_t inode_ = 0;  // its own: somebody may have removed it, and another router have made one
+    // Identifies our own socket. Another program may have removed it, and another router created a new one.
+    ino_t inode_ = 0;
     std::thread thread_;
 };
 
@@ -209,9 +213,9 @@ SetupResult<std::unique_ptr<Control>> Control::create(Served& served, const Cont
         if (auto opened = impl->open(options); !opened) return tl::unexpected(std::move(opened.error()));
         impl->start();
         return std::unique_ptr<Control>(new Control(std::move(impl)));
-    } catch (const boost::system::system_error& error) {  // no descriptors are left, say
+    } catch (const boost::system::system_error& error) {  // for example, no free descriptors
         return error_of("control socket and metrics", error);
-    } catch (const std::system_error& error) {  // no thread
+    } catch (const std::system_error& error) {  // the thread cannot start
         return system_error("control socket and metrics", error.code().value());
     }
 }

@@ -20,7 +20,7 @@ constexpr auto http_patience = std::chrono::seconds(10);
 struct MetricsSession::Request {
     http::verb method;
     std::string target;
-    unsigned version;  // 10 or 11
+    unsigned version;  // 10 or 11, for HTTP/1.0 and HTTP/1.1
     bool keep_alive;
 };
 
@@ -38,8 +38,9 @@ void MetricsSession::read() {
     });
 }
 
-// What waits on the socket then fails, and the last to hold the session lets it go. A wait that has ended but not been told yet is not
-// cancelled by a new one: it looks at the time.
+// Closes the socket at the deadline. Pending operations then fail, and the session is destroyed with its last
+// handler. A new deadline does not cancel a wait whose handler is already queued, so the handler checks the time
+// itself.
 void MetricsSession::hang_up_later() {
     deadline_.expires_after(http_patience);
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
@@ -50,7 +51,8 @@ void MetricsSession::hang_up_later() {
 }
 
 void MetricsSession::handle() {
-    deadline_.expires_at(asio::steady_timer::time_point::max());  // the router's time is not the client's
+    // The time that the router takes does not count against the client.
+    deadline_.expires_at(asio::steady_timer::time_point::max());
     http::request_parser<http::empty_body> parser;
     error_code error;
     input_.consume(parser.put(input_.data(), error));

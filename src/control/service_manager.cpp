@@ -28,7 +28,7 @@ std::int64_t number_in(std::string_view text) noexcept {
     return error == std::errc{} && end == text.data() + text.size() ? value : 0;
 }
 
-// "/run/systemd/notify", or "@name" in the abstract name space.
+// `name` is a path such as "/run/systemd/notify", or "@name" in the abstract namespace.
 int connect_to(std::string_view name) noexcept {
     sockaddr_un address{};
     if (name.size() < 2 || name.size() >= sizeof address.sun_path || (name[0] != '/' && name[0] != '@')) return -1;
@@ -66,7 +66,7 @@ ServiceManager ServiceManager::from_environment() {
     return {connect_to(variable("NOTIFY_SOCKET")), watchdog_interval()};
 }
 
-// The time lets the manager tell this reload from the next.
+// The time stamp lets the manager distinguish this reload from the next.
 void ServiceManager::reloading() const noexcept {
     std::array<char, 64> text;
     const auto us = std::chrono::duration_cast<std::chrono::microseconds>(mono_now().time_since_epoch()).count();
@@ -80,7 +80,7 @@ void ServiceManager::feed(MonoTime now) noexcept {
     send("WATCHDOG=1");
 }
 
-// Never waits: a manager that does not read must not hold up the router.
+// Never blocks: a manager that does not read must not stall the router.
 void ServiceManager::send(std::string_view message) const noexcept {
     if (fd_ >= 0) (void)::send(fd_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }

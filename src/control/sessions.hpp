@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two kinds of client that control.cpp accepts. Each keeps itself alive until its client has gone.
+// The two kinds of client session that control.cpp accepts. Each keeps itself alive until its client is gone. All run
+// on the control thread.
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
@@ -23,7 +24,8 @@ using Local = asio::local::stream_protocol;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-// Work for the served one's thread whose result comes back to this one. A session that ended meanwhile is kept by its own pointer.
+// Runs `ask` on the served program's thread, then `then` with its result on `back`. The caller's session stays alive
+// meanwhile if `then` holds a pointer to it.
 template <class Ask, class Then>
 void ask_served(Served& served, const asio::any_io_executor& back, Ask ask, Then then) {
     served.post([&served, ask = std::move(ask), then = std::move(then), back]() mutable {
@@ -33,14 +35,14 @@ void ask_served(Served& served, const asio::any_io_executor& back, Ask ask, Then
 
 constexpr std::size_t longest_request = 64 * 1024, longest_http_header = 8 * 1024;
 
-// One client of the socket: a request, its answer, the next request.
+// One client of the control socket. It repeats: read a request, write the answer.
 class ControlSession : public std::enable_shared_from_this<ControlSession> {
 public:
     ControlSession(Local::socket socket, Served& served, std::shared_ptr<void> place)
         : socket_(std::move(socket)), served_(served), place_(std::move(place)) {}
 
     void read();
-    // Says that there are too many, as far as the socket takes it at once.
+    // Reports that there are too many clients, if the socket accepts the text at once.
     static void turn_away(Local::socket& socket);
 
 private:
@@ -54,7 +56,7 @@ private:
     std::string output_;
 };
 
-// One client over HTTP: the same, and it has to send its request, and to take the answer, within http_patience.
+// One HTTP client. It must send its request, and read the answer, within http_patience each.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
     MetricsSession(Tcp::socket socket, Served& served, std::shared_ptr<void> place)

@@ -52,7 +52,7 @@ std::optional<Draft> Draft::of(const wire::FrameView& frame, const dialect::Mess
         draft.info_ = message->wire;
         draft.decoded_ = payload.size() <= message->wire.max_length;
     }
-    // A version 1 payload with extension fields is not what the specification wants, but nothing of it must be lost.
+    // The specification does not allow a version 1 payload with extension fields, but keep all of its bytes.
     if (frame.version() == wire::Version::v1)
         draft.info_.min_length = std::max(draft.info_.min_length, frame.payload_length());
     if (draft.decoded_) {
@@ -72,7 +72,7 @@ bool Draft::remap(const SystemMap& map) noexcept {
     bool changed = source != header_.source.system;
     header_.source.system = source;
     const auto at = info_.target_system_offset;
-    if (at >= info_.max_length) return changed;  // no such field: no_target is beyond every payload
+    if (at >= info_.max_length) return changed;  // no such field; no_target is larger than every payload length
     changed = changed || map[payload_[at]] != payload_[at];
     payload_[at] = map[payload_[at]];
     return changed;

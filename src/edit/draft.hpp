@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A frame taken apart: header and full payload, to be changed and written again. Private to module edit; lives on the stack, allocates nothing.
+// A decoded frame: header and full payload, to be changed and encoded again.
+// Private to the module edit; lives on the stack and allocates nothing.
 #pragma once
 
 #include <array>
@@ -13,11 +14,12 @@ namespace mavloom::edit {
 
 class Draft {
 public:
-    // Decodes the payload field by field where `message` defines all of it; otherwise (no definition, or bytes beyond it) takes it as it is, with
-    // the CRC_EXTRA that the checksum shows. Empty for a frame whose checksum fits no CRC_EXTRA.
+    // Decodes the payload field by field if `message` covers all of it.
+    // Otherwise (no definition, or a longer payload) keeps the payload as it is. Without definition, derives the
+    // CRC_EXTRA from the checksum. Returns empty if there is no definition and no CRC_EXTRA fits the checksum.
     [[nodiscard]] static std::optional<Draft> of(const wire::FrameView& frame, const dialect::Message* message) noexcept;
 
-    // Each says whether it changed something.
+    // Each of these returns true if it changed the frame; `patch` returns true if it applied a patch.
     bool remap(const SystemMap& map) noexcept;
     bool patch(std::span<const Patch> patches) noexcept;
     bool set_version(wire::Version version) noexcept;
@@ -34,7 +36,8 @@ private:
     Draft() = default;
 
     wire::FrameHeader header_;
-    // The definition's, its lengths widened to keep bytes beyond it; without one what the frame itself shows.
+    // The definition's info, with lengths increased to keep bytes beyond the definition.
+    // Without definition, the values derived from the frame itself.
     wire::MessageInfo info_;
     std::array<std::uint8_t, wire::max_payload_length> payload_{};
     bool known_ = false, decoded_ = false;

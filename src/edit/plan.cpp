@@ -18,7 +18,7 @@ namespace {
 
 tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
 
-// The whole of `text` as a number; empty where it is none.
+// Parses all of `text` as a number; empty if it is not one.
 template <class T>
 std::optional<T> number(std::string_view text) {
     T value{};
@@ -27,7 +27,7 @@ std::optional<T> number(std::string_view text) {
     return value;
 }
 
-// Every term of every list; terms may also stand in one text, separated by commas.
+// Calls `each` for every term of every list. One string may hold several terms, separated by commas.
 template <class F>
 SetupResult<void> for_all_terms(const std::vector<std::string>& lists, std::string_view option, F&& each) {
     for (const std::string& list : lists)
@@ -36,7 +36,7 @@ SetupResult<void> for_all_terms(const std::vector<std::string>& lists, std::stri
     return {};
 }
 
-// "[3]" at the end of the field's name, if it is there.
+// A field name, and the text between the brackets of an optional "[3]" at its end.
 struct ElementName {
     std::string_view field;
     std::optional<std::string_view> index;
@@ -149,7 +149,7 @@ SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& opti
                          [&](std::string_view term) { return add_remap(term, plan); });
     if (!done) return tl::unexpected(std::move(done.error()));
 
-    for (const auto& text : options.set) {  // not split: a comma can be part of a value
+    for (const auto& text : options.set) {  // not split at commas: a value may contain one
         auto patch = make_patch(dialect, text);
         if (!patch) return tl::unexpected(std::move(patch.error()).within("--set"));
         plan.patches.push_back(*patch);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The options of the stage as they are applied to frames: every word looked up once. Private to module edit.
+// The options of the editing stage, parsed and looked up once, ready to apply to frames.
+// Private to the module edit. Building a plan allocates.
 #pragma once
 
 #include <algorithm>
@@ -15,31 +16,31 @@
 
 namespace mavloom::edit {
 
-// Bytes of one field, to be copied over those of each message of this id.
+// A value of `--set`: bytes to copy into the payload of each message with this id.
 struct Patch {
     std::uint32_t id = 0;
     std::uint8_t offset = 0, size = 0;
     std::array<std::uint8_t, wire::max_payload_length> bytes{};
 };
 
-using SystemMap = std::array<std::uint8_t, 256>;  // what each system id becomes
+using SystemMap = std::array<std::uint8_t, 256>;  // index: old system id; value: new one
 
 [[nodiscard]] SystemMap identity_map() noexcept;
 
 struct Plan {
-    std::vector<std::uint32_t> only;  // by rising id; empty: all
-    std::vector<Patch> patches;       // by rising id
+    std::vector<std::uint32_t> only;  // by ascending id; empty: all messages
+    std::vector<Patch> patches;       // by ascending id
     dialect::RateLimiter<WallTime> limiter;
     SystemMap forward = identity_map(), backward = identity_map();
     bool remaps = false;
-    std::vector<std::string> warnings;  // rates that break protocols
+    std::vector<std::string> warnings;  // rates that interfere with protocols
 
     [[nodiscard]] bool admits(std::uint32_t id) const noexcept {
         return only.empty() || std::binary_search(only.begin(), only.end(), id);
     }
 };
 
-// Errors are `usage` and begin with the option.
+// Errors are `usage`; their text starts with the name of the option.
 [[nodiscard]] SetupResult<Plan> make_plan(const dialect::Dialect& dialect, const Options& options);
 
 }  // namespace mavloom::edit

@@ -64,7 +64,7 @@ private:
         return {Verdict::forward, draft.write(out_, signing)};
     }
 
-    // Nothing was asked for: the frame is written again, and goes on as it came where that gives other bytes.
+    // No option applies: re-encodes the frame, but forwards it as it came if the bytes would differ.
     Outcome plain(const wire::FrameView& frame, const Draft& draft) noexcept {
         if (!draft.decoded() || frame.is_signed()) return untouched(frame);
         const auto written = draft.write(out_, {});

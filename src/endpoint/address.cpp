@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hosts, ports, paths and percent escapes of endpoints. Syntax only: no name is resolved and no path looked at.
+// Hosts, ports, paths and percent escapes of endpoints. Checks syntax only: it resolves no names and opens no paths.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ bool is_ipv4(std::string_view text) {
     return text.size() < INET_ADDRSTRLEN && inet_pton(AF_INET, std::string(text).c_str(), &address) == 1;
 }
 
-// With or without a zone ("fe80::1%eth0").
+// Accepts a zone, as in "fe80::1%eth0".
 bool is_ipv6(std::string_view text) {
     const auto zone = text.find('%');
     if (zone != std::string_view::npos && zone + 1 == text.size()) return false;
@@ -74,7 +74,7 @@ std::string with_scheme(std::string_view scheme, std::string_view rest) {
     return scheme.empty() ? shown(rest) : fmt::format("{}://{}", scheme, shown(rest));
 }
 
-// The message for text that holds no port, or an IPv6 address without brackets.
+// The error for text without a port, or for an IPv6 address without brackets.
 tl::unexpected<SetupError> no_port(std::string_view text, std::string_view scheme) {
     if (is_ipv6(text))
         return usage(fmt::format("an IPv6 address needs brackets and a port; type {}",
@@ -86,7 +86,7 @@ tl::unexpected<SetupError> no_port(std::string_view text, std::string_view schem
                              with_scheme(scheme, fmt::format("{}:14550", text.empty() ? "HOST" : text))));
 }
 
-// Where the colon before the port stands; npos if there is none outside brackets.
+// The position of the colon before the port; npos if there is none outside brackets.
 std::size_t port_colon(std::string_view text) {
     const auto bracket = text.rfind(']');
     const auto colon = text.rfind(':');
@@ -137,7 +137,8 @@ SetupResult<std::string> parse_host(std::string_view text, std::string_view sche
         const auto inner = percent_decoded(text.substr(1, text.size() - 2));
         if (inner && is_ipv6(*inner)) return *inner;
         const auto raw = text.substr(1, text.size() - 2);
-        if (is_ipv6(raw)) return std::string(raw);  // a zone that is not escaped: [fe80::1%eth0]
+        // An unescaped zone: [fe80::1%eth0].
+        if (is_ipv6(raw)) return std::string(raw);
         if (is_ipv4(raw) || is_host_name(raw))
             return usage(
                 fmt::format("brackets are for IPv6 only; type {}", with_scheme(scheme, std::string(raw) + suffix)));
@@ -165,7 +166,8 @@ SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view sc
         return usage(fmt::format("{} stands behind the port; type {}", in_quotes(port_text.substr(slash)),
                                  with_scheme(scheme, text.substr(0, colon + 1 + slash))));
     if (port_text.empty()) return no_port(text.substr(0, colon), scheme);
-    // The "1" of "::1" is no port; the "5760" of "::1:5760" was meant as one, although the whole could be an address.
+    // In "::1" the "1" is no port. In "::1:5760" the "5760" is meant as one, although the whole is also a valid
+    // address.
     if (text.front() != '[' && is_ipv6(text) && !is_ipv6(text.substr(0, colon))) return no_port(text, scheme);
     const auto port = parse_port(port_text);
     if (!port) return tl::unexpected(port.error());

@@ -58,7 +58,7 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);
     if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
         return refused(endpoint, "all who are heard here are one link; max_peers= has no meaning");
-    constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // offsets within a queue have 32 bits
+    constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
     if (o.queue_bytes > most_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
 }

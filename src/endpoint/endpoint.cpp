@@ -17,7 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 9> names{"udpin",  "udpout", "udpbcast", "udpmcast", "tcpin",
                                                 "tcpout", "serial", "shm",      "tlog"};
 
-// Spellings of other programs, with what they are here. pymavlink's `udp:` listens, other programs' sends: it has to be said.
+// Schemes of other programs, and what to use instead. `udp:` is ambiguous: it listens in pymavlink, but sends in
+// other programs.
 struct Foreign {
     std::string_view scheme;
     std::string_view advice;
@@ -40,7 +41,7 @@ constexpr std::array foreign_schemes{
     Foreign{"file", "is written tlog://PATH for a recording"},
 };
 
-// pymavlink's way to write addresses: no slashes. Its `tcp:` connects.
+// pymavlink's addresses without slashes. Its `tcp:` connects.
 struct Short {
     std::string_view prefix;
     Scheme scheme;
@@ -52,13 +53,15 @@ constexpr std::array short_forms{Short{"udpin:", Scheme::udpin}, Short{"udpout:"
 struct Split {
     Scheme scheme = Scheme::udpin;
     std::string_view rest;   // address or path
-    std::string_view query;  // behind '?'
+    std::string_view query;  // after the '?'
     bool has_query = false;
-    bool plain_path = false;      // a path as the shell gives it: percent signs are percent signs
-    std::string_view comma_baud;  // "/dev/ttyACM0,57600"
+    // A path from the shell: percent signs are not escapes.
+    bool plain_path = false;
+    // The "57600" of "/dev/ttyACM0,57600".
+    std::string_view comma_baud;
 };
 
-// What to put into the advice for "udp://:14540": the user's own host and port where he typed them.
+// Fills in the advice for "udp://:14540", with the host and port that the user typed, if any.
 std::string advice_for(std::string_view advice, std::string_view rest) {
     while (!rest.empty() && rest.front() == '/') rest.remove_prefix(1);
     const auto colon = rest.rfind(':');
@@ -81,7 +84,7 @@ tl::unexpected<SetupError> unknown_scheme(std::string_view scheme, std::string_v
     return usage(fmt::format("there is no scheme {}{}", in_quotes(scheme), hint));
 }
 
-// Whether `text` begins with SCHEME://, known or not.
+// True if `text` begins with SCHEME://, known or not.
 bool names_scheme(std::string_view text) {
     const auto slashes = text.find("://");
     return slashes != std::string_view::npos && text.substr(0, slashes).find('?') == std::string_view::npos &&
@@ -93,7 +96,7 @@ bool is_short_form(std::string_view text) {
                        [&](const Short& form) { return text.starts_with(form.prefix); });
 }
 
-// "127.0.0.1:14550" and everything else that names no scheme.
+// The error for "127.0.0.1:14550" and all other text without a scheme.
 tl::unexpected<SetupError> no_scheme(std::string_view text) {
     const auto address = parse_host_port(text, {});
     if (address && check_address(Scheme::udpout, *address))

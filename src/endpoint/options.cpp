@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of endpoint options: name, the schemes that take it, how its text becomes a value (DESIGN.md section 4).
+// The table of endpoint options: name, schemes that take it, default, and how to parse its text
+// (docs/guide/endpoints.md).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text
     return {};
 }
 
-constexpr std::uint64_t longest_frame_bytes = 280;  // MAVLink 2, 255 bytes of payload, signed
+constexpr std::uint64_t longest_frame_bytes = 280;  // MAVLink 2, 255 payload bytes, signed
 constexpr std::uint64_t longest_datagram_bytes = 65507;
 constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 40;
 constexpr std::uint64_t most_rcvbuf_bytes = std::numeric_limits<std::int32_t>::max();  // SO_RCVBUF is an int
@@ -215,7 +216,8 @@ std::string schemes_text(SchemeSet schemes) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// A rule of the whole router, taken for an option of one endpoint: by its name, nearly, or by its beginning ("dedup").
+// A hint for a key of [router] that was given as an endpoint option. It recognises the exact name, a near miss, and a
+// unique prefix ("dedup").
 std::string router_key_hint(std::string_view typed) {
     constexpr std::size_t least_beginning = 4;
     auto meant = nearest(typed, router_keys);
@@ -236,7 +238,8 @@ std::vector<std::string_view> option_names_for(Scheme scheme) {
 }
 
 std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept {
-    if (name == "idle" && (set_of(scheme) & udp_schemes) != 0) return "60";  // TCP clients have none unless set
+    // TCP clients have no default.
+    if (name == "idle" && (set_of(scheme) & udp_schemes) != 0) return "60";
     const Option* const option = find_option(name);
     return option == nullptr ? std::string_view{} : option->default_text;
 }

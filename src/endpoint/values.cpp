@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The values of endpoint options and configuration keys: durations, sizes, numbers, filter and rate terms.
+// Parses the values of endpoint options and configuration keys: durations, sizes, numbers, filter terms and rate
+// terms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace mavloom::endpoint {
 
 namespace {
 
-// The number at the start of `text`, and what follows it. Signs are refused: no value of the grammar is negative.
+// The number at the start of `text`, and the text after it. Signs are refused, because no value of the grammar is
+// negative.
 template <class T>
 struct Leading {
     T value{};
@@ -90,7 +92,7 @@ SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text) {
             fmt::format("{} is no duration; type for example 2, 2s, 500ms, 1m or 1h (seconds unless a unit follows)",
                         in_quotes(text)));
     const double ns = number.value * unit->value;
-    constexpr double ten_years_ns = 3653 * 86400e9;  // far below what nanoseconds in 64 bits hold
+    constexpr double ten_years_ns = 3653 * 86400e9;  // far below the range of 64-bit nanoseconds
     if (ns > ten_years_ns) return usage(fmt::format("{} is longer than ten years", in_quotes(text)));
     return std::chrono::nanoseconds{std::llround(ns)};
 }

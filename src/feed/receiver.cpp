@@ -9,11 +9,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_names = 65'536;        // likewise for links that come and go
-constexpr std::size_t most_sources = 65'536;      // bounds what forged system and component ids can make us remember
-constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 of header and the longest frame, rounded
-constexpr std::size_t frames_a_turn = 4096;       // of recordings, so that live links get their turn
-constexpr auto drops_every = 1s;                  // how often the kernel is asked for its drops
+constexpr std::size_t most_names = 65'536;        // bounds memory if very many links come and go
+constexpr std::size_t most_sources = 65'536;      // bounds memory if system and component ids are forged
+constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 bytes of header and the longest frame, rounded up
+constexpr std::size_t frames_a_turn = 4096;       // from recordings and rings, so that live links get their turn
+constexpr auto drops_every = 1s;                  // how often to ask the kernel for its drop counts
 
 }  // namespace
 

@@ -9,16 +9,19 @@
 
 namespace mavloom::feed {
 
-// How often an empty pipe is looked at.
+// How often to check an empty pipe for data.
 static constexpr std::chrono::milliseconds pipe_look{5};
-// How much damage is read before signals, ends and live links are looked at again.
+// How many bytes of damage to read before checking signals, deadlines and live links again.
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
-// A drain ends after some turns without a frame (one full of junk has none either). Where frames keep coming it ends after as many turns as read
-// 8 MiB of a stream, at 128 KiB a turn, that brought nothing which the kernel had received before; and in any case after more turns than
-// empty a receive buffer of 64 MiB, 64 datagrams of 768 bytes a turn. Its first turns wait, for the system may still be handing over what was sent.
+// A drain ends at the first of these limits:
+// - last_empty_turns turns in a row without a frame. There are several, because a turn of junk has no frame either.
+// - last_late_turns turns in a row without a frame that arrived before the drain began. They read 8 MiB of a stream, at
+//   128 KiB a turn.
+// - most_drain_turns turns in all. They empty a receive buffer of 64 MiB, at 64 datagrams of 768 bytes a turn.
+// The first turns wait, because the system may still be delivering what was sent.
 static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
-// How many turns rings wait for a caller that has no room: some hundred milliseconds, for a disk that is busy.
+// How many turns lossless rings wait for a caller without room: some hundred milliseconds, for a busy disk.
 static constexpr int most_full_turns = 300;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect, Copies copies) {
@@ -34,7 +37,7 @@ Sources::~Sources() = default;
 
 namespace {
 
-// The index is built by a reader of its own, so that damage is counted once.
+// Builds the index with a second reader, so that `reader` counts damage only once.
 SetupResult<void> skip_ahead(record::TlogReader& reader, const std::string& path, const wire::MessageTable& table,
                              Nanoseconds skip) {
     auto scan = record::TlogReader::open(path, table);
@@ -48,7 +51,7 @@ SetupError no_record(const std::string& name) {
     return {SetupCode::bad_input, 0, name + " holds no record: is it a .tlog?"};
 }
 
-// A pipe is left alone: what was read of it would be gone.
+// False for a pipe or device, because reading consumes its data.
 bool may_be_read_twice(const std::string& path) {
     std::error_code unknown;
     const auto type = std::filesystem::status(path, unknown).type();
@@ -82,7 +85,7 @@ SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, M
     }
     auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::tell);
     if (!reader) {
-        reader.error().code = SetupCode::bad_input;  // the user named it as input: status 3, missing or unreadable alike
+        reader.error().code = SetupCode::bad_input;  // an input file: exit status 3, whether missing or unreadable
         return tl::unexpected(std::move(reader.error()));
     }
     if (skip != Nanoseconds{} && !reader->is_file())
@@ -131,7 +134,7 @@ bool Sources::advance(Recording& recording, link::LinkHandler& handler) {
     using Stop = record::TlogReader::Stop;
     if (!record && record.error() == Stop::damage) {
         recording.next.reset();
-        if (recording.pacer.waits()) recording.due = mono_now();  // the others do not wait for it
+        if (recording.pacer.waits()) recording.due = mono_now();  // lets the other recordings go first
         return false;
     }
     if (!record && record.error() == Stop::nothing_yet) {
@@ -152,20 +155,20 @@ bool Sources::advance(Recording& recording, link::LinkHandler& handler) {
         return true;
     }
     recording.next = *record;
-    // Those that wait for nothing are all due at once: the order of their records is that of the records' times.
+    // Recordings without pacing are always due; earliest() then orders them by the times of their records.
     if (recording.pacer.waits()) recording.due = recording.pacer.due(record->time);
     else recording.due = MonoTime{};
     return true;
 }
 
-// What is due, the earliest first: several recordings are played side by side.
+// Delivers the records that are due, earliest first, across all recordings.
 std::size_t Sources::play(link::LinkHandler& handler, std::size_t most_frames) {
     const MonoTime now = mono_now();
     std::size_t played = 0;
     for (; played < most_frames; ++played) {
         Recording* const first = earliest();
         if (first == nullptr || first->due > now) break;
-        if (!first->next) {  // at the very beginning: reading is left to the loop; or behind damage
+        if (!first->next) {  // nothing read yet: at the start, after damage or after an empty pipe
             if (!advance(*first, handler)) break;
             continue;
         }
@@ -181,7 +184,7 @@ Sources::Recording* Sources::earliest() noexcept {
     Recording* first = nullptr;
     for (const auto& recording : recordings_) {
         if (recording->ended) continue;
-        // One whose next record is not read yet goes first: it may be the earliest.
+        // A recording whose next record has not been read yet goes first, because that record may be the earliest.
         const bool sooner = first == nullptr || recording->due < first->due ||
                             (recording->due == first->due && first->next &&
                              (!recording->next || recording->next->time < first->next->time));
@@ -201,7 +204,7 @@ std::size_t Sources::turn(link::LinkHandler& handler, MonoTime deadline, Room ro
 
 namespace {
 
-// Hears whether a frame was received before a moment. The time of a stream's frame is that of its reading.
+// Notes whether a frame arrived at or before `moment`. A frame from a stream has the time at which it was read.
 class EarlyFrames final : public link::LinkHandler {
 public:
     EarlyFrames(link::LinkHandler& handler, WallTime moment) : handler_(handler), moment_(moment) {}
@@ -227,7 +230,7 @@ private:
 
 }  // namespace
 
-// Counts turns, not time: on a busy machine time may pass before the first of them.
+// Limits turns, not time: on a busy machine, much time may pass before the first turn.
 void Sources::drain(link::LinkHandler& handler, const std::function<Room()>& room) {
     rings_->end_here();
     EarlyFrames early(handler, wall_now());

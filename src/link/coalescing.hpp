@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// When turns begin, as network cards coalesce interrupts: where frames come so fast that the next is there as soon as a turn is over, a router
-// that takes each by itself spends most of its time in waking up. Turns that begin at least an interval apart share system calls and datagrams.
-// Private to module link.
+// Delays turns under heavy load, as network cards coalesce interrupts. If frames arrive faster than a turn takes, a
+// router that handles each one separately spends most of its time waking up. Turns that start at least an interval
+// apart share system calls and datagrams. Private to module link; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,17 @@ namespace mavloom::link::detail {
 
 class Coalescing {
 public:
-    // Without it every turn may begin at once.
+    // Without permission every turn may start at once.
     void allow(bool allowed) noexcept { allowed_ = allowed; }
 
-    // It begins with a window of more than a frame every 20 us, far more than vehicles send, a burst of them included; and ends with one of fewer.
+    // Coalescing starts after a window with more than one frame every 20 us, and stops after one with fewer. Vehicles
+    // send far less than that, even in bursts.
     static constexpr Nanoseconds window = std::chrono::milliseconds{10};
     static constexpr std::int64_t many_frames = 500;
     static constexpr Nanoseconds turn_interval = std::chrono::microseconds{200};
 
-    // A turn that began at `began` and is over at `now` has handled `frames`, and left more to be read if `more_waits`.
+    // Reports a finished turn: it began at `began`, ended at `now` and handled `frames`. `more_waits`: it left input
+    // unread.
     void count(MonoTime began, MonoTime now, std::size_t frames, bool more_waits) noexcept {
         frames_ += static_cast<std::int64_t>(frames);
         if (const Nanoseconds passed = now - since_; passed >= window) {
@@ -33,7 +35,7 @@ public:
         rest_until_.reset();
         if (allowed_ && busy_ && !more_waits && began + turn_interval > now) rest_until_ = began + turn_interval;
     }
-    // When the next turn may begin; nothing where that is now.
+    // When the next turn may start; empty: now.
     [[nodiscard]] std::optional<MonoTime> rest_until() const noexcept { return rest_until_; }
 
 private:

@@ -7,9 +7,9 @@
 
 namespace mavloom::link::detail {
 
-// Large enough that one read takes what a fast sender wrote in a turn, small enough for the second-level cache.
+// One read takes all that a fast sender writes during a turn. Still small enough for the second-level cache.
 static constexpr std::size_t stream_buffer_bytes = 128 * 1024;
-// While something is blocked, what became too old is dropped at least this often.
+// While an outlet is blocked, frames that are too old are dropped at least this often.
 static constexpr std::chrono::milliseconds expire_interval{100};
 
 net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options) {
@@ -94,7 +94,7 @@ void Core::run_tickers() {
         Ticker& ticker = *tickers_[i];
         const auto due = ticker.tick_due();
         if (due && *due <= now_) ticker.tick(now_);
-        if (i >= tickers_.size() || tickers_[i] != &ticker) continue;  // it ended itself
+        if (i >= tickers_.size() || tickers_[i] != &ticker) continue;  // it removed itself
         if (ticker.tick_due()) {
             ++i;
         } else {
@@ -105,7 +105,7 @@ void Core::run_tickers() {
     }
 }
 
-// What could not be sent stays scheduled.
+// An outlet that is still blocked stays scheduled.
 void Core::flush() {
     if (outlets_.empty()) return;
     flushing_.swap(outlets_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all endpoints of one Links share: the loop, buffers, the table of links, the way of a frame from parser to handler and from `send`
-// to a queue. Private to module link; one owner thread.
+// What all endpoints of one Links object share: event loop, buffers and link table. It passes frames from parsers to
+// the handler and from `send` to queues. Private to module link; single owner thread.
 #pragma once
 
 #include <algorithm>
@@ -28,22 +28,22 @@
 
 namespace mavloom::link::detail {
 
-// Something with bytes to send at the end of a turn: a UDP socket with all its peers, or one TCP stream.
+// Sends queued bytes at the end of a turn: a UDP socket with all its peers, or one stream.
 class Outlet {
 public:
     virtual ~Outlet() = default;
     virtual void flush() = 0;
-    // Something is still queued that the kernel would not take.
+    // True while something is queued that the kernel does not accept.
     [[nodiscard]] virtual bool blocked() const = 0;
-    // Drops what has become too old while blocked.
+    // Drops what became too old while blocked.
     virtual void expire(MonoTime now) = 0;
 
-    bool scheduled = false;  // stands in Core's list
+    bool scheduled = false;  // is in Core's list
 };
 
 class Signature;
 
-// What the links of an endpoint speak: which frames they find, and how these queue.
+// The dialect of an endpoint's links: which frames they find, and how these frames queue.
 struct Language {
     const wire::MessageTable& table;
     MessageClasses classes;
@@ -54,28 +54,30 @@ struct Link {
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
     virtual ~Link() = default;
-    // Tells the outlet that `queue` has something new.
+    // Tells the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
-    LinkId id;  // this and the next: given by Core::add_link
+    LinkId id;  // Core::add_link sets this and `language`
     const Language* language = nullptr;
     EndpointId endpoint;
     std::string name;
     bool up = false;
     bool told_up = false;
-    bool queued = false;         // waits in its outlet
-    bool finds_in_ring = false;  // what goes to it is in the ring: counted, never queued
+    // Its outlet knows that the queue is not empty.
+    bool queued = false;
+    // The far side reads outgoing frames from the ring: count them, never queue them.
+    bool finds_in_ring = false;
     Signature* signature = nullptr;
     LinkCounters counters;
     net::BlockQueue queue;
     wire::SequenceTracker tracker;
 };
 
-// sign= and verify= of one endpoint.
+// Signing (sign=) and verification (verify=) for one endpoint.
 class Signature {
 public:
-    // The times of an earlier run come from `states`, which outlives the object; `notices` gets what is to be said of them.
-    // `signs_as` gives its frames their link id.
+    // Loads the keys. Timestamps of earlier runs come from `states`, which must outlive the object; problems with
+    // them go to `notices`. `signs_as` supplies the link id of signed frames. Returns null if neither option is set.
     [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const endpoint::EndpointOptions& options,
                                                                       EndpointId signs_as, KeyStates& states,
                                                                       std::vector<std::string>& notices);
@@ -84,19 +86,20 @@ public:
     Signature& operator=(const Signature&) = delete;
     ~Signature();
 
-    // Notes in the keys' files the times that were used so far.
+    // Copies the timestamps used so far into the key files' states.
     void keep_times() const;
-    // Whether the files hold other keys now; not so while one of them cannot be read.
+    // True if the key files now hold other keys. False while one of them cannot be read.
     [[nodiscard]] bool has_other_keys() const;
     [[nodiscard]] bool verifies() const noexcept { return judge_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // `accepts` ahead of the parser that will find the same bytes once more: that second look is not taken for a replay.
+    // Like `accepts`, but called before the parser finds the same bytes again. The second check then does not treat
+    // the frame as a replay.
     [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
-    // The bytes that were vouched for are about to go.
+    // The buffer with the vouched-for bytes is about to be reused.
     void forget_vouched() noexcept { vouched_ = nullptr; }
-    // The frame with our signature, in a buffer that lives until the next call. The frame itself where nothing is to be signed (MAVLink 1),
-    // or where nobody knows how: its id has no definition and no CRC_EXTRA agrees with its checksum.
+    // Returns the signed frame, in a buffer that is valid until the next call. Returns the original frame if it
+    // cannot be signed: MAVLink 1, or an unknown id whose checksum matches no CRC_EXTRA.
     [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
                                        WallTime now) noexcept;
 
@@ -114,19 +117,20 @@ private:
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
     std::shared_ptr<KeyJudge> judge_;    // null without verify=
-    std::optional<wire::Verifier> own_;  // in a group
+    std::optional<wire::Verifier> own_;  // in a group: per endpoint
     std::optional<wire::Signer> signer_;
-    const std::uint8_t* vouched_ = nullptr;  // where the frame begins that was verified ahead
+    // Start of the frame that `vouches` has already verified.
+    const std::uint8_t* vouched_ = nullptr;
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};
 };
 
-// Link ids rise and are never given twice, yet a look-up is one load: an id is skipped while its place in the table is taken.
+// Looks up links by id with one load. Ids increase and are never reused. `add` skips an id whose slot is still taken.
 class LinkTable {
 public:
     LinkTable() : places_(64) {}
-    // Gives the link its id.
+    // Assigns the link's id.
     void add(Link& link);
-    // Ids go on behind this one.
+    // The next id is greater than `last`.
     void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }
     void remove(LinkId id) noexcept;
     [[nodiscard]] Link* find(LinkId id) const noexcept {
@@ -141,14 +145,14 @@ public:
     }
 
 private:
-    std::vector<Link*> places_;  // a power of two, at most half taken
+    std::vector<Link*> places_;  // size: a power of two; at most half used
     std::size_t size_ = 0;
     std::uint32_t last_ = 0;
 };
 
 class Core;
 
-// What an endpoint is made from.
+// The arguments for opening an endpoint.
 struct Opening {
     Core& core;
     const endpoint::Endpoint& endpoint;
@@ -156,7 +160,7 @@ struct Opening {
     std::unique_ptr<Signature> signature;
 };
 
-// One endpoint of the grammar, opened.
+// An open endpoint of any scheme.
 class OpenEndpoint {
 public:
     explicit OpenEndpoint(Opening& opening) : signature(std::move(opening.signature)) {
@@ -169,19 +173,19 @@ public:
     virtual std::size_t send(const wire::FrameView& frame) = 0;
     [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
     virtual void refresh_kernel_drops() {}
-    // Counts what was sent and not yet known to have been refused.
+    // Counts frames that were sent and not refused so far.
     virtual void settle_sent() {}
-    // Closes one of its peers or clients; false where the link is not one of several.
+    // Closes one peer or client. Returns false if the endpoint cannot have several links.
     virtual bool close_link(LinkId) { return false; }
-    // The answer to a look-up that this endpoint asked for.
+    // Receives the answer to a look-up of this endpoint.
     virtual void on_resolved(net::Resolver::Answer&&) {}
-    // Keeps the sums of a link that has been removed.
+    // Adds the counters of a removed link to the endpoint's sums.
     void count_gone(const Link& link) noexcept;
 
     EndpointInfo info;
     EndpointCounters counters;
     std::unique_ptr<Signature> signature;
-    std::optional<SetupError> failure;  // Links::failure
+    std::optional<SetupError> failure;  // see Links::failure
 };
 
 [[nodiscard]] net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options);
@@ -193,7 +197,7 @@ public:
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
     [[nodiscard]] net::EventLoop& loop() noexcept { return *loop_; }
-    // An endpoint whose links speak another language than the rest; to be said before it is opened, until it is forgotten.
+    // Gives an endpoint its own dialect. Call it before the endpoint is opened; `forget_language` ends it.
     void speaks(EndpointId endpoint, const dialect::Dialect& dialect);
     void forget_language(EndpointId endpoint) noexcept { languages_.erase(endpoint); }
     [[nodiscard]] const wire::MessageTable& table(EndpointId endpoint) const noexcept {
@@ -205,12 +209,12 @@ public:
     [[nodiscard]] net::Resolver& resolver() noexcept { return resolver_; }
     [[nodiscard]] KeyStates& key_states() noexcept { return key_states_; }
     [[nodiscard]] const LinkTable& links() const noexcept { return links_; }
-    // The instant of this turn.
+    // The clock reading that this turn uses.
     [[nodiscard]] MonoTime now() const noexcept { return now_; }
     void count_links_from(LinkId last) noexcept { links_.count_from(last); }
-    // How often events were looked at.
+    // Number of turns so far.
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
-    // For what is done between turns.
+    // Updates `now` for calls between turns.
     void refresh_now() { now_ = mono_now(); }
 
     void leave_loss_to_owner() noexcept { owner_counts_loss_ = true; }
@@ -222,14 +226,16 @@ public:
         return update;
     }
 
-    // `link.name` is made unique. The handler is told at once inside a turn, else when the next begins.
+    // `add_link` makes `link.name` unique and assigns the id. Inside a turn the handler hears of a change at once.
+    // Outside a turn, `set_up` and `notice` reach it at the start of the next turn, and a link that goes down is not
+    // reported.
     void add_link(Link& link);
     void set_up(Link& link);
     void set_down(Link& link, std::string_view why);
     void remove_link(Link& link, std::string_view why);
     void notice(EndpointId endpoint, std::string text);
 
-    // What a link's parser found.
+    // Handles what a link's parser found.
     void on_event(Link& link, const wire::ParseEvent& event, WallTime time) {
         if (event.kind == wire::ParseEvent::Kind::frame) [[likely]] {
             on_frame(link, event, time);
@@ -237,12 +243,12 @@ public:
             on_bad_bytes(link, event);
         }
     }
-    // True when the frame was queued.
+    // Signs the frame if the endpoint has sign=, and queues it. Returns true if it was queued.
     bool send(Link& link, const wire::FrameView& frame) {
         return queue(link,
                      link.signature == nullptr ? frame : link.signature->sign(frame, link.language->table, wall_now()));
     }
-    // As it is.
+    // Queues the frame unchanged.
     bool queue(Link& link, const wire::FrameView& frame);
 
     void schedule(Outlet& outlet) {
@@ -250,13 +256,14 @@ public:
         outlets_.push_back(&outlet);
     }
     void forget(Outlet& outlet) noexcept;
-    // This turn's reading left something behind.
+    // This turn's reading left input behind.
     void note_more_waits() noexcept { more_waits_ = true; }
-    // Whether turns of a rush may begin later than they could.
+    // Whether turns may be delayed under heavy load.
     void allow_coalescing(bool allowed) noexcept { coalescing_.allow(allowed); }
 
-    // Asks for `endpoint`'s host; the answer comes to on_resolved within a turn, or is waited for: but when the turns have begun there are
-    // frames to be passed on, and nobody waits.
+    // Looks up a host for `endpoint`. `resolve` returns at once and delivers the answer to on_resolved in a later
+    // turn. Before the first turn, `resolve_now` waits up to `limit` for the answer. After it, the call must not
+    // delay frames: only a numeric host is answered at once, and other answers go to on_resolved.
     void resolve(OpenEndpoint& endpoint, const endpoint::HostPort& host);
     [[nodiscard]] bool running() const noexcept { return turns_ != 0; }
     [[nodiscard]] std::optional<net::Resolver::Answer> resolve_now(const endpoint::HostPort& host,
@@ -264,19 +271,19 @@ public:
                                                                    OpenEndpoint& endpoint);
     void forget(const OpenEndpoint& endpoint) noexcept;
 
-    // A stream parser that holds bytes back gives its deadline here; `tick` is called once when it has passed.
+    // A stream parser that holds bytes back. `tick` is called once its deadline has passed.
     class Ticker {
     public:
         virtual ~Ticker() = default;
         [[nodiscard]] virtual std::optional<MonoTime> tick_due() const = 0;
         virtual void tick(MonoTime now) = 0;
-        bool ticking = false;  // stands in Core's list
+        bool ticking = false;  // is in Core's list
     };
     void keep_ticking(Ticker& ticker) {
         if (!std::exchange(ticker.ticking, true)) tickers_.push_back(&ticker);
     }
     void forget(Ticker& ticker) noexcept;
-    // Destroyed when the turn is over: objects may end themselves inside their own callbacks.
+    // Destroys the link at the end of the turn, because an object may end inside its own callback.
     void bury(std::unique_ptr<Link> link) { graveyard_.push_back(std::move(link)); }
     [[nodiscard]] bool pending() const;
 
@@ -297,14 +304,15 @@ private:
     [[nodiscard]] bool name_taken(const std::string& name) const;
 
     const Language language_;
-    std::map<EndpointId, Language> languages_;  // where it is another
+    // Endpoints with a dialect of their own.
+    std::map<EndpointId, Language> languages_;
     std::unique_ptr<net::EventLoop> loop_;
     net::Resolver resolver_;
     net::ReceiveBatch receive_;
     net::SendBatch send_;
     std::vector<std::uint8_t> stream_;
     LinkTable links_;
-    LinkHandler* handler_ = nullptr;  // inside a turn only
+    LinkHandler* handler_ = nullptr;  // null outside a turn
     MonoTime now_ = mono_now();
     std::uint64_t turns_ = 0;
     bool owner_counts_loss_ = false;

@@ -54,9 +54,10 @@ public:
 
     Core core;
     endpoint::RoutingOptions routing = endpoint::RoutingOptions::refused;
-    std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // by id; null: removed
+    std::vector<std::unique_ptr<OpenEndpoint>> endpoints;  // index: id; null: removed
     bool may_repeat = false;
-    // By label: to the far side an endpoint that is opened anew stays the same link. Of several to one place the first that is there.
+    // By label. An endpoint that is reopened keeps signing with its old link id, so that the far side sees the same
+    // link. Of several endpoints with one label, the first open one (`holder`) has the id.
     struct SignsAs {
         EndpointId id, holder;
     };
@@ -113,7 +114,7 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
     impl_->core.refresh_now();
     if (auto checked = endpoint::check_supported(endpoint, impl_->routing); !checked)
         return tl::unexpected(std::move(checked).error());
-    // Several may have a port of their own each from port 0.
+    // Several endpoints may request port 0; each gets its own port.
     const bool has_name = endpoint.scheme == endpoint::Scheme::serial || endpoint.scheme == endpoint::Scheme::shm ||
                           endpoint.address.port != 0;
     for (const auto& other : impl_->endpoints) {

@@ -44,7 +44,7 @@ MessageClasses::Rule MessageClasses::find(MessageId id) const noexcept {
     return at != far_.end() && at->id == id.value ? at->rule : Rule{};
 }
 
-// FNV-1a; only instances longer than two bytes (names) need it.
+// FNV-1a, for instance fields longer than two bytes (names).
 static std::uint64_t hash_of(ByteView bytes) noexcept {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (const std::uint8_t byte : bytes) h = (h ^ byte) * 0x100000001b3u;
@@ -57,7 +57,8 @@ std::uint64_t MessageClasses::key(const wire::FrameView& frame, Rule rule) noexc
     const std::uint64_t base = present | frame.id().value | std::uint64_t{frame.system().value} << 24 |
                                std::uint64_t{frame.component().value} << 32;
     if (rule.instance_size == 0) return base;
-    // A cut payload's missing bytes are zeros, and zeros at the end of the instance change nothing here.
+    // MAVLink 2 truncates trailing zeros of the payload, so missing bytes are zeros. Zeros at the end of the instance
+    // do not change the key.
     const ByteView payload = frame.payload();
     if (rule.instance_offset >= payload.size()) return base;
     ByteView instance = payload.subspan(rule.instance_offset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How important a message is to a full queue, and which newer frame makes an older one worthless (DESIGN.md rule 2, docs/guide/queues.md).
-// Immutable after construction; look-ups allocate nothing. Private to module link.
+// How important a message is to a full queue, and which newer frame supersedes an older one (docs/guide/queues.md).
+// Immutable after construction; look-ups do not allocate. Private to module link.
 #pragma once
 
 #include <array>
@@ -18,16 +18,16 @@ public:
     struct Rule {
         std::uint8_t block_class = 2;
         bool replaceable = false;
-        std::uint8_t instance_offset = 0, instance_size = 0;  // size 0: the message has no instance field
+        std::uint8_t instance_offset = 0, instance_size = 0;  // size 0: no instance field
     };
 
-    // Without a dialect nobody knows the instance fields: nothing is replaced.
+    // Without a dialect the instance fields are unknown, so no frame supersedes another.
     explicit MessageClasses(const wire::MessageTable& table);
     explicit MessageClasses(const dialect::Dialect& dialect);
 
-    // An id without definition is telemetry that is never replaced.
+    // An id without definition counts as telemetry that is never superseded.
     [[nodiscard]] Rule of(MessageId id) const noexcept { return id.value < direct_size ? direct_[id.value] : find(id); }
-    // Source, id and instance as one word, never 0 for a replaceable message; 0 for the others.
+    // Source, id and instance in one word: nonzero for a replaceable message, 0 for the others.
     [[nodiscard]] static std::uint64_t key(const wire::FrameView& frame, Rule rule) noexcept;
 
 private:
@@ -41,7 +41,7 @@ private:
     [[nodiscard]] Rule find(MessageId id) const noexcept;
 
     std::array<Rule, direct_size> direct_{};
-    std::vector<Far> far_;  // by id
+    std::vector<Far> far_;  // sorted by id
 };
 
 }  // namespace mavloom::link

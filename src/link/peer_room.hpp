@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which peer gives way where there are as many as there may be. Private to module link.
+// Chooses the peer to evict when an endpoint has as many as it may. Private to module link.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,12 @@
 
 namespace mavloom::link::detail {
 
-// A peer that was heard more than once and was heard this lately does not give way to a newcomer: a flood of strangers cannot push out
-// those who send heartbeats (1 Hz).
+// A peer that was heard at least twice, the last time within this period, is not evicted. A flood of unknown senders
+// thus cannot displace peers that send heartbeats (1 Hz).
 inline constexpr std::chrono::seconds protected_for{2};
 
-// The longest idle goes first: of those heard once, else of all that are not protected. The end: nobody.
+// The peer to evict: the longest idle of those heard once, else the longest idle of the rest. Returns the end
+// iterator if that peer is protected.
 template <class Peer>
 [[nodiscard]] auto gives_way(const std::vector<std::unique_ptr<Peer>>& peers, MonoTime now) {
     const auto rank = [](const std::unique_ptr<Peer>& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How an endpoint tries again for ever: 100 ms after the first failure, doubling to 5 s (DESIGN.md section 4); of a series of failures the
-// first is told. Private to module link; one owner thread.
+// Retries an endpoint indefinitely: 100 ms after the first failure, then doubling to 5 s. Of a series of failures
+// only the first is reported. Private to module link; single owner thread.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 
 namespace mavloom::link::detail {
 
-// The endpoint's one timer for that: when it fires, `handler` looks what is to be done.
+// The endpoint's retry timer. When it fires, `handler` decides what to do.
 class Retry {
 public:
     static constexpr Nanoseconds first = std::chrono::milliseconds(100);
     static constexpr Nanoseconds longest = std::chrono::seconds(5);
-    // A connection that held for so long begins anew with the first delay when it ends.
+    // After a connection that lasted this long, the delay starts again at `first`.
     static constexpr std::chrono::seconds lasting{5};
 
     Retry(Core& core, OpenEndpoint& endpoint, net::TimerHandler& handler)
@@ -31,7 +31,7 @@ public:
         tell(error.text, "trying again");
         fail_silently(error);
     }
-    // Of one that was told of already.
+    // Retries without reporting the error, which was already reported.
     void fail_silently(const SetupError& error) {
         endpoint_.failure = error;
         later();
@@ -41,7 +41,7 @@ public:
         core_.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
     }
     [[nodiscard]] bool failing() const noexcept { return told_; }
-    // The next failure is the first of another series.
+    // Ends the series: the next failure is reported again.
     void settle() noexcept { told_ = false; }
     void begin_anew() noexcept { delay_ = first; }
 
@@ -55,7 +55,8 @@ public:
     [[nodiscard]] bool within(Nanoseconds delay) const noexcept {
         return timer_.valid() && timer_.when - core_.now() <= delay;
     }
-    // For a handler that has other timers too, or asks `waits` or `within`, to call first; false when it was another timer that fired.
+    // Call it first in a handler that has other timers, or that uses `waits` or `within`. Returns false if another
+    // timer fired.
     bool fired(MonoTime now) noexcept {
         if (!timer_.valid() || timer_.when > now) return false;
         timer_ = {};

@@ -28,7 +28,7 @@ std::string range_text() {
     return fmt::format("{} to {}", +std::numeric_limits<Integer>::min(), +std::numeric_limits<Integer>::max());
 }
 
-// The value as `Integer` where it is one of its values. Sign and magnitude cover every integer that a caller can give.
+// Converts to `Integer`, or returns empty if the value is out of range.
 template <class Integer>
 std::optional<Integer> narrow(ParsedInteger value) noexcept {
     constexpr auto maximum = static_cast<std::uint64_t>(std::numeric_limits<Integer>::max());
@@ -45,7 +45,7 @@ double to_double(ParsedInteger value) noexcept {
     return value.negative ? -magnitude : magnitude;
 }
 
-// Empty for a fraction, NaN, an infinity, or what no 64-bit integer holds.
+// Returns empty for a fraction, NaN, an infinity, or a magnitude of 2^64 or more.
 std::optional<ParsedInteger> whole(double value) noexcept {
     constexpr double beyond = 18446744073709551616.0;  // 2^64
     if (!(std::abs(value) < beyond) || value != std::trunc(value)) return std::nullopt;
@@ -59,7 +59,7 @@ std::string_view trim(std::string_view text) noexcept {
     return text.substr(first, text.find_last_not_of(spaces) - first + 1);
 }
 
-// Calls `each` with the parts between `separator`; stops at the first error.
+// Calls `each` for every part between separators. Stops at the first error.
 template <class F>
 SetupResult<void> for_each_part(std::string_view list, char separator, F each) {
     for (;;) {
@@ -78,7 +78,7 @@ std::string unknown_name(const dialect::Enum& enumeration, std::string_view type
                        did_you_mean(typed, names));
 }
 
-// NAME, A|B, numbers among them.
+// Parses NAME or A|B. A part may also be a number.
 SetupResult<std::uint64_t> parse_enum(const dialect::Enum& enumeration, std::string_view text) {
     std::uint64_t bits = 0;
     const auto done = for_each_part(text, '|', [&](std::string_view part) -> SetupResult<void> {

@@ -18,7 +18,7 @@ bool carries_params(std::string_view message) noexcept {
     return std::find(names.begin(), names.end(), message) != names.end();
 }
 
-// 1 to 7; 0: no parameter.
+// Returns 1 to 7, or 0 if the field is not a parameter.
 unsigned param_index(const Field& field) noexcept {
     constexpr std::string_view prefix = "param";
     if (field.is_array()) return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What param1 to param7 of a COMMAND_LONG, COMMAND_INT or MISSION_ITEM(_INT) mean for the command that it carries. In the messages with
-// x, y, z these are parameters 5, 6 and 7. Borrows message and dialect; allocates nothing.
+// Finds the meaning of the parameters in a COMMAND_LONG, COMMAND_INT, MISSION_ITEM or MISSION_ITEM_INT, according to
+// its command. In messages with x, y and z, these are parameters 5, 6 and 7. Borrows the message and the dialect, which
+// must outlive it; allocates nothing.
 // Source: MAVLink guide, "Command Protocol" and "Mission Protocol".
 #pragma once
 
@@ -15,17 +16,17 @@ public:
     struct Param {
         const dialect::Field* field;
         const dialect::CommandParam* definition;
-        const dialect::Enum* enumeration;  // null: a plain number
+        const dialect::Enum* enumeration;  // null for a plain number
         bool degrees_e7;                   // an integer latitude or longitude in a global frame
 
-        // NaN, and INT32_MAX for an integer position, say: not given, keep what is set.
+        // True if the sender left the parameter unset: NaN, or INT32_MAX for an integer position.
         [[nodiscard]] bool is_unset(const MessageView& view) const noexcept;
     };
 
-    // For any other message there are no parameters.
+    // Other messages have no parameters.
     CommandParams(const MessageView& view, const dialect::Dialect& dialect) noexcept;
 
-    // Empty for a field that is no parameter, or one that the command does not define.
+    // Returns empty if the field is not a parameter, or the command does not define it.
     [[nodiscard]] std::optional<Param> find(const dialect::Field& field) const noexcept;
 
 private:

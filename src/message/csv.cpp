@@ -11,7 +11,8 @@
 namespace mavloom::message {
 namespace {
 
-// Text always stands in quotes, doubled inside. Line ends and tabs stay; other controls become U+FFFD (RFC 4180 has no place for them).
+// Writes text in quotes, with quotes in it doubled. Keeps tabs and line ends.
+// Other control characters become U+FFFD, because RFC 4180 does not allow them.
 void put_cell(Cursor& out, std::string_view bytes) {
     out.reserve(bytes.size() * 3 + 2);
     out.put_unchecked('"');

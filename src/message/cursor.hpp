@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A raw write position in a TextBuffer: one bounds check a field instead of one a character. Commits its end when destroyed.
-// Single owner; allocates only when the buffer must grow.
+// A write position in a TextBuffer, with one bounds check per field instead of one per character.
+// The destructor sets the size of the buffer to the written end. Single owner; allocates only when the buffer must
+// grow.
 #pragma once
 
 #include <cassert>
@@ -21,7 +22,7 @@ public:
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
 
-    // Room for `bytes` more, which the calls named unchecked use up.
+    // Makes room for `bytes` more. The `_unchecked` functions and `set` use it up.
     void reserve(std::size_t bytes) {
         if (static_cast<std::size_t>(end_ - at_) < bytes) [[unlikely]]
             grow(bytes);
@@ -73,7 +74,8 @@ private:
         attach();
     }
 
-    // Names are 4 to 30 bytes: two overlapping copies of fixed size beat a call of memcpy.
+    // Names are 4 to 30 bytes long. Up to 16 bytes, two overlapping copies of fixed size are faster than a call of
+    // memcpy.
     static void copy_short(char* to, std::string_view text) noexcept {
         const auto size = text.size();
         const char* from = text.data();

@@ -14,7 +14,7 @@
 namespace mavloom::message {
 namespace {
 
-// The names that definitions use for bounds of integers, as two's complement.
+// The value of an integer limit that definitions refer to by name, as two's complement.
 std::optional<std::uint64_t> named_bound(std::string_view text) noexcept {
     struct Bound {
         std::string_view name;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The definition's attribute `invalid`: which value of a field, or of an element of an array, means "no value". Pure; allocates nothing.
-// Source: MAVLink guide, "MAVLink XML Schema", attribute invalid: "v"; "[v]" each element; "[v:]" all when the first is v; "[v1,,v3,]" by place.
+// Applies the XML attribute `invalid`, which defines the value of a field or array element that means "no value".
+// The forms of the attribute:
+// - "v": the field is invalid if its value is v.
+// - "[v]": each array element with the value v is invalid.
+// - "[v:]": all elements are invalid if the first one has the value v.
+// - "[v1,,v3,]": one value per element; an element without one is always valid.
+//
+// Pure; allocates nothing. Source: MAVLink guide, "MAVLink XML Schema".
 #pragma once
 
 #include <cstddef>

@@ -14,17 +14,18 @@
 namespace mavloom::message {
 namespace {
 
-constexpr std::uint64_t largest_exact = std::uint64_t{1}
-                                        << 53;  // beyond it a reader that uses doubles would lose digits
+// A JSON reader that uses doubles loses digits of larger integers.
+constexpr std::uint64_t largest_exact = std::uint64_t{1} << 53;
 
 // ---- strings
 
-// True when no byte of the eight needs an escape or a second look: printable ASCII except '"' and '\'.
+// True if none of the eight bytes needs an escape or decoding: printable ASCII except '"' and '\'.
 bool all_plain(const char* eight) noexcept {
     constexpr std::uint64_t ones = 0x0101010101010101u, tops = 0x8080808080808080u;
     std::uint64_t word;
     std::memcpy(&word, eight, sizeof word);
-    // Each sets the top bit of the first byte that it finds: 128 and up, 127, below space, '"', '\'. A carry comes out of such bytes only.
+    // Each term sets the top bit of a byte that matches: 128 and up, 127, below space, '"', '\'.
+    // Only a matching byte causes a carry, so plain text never gives a false match.
     const auto found = word | (word + ones) | (word - ones * ' ') | ((word ^ ones * '"') - ones) |
                        ((word ^ ones * '\\') - ones);
     return (found & tops) == 0;
@@ -46,12 +47,13 @@ char* write_escaped(char* at, char32_t c) noexcept {
     return at;
 }
 
-// Controls are escaped even where JSON allows them, so that a line shown on a terminal cannot command it.
+// Escapes control characters even where JSON allows them, so that printed lines cannot control a terminal.
 char* write_character(char* at, char32_t c) noexcept {
     return c == '"' || c == '\\' || is_control(c) ? write_escaped(at, c) : write_utf8(at, c);
 }
 
-// Writes `bytes` and gives the end, or null where a byte needs more than copying. Eight at a time; the last eight overlap.
+// Copies `bytes` and returns the end, or null if a byte needs more than copying.
+// Copies eight bytes at a time; the last eight overlap with those before.
 char* copy_plain(char* at, std::string_view bytes) noexcept {
     constexpr std::size_t word = sizeof(std::uint64_t);
     if (bytes.size() < word) {
@@ -86,7 +88,7 @@ char* write_string(char* at, std::string_view bytes) noexcept {
     return at;
 }
 
-// Keys and other text of ours: short, and of no length that could be known ahead.
+// Writes keys and other text of our own, which needs no escapes.
 char* write_text(char* at, std::string_view text) noexcept {
     std::memcpy(at, text.data(), text.size());
     return at + text.size();
@@ -130,7 +132,7 @@ char* write_value(char* at, T value) noexcept {
     }
 }
 
-// `array_length` as a field has it: 0 for a scalar.
+// `array_length` is as in dialect::Field: 0 for a scalar.
 template <class T>
 char* write_numbers(char* at, const std::uint8_t* from, std::size_t array_length) noexcept {
     if (array_length == 0) [[likely]]
@@ -144,7 +146,7 @@ char* write_numbers(char* at, const std::uint8_t* from, std::size_t array_length
     return at;
 }
 
-// Up to the NULs at the end.
+// Writes a char or char[] value as a string without its trailing NULs.
 char* write_characters_of(char* at, const std::uint8_t* from, std::size_t array_length) noexcept {
     std::size_t used = std::max<std::size_t>(array_length, 1);
     while (used > 0 && from[used - 1] == 0) --used;
@@ -156,7 +158,7 @@ char* write_field_value(char* at, const std::uint8_t* from, dialect::FieldType t
     return visit_type(type, [&](auto tag) { return write_numbers<decltype(tag)>(at, from, array_length); });
 }
 
-// The payload in its full length: what the sender cut off is 0.
+// A payload extended to its full length: bytes that the sender cut off are 0. The given bytes must outlive it.
 class FullPayload {
 public:
     FullPayload(const dialect::Message& message, ByteView payload) noexcept {
@@ -174,7 +176,7 @@ public:
     [[nodiscard]] const std::uint8_t* data() const noexcept { return data_; }
 
 private:
-    std::array<std::uint8_t, wire::max_payload_length> copy_;  // NOLINT: as long as needed only
+    std::array<std::uint8_t, wire::max_payload_length> copy_;  // NOLINT: initialised only as far as needed
     const std::uint8_t* data_ = copy_.data();
 };
 
@@ -184,10 +186,11 @@ char* write_key(char* at, std::string_view name) noexcept {
     return write_literal(at, "\":");
 }
 
-// ---- how much room a message needs: reserved once, so that nothing below has to look
+// ---- room: how many bytes a message can need; reserved once, so that the functions below need no checks
 
-constexpr std::size_t longest_escape = 6;    // \u001b, for one byte
-constexpr std::size_t longest_element = 26;  // "-2.2250738585072014e-308" and a comma; an integer in quotes is shorter
+constexpr std::size_t longest_escape = 6;  // "\u001b" for one byte
+// "-2.2250738585072014e-308" and a comma. Integers in quotes are shorter.
+constexpr std::size_t longest_element = 26;
 
 std::size_t room_of(const dialect::Message& message) noexcept {
     std::size_t room = number_room;
@@ -197,7 +200,7 @@ std::size_t room_of(const dialect::Message& message) noexcept {
     return room;
 }
 
-// A buffer's memory behind what it holds, with room for `bytes`.
+// Makes room for `bytes` in the buffer, and returns the end of its content.
 char* room_in(TextBuffer& buffer, std::size_t bytes) {
     if (buffer.capacity() - buffer.size() < bytes) buffer.reserve(buffer.size() + bytes);
     return buffer.data() + buffer.size();
@@ -207,7 +210,8 @@ void commit(TextBuffer& buffer, const char* end) { buffer.resize(static_cast<std
 
 // ---- the object
 
-constexpr std::size_t header_room = 160 + 6 * number_room;  // all but the link's name, the message's name and its fields
+// Everything except the link's name, the message's name and its fields.
+constexpr std::size_t header_room = 160 + 6 * number_room;
 
 char* write_fields(char* at, const dialect::Message& message, ByteView payload) noexcept {
     const FullPayload full(message, payload);
@@ -219,7 +223,7 @@ char* write_fields(char* at, const dialect::Message& message, ByteView payload) 
     return message.fields.empty() ? at : at - 1;
 }
 
-// Up to the sequence number.
+// Writes the object up to the sequence number.
 char* write_header(char* at, const Received& received) noexcept {
     at = write_literal(at, "{\"time_us\":");
     at = write_integer(at, unix_us(received.time));
@@ -291,7 +295,7 @@ void append_json(TextBuffer& buffer, const Received& received) {
     commit(buffer, write_literal(at, "}}\n"));
 }
 
-// ---- with all that is known ahead made ahead
+// ---- JsonFormatter: everything that is known in advance is prepared
 
 namespace {
 
@@ -339,11 +343,12 @@ void JsonFormatter::append(TextBuffer& buffer, const Received& received) const {
     at = write_version(at, received.frame);
     at = write_literal(at, ",\"fields\":{");
     const auto& fields = received.message->fields;
-    if (!fields.empty()) --at;  // each step brings what stands before its key
+    if (!fields.empty()) --at;  // each step includes the character before its key
     const FullPayload full(*received.message, received.frame.payload());
     const auto* step = steps_.data() + prepared->first_step;
     for (std::size_t i = 0; i < fields.size(); ++i, ++step) {
-        std::memcpy(at, step, sizeof *step);  // more than its text, which is cheaper than as much as its text
+        // Copies the whole step, which is cheaper than copying only the length of its key.
+        std::memcpy(at, step, sizeof *step);
         at = step->key_length != 0 ? at + step->key_length : write_key(at + 1, fields[i].name);
         at = write_field_value(at, full.data() + step->offset, step->type, step->array_length);
     }

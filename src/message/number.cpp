@@ -13,11 +13,11 @@
 namespace mavloom::message {
 namespace {
 
-// Digits with zeros in front of them, so that "0.00" is there to be copied.
+// Decimal digits, preceded by zeros so that "0.00" can be copied together with them.
 struct Digits {
-    static constexpr std::size_t zeros_before = 8,
-                                 room = 24;  // at most 17 digits; copied as a whole, faster than a variable count
-    std::array<char, zeros_before + 2 * room> chars;  // NOLINT: what is not written is overwritten or cut off
+    // `room` holds at most 17 digits. It is always copied as a whole, which is faster than a variable count.
+    static constexpr std::size_t zeros_before = 8, room = 24;
+    std::array<char, zeros_before + 2 * room> chars;  // NOLINT: uninitialised bytes are overwritten or cut off
     const char* first;
     int count;
 };
@@ -29,7 +29,7 @@ void set_digits(Digits& digits, std::uint64_t significand) noexcept {
     digits.count = static_cast<int>(write_unsigned(at, significand) - at);
 }
 
-// The exponent of scientific notation, at least two digits as C and Python print it.
+// Writes the exponent of scientific notation, with at least two digits as in C and Python.
 char* write_exponent(char* at, int exponent) noexcept {
     *at++ = 'e';
     *at++ = exponent < 0 ? '-' : '+';
@@ -60,9 +60,10 @@ char* write_with_zeros_behind(char* at, const Digits& digits, int point) noexcep
     return write_point_zero(at + point);
 }
 
-// significand * 10^exponent. The point stands behind `point` digits; limits of plain notation as Python's repr.
+// Writes significand * 10^exponent. `point` is the number of digits before the decimal point.
+// The limits of plain notation are those of Python's repr.
 char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept {
-    Digits digits;  // NOLINT: filled next
+    Digits digits;  // NOLINT: filled by set_digits
     set_digits(digits, significand);
     const int point = digits.count + exponent;
     if (point > -4 && point < digits.count) [[likely]] {
@@ -79,16 +80,18 @@ char* write_decimal(char* at, std::uint64_t significand, int exponent) noexcept 
 
 // ---- float32 in plain notation
 
-constexpr int fraction_bits = 23;                  // stored; the leading one is not
-constexpr std::uint32_t least_plain = 0x38d1b717;  // 1e-4f, from where on Python writes no exponent
-constexpr std::uint32_t end_plain = 0x4b000000;    // 2^23: all that follow are whole
+constexpr int fraction_bits = 23;                  // stored bits; the leading 1 is implicit
+constexpr std::uint32_t least_plain = 0x38d1b717;  // 1e-4f; Python writes smaller floats with an exponent
+constexpr std::uint32_t end_plain = 0x4b000000;    // 2^23; all larger floats are integers
 
-// Without the powers of two, whose neighbours are not equally far.
+// True for floats in the range of plain notation.
+// Excludes powers of two, because their two neighbours are at different distances.
 bool is_plain(std::uint32_t bits) noexcept {
     return bits - least_plain < end_plain - least_plain && bits << (32 - fraction_bits) != 0;
 }
 
-// By exponent: after multiplication by 10^decimals neighbours are 0.1 to 1 apart. Half of that gap is half_gap / 2^unit, exactly.
+// Scale factors for one exponent. After multiplication by 10^decimals, neighbouring floats are 0.1 to 1 apart.
+// Half of that gap is exactly half_gap / 2^unit.
 struct PlainScale {
     std::uint32_t half_gap;
     std::uint8_t unit, decimals;
@@ -108,31 +111,33 @@ consteval auto make_plain_scales() {
 }
 constexpr auto plain_scales = make_plain_scales();
 
-// (whole + tenths / 10) / 10^decimals
+// The value (whole + tenths / 10) / 10^decimals.
 struct Decimal {
     std::uint32_t whole;  // six to eight digits
     std::uint32_t tenths;
     std::uint32_t decimals;
 };
 
-// The whole number that reads back as the float, else the nearest tenth: Schubfach's method (Giulietti, 2020), without its table of powers:
-// in this range all products are exact.
+// Returns the whole number that reads back as the same float, or else the nearest tenth.
+// This is Schubfach's method (Giulietti, 2020) without its table of powers, because in this range all products are
+// exact.
 Decimal shortest_of(std::uint32_t bits) noexcept {
     const auto& scale = plain_scales[(bits >> fraction_bits) - (least_plain >> fraction_bits)];
     const auto fraction = (bits & ((1u << fraction_bits) - 1)) | 1u << fraction_bits;
     const std::uint64_t one = std::uint64_t{1} << scale.unit;
     const std::uint64_t value = std::uint64_t{fraction} * 2 * scale.half_gap;
     const std::uint64_t rest = value & (one - 1);
-    const std::uint64_t reach = scale.half_gap - (bits & 1);  // the middle itself reads as the even neighbour
+    const std::uint64_t reach = scale.half_gap - (bits & 1);  // an exact midpoint reads as the even neighbour
     const bool up = rest + reach >= one;
     const bool between = rest > reach && !up;
     const std::uint64_t tenths = 10 * rest;
-    const std::uint64_t half = (one >> 1) - 1 + (tenths >> scale.unit & 1);  // to even where both are as near
+    const std::uint64_t half = (one >> 1) - 1 + (tenths >> scale.unit & 1);  // ties round to even
     return {static_cast<std::uint32_t>(value >> scale.unit) + up,
             static_cast<std::uint32_t>((tenths + half) >> scale.unit) & (0u - between), scale.decimals};
 }
 
-// Without branches, which nothing would foretell, and from registers: no byte is read back after it was written.
+// Writes a float in plain notation. Avoids branches, which would be unpredictable.
+// Works in registers and never reads back a byte that it wrote.
 char* write_plain(char* at, std::uint32_t bits) noexcept {
     constexpr std::uint64_t zero_point_zeros = detail::ascii_zeros - (std::uint64_t{'0' - '.'} << 8);
     const auto [whole, tenths, decimals] = shortest_of(bits);
@@ -148,7 +153,7 @@ char* write_plain(char* at, std::uint32_t bits) noexcept {
         at[point] = '.';
         at += point + 1;
         store_le(at, first_eight >> (8 * point));
-        at[8 - point] = static_cast<char>(ninth);  // where there is none, it is not looked at
+        at[8 - point] = static_cast<char>(ninth);  // ignored if there is no ninth digit
         return at + std::max(used - point, 1);
     }
     store_le(at, zero_point_zeros);
@@ -174,7 +179,7 @@ char* write_shortest(char* at, Float value) noexcept {
             return write_point_zero(at);
         }
     }
-    // fmt's own digit search without its formatting of the result: 23 instead of 44 ns a float (GCC 12, -O3, 2.5 GHz).
+    // Uses fmt's digit search but not its formatting: 23 instead of 44 ns per float (GCC 12, -O3, 2.5 GHz).
     const auto decimal = fmt::detail::dragonbox::to_decimal(magnitude);
     return write_decimal(at, decimal.significand, decimal.exponent);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Numbers to text, for the formatter: integers in decimal, floats as the shortest digits that read back as the same float32 or double,
-// laid out as Python's repr and numpy do (0.01, 1.0, -0.0, 1e-05, 1e+16). Each function writes at `at`, which has `number_room` bytes, and
-// returns the end. Pure; allocates nothing.
+// Writes numbers as text, for the formatters: integers in decimal, floats in their shortest form.
+// The shortest form has the fewest digits that read back as the same float32 or double, laid out as in Python and
+// numpy: 0.01, 1.0, -0.0, 1e-05, 1e+16. Each function writes at `at`, which must have `number_room` bytes, and returns
+// the end. Pure; allocates nothing.
 #pragma once
 
 #include <array>
@@ -14,16 +15,18 @@
 
 namespace mavloom::message {
 
-// Room that every writer below may use: it may touch bytes behind what it returns. Longest result: "-2.2250738585072014e-308".
+// The room that every function below needs. It may write beyond the end that it returns.
+// The longest result is "-2.2250738585072014e-308".
 inline constexpr std::size_t number_room = 48;
 
 namespace detail {
 
-// The eight decimal digits of `value` < 10^8 as values 0 to 9, the first in the lowest byte. Splits in four, then pairs, then digits, all lanes
-// of a word at once, without a branch: lengths of numbers in telemetry are what a branch predictor cannot guess.
+// Returns the eight decimal digits of `value` < 10^8 as values 0 to 9, the first one in the lowest byte.
+// Splits the value into fours, then pairs, then digits, in all lanes of a word at once.
+// It has no branch, because a branch predictor cannot guess the lengths of telemetry numbers.
 constexpr std::uint64_t eight_digits(std::uint32_t value) noexcept {
-    constexpr std::uint64_t by_100 = 10486,
-                            by_10 = 103;  // x * 10486 >> 20 is x / 100 below 10^4, x * 103 >> 10 is x / 10 below 100
+    // x * 10486 >> 20 is x / 100 for x below 10^4; x * 103 >> 10 is x / 10 for x below 100.
+    constexpr std::uint64_t by_100 = 10486, by_10 = 103;
     const std::uint64_t fours = value / 10000 | std::uint64_t{value % 10000} << 32;
     const std::uint64_t hundreds = (fours * by_100 >> 20) & 0x0000007f0000007f;
     const std::uint64_t pairs = hundreds | (fours - hundreds * 100) << 16;
@@ -34,13 +37,13 @@ constexpr std::uint64_t eight_digits(std::uint32_t value) noexcept {
 inline constexpr std::uint64_t ascii_zeros = 0x3030303030303030;
 inline constexpr std::uint32_t eight_digit_limit = 100000000;
 
-// Leading zeros of the eight digits; 7 for zero itself, which has one digit.
+// Counts the leading zeros of the eight digits; 7 for zero, which has one digit.
 constexpr unsigned leading_zeros(std::uint64_t digits) noexcept {
     return static_cast<unsigned>(std::countr_zero(digits | std::uint64_t{1} << 56)) / 8;
 }
 
 inline char* write_below_limit(char* at, std::uint32_t value) noexcept {
-    if (value < 10) {  // most ids, states and counts
+    if (value < 10) {  // fast path: most ids, states and counts
         *at = static_cast<char>('0' + value);
         return at + 1;
     }
@@ -93,11 +96,12 @@ inline char* write_integer(char* at, std::int64_t value) noexcept {
     return value < 0 ? write_unsigned(at + 1, 0 - bits) : write_unsigned(at, bits);
 }
 
-// The value must be finite.
+// `value` must be finite.
 char* write_float(char* at, float value) noexcept;
 char* write_float(char* at, double value) noexcept;
 
-// `magnitude` / 10^decimals exactly, without trailing zeros: 473977418 with 7 is 47.3977418. At most 19 decimals.
+// Writes `magnitude` / 10^decimals exactly, without trailing zeros: 473977418 with 7 decimals is 47.3977418.
+// `decimals` is at most 19.
 char* write_scaled(char* at, bool negative, std::uint64_t magnitude, unsigned decimals) noexcept;
 
 }  // namespace mavloom::message

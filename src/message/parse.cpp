@@ -39,7 +39,7 @@ std::optional<double> parse_number(std::string_view text) noexcept {
         return whole->negative ? -magnitude : magnitude;
     }
     const bool negative = take_sign(text);
-    // from_chars takes a minus sign and "nan(...)" too; neither may stand here.
+    // from_chars also accepts a minus sign and "nan(...)". Reject both here: the sign is already consumed.
     if (text.empty() || text.front() == '-' || text.back() == ')') return std::nullopt;
     double value = 0;
     const auto* end = text.data() + text.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Numbers as people and definitions write them: 42, -1, +3, 0x1F, 0b101; and for floats also 1.5, 1e-3, nan, inf (any case). No spaces, no
-// rest behind the number. Pure; allocates nothing.
+// Parses numbers as users and definitions write them. Pure; allocates nothing.
+// Integers: 42, -1, +3, 0x1F, 0b101. `parse_number` also accepts 1.5, 1e-3, nan and inf, in any case.
+// Spaces and trailing text are errors: the result is empty.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace mavloom::message {
 
-// Sign and magnitude, so that -2^63 to 2^64-1 all fit.
+// Sign and magnitude, to cover the whole range from -2^63 to 2^64-1. `bits` is the two's complement.
 struct ParsedInteger {
     bool negative = false;
     std::uint64_t magnitude = 0;

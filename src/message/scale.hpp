@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which raw numbers people cannot read, and what to show instead: integers in degE7, centi- and deci- units. Only the text form uses it;
-// JSON and CSV are always raw. Pure; allocates nothing.
+// Scales raw integers that people cannot read easily, for example degE7, centi- and deci- units.
+// Only the text format uses it; JSON and CSV always have raw values. Pure; allocates nothing.
 #pragma once
 
 #include <cmath>
@@ -11,12 +11,12 @@
 namespace mavloom::message {
 
 struct Scale {
-    std::string_view units;  // to print; empty for none
-    unsigned decimals = 0;   // shown value = raw / 10^decimals, exactly
-    double factor = 1;       // another multiplier: shown value = raw * factor, as a float
+    std::string_view units;  // units to print; empty for none
+    unsigned decimals = 0;   // printed value = raw / 10^decimals, exactly
+    double factor = 1;       // for other multipliers: printed value = raw * factor, as a float
 };
 
-// Plain prefixes that people do read (mm, cm, ms, us, mV, mAh, mG, hPa) stay raw.
+// Units with prefixes that people read easily (mm, cm, ms, us, mV, mAh, mG, hPa) are not scaled.
 [[nodiscard]] constexpr Scale scale_of_units(std::string_view units) noexcept {
     struct Known {
         std::string_view raw, shown;
@@ -32,7 +32,7 @@ struct Scale {
     return {units, 0};
 }
 
-// Integer fields only. The multiplier counts where the units do not already say it.
+// For integer fields only. Uses the multiplier of the definition unless the units already imply a scale.
 [[nodiscard]] inline Scale scale_of(const dialect::Field& field) noexcept {
     auto scale = scale_of_units(field.units);
     if (scale.decimals != 0 || field.multiplier <= 0 || field.multiplier == 1) return scale;

@@ -36,7 +36,7 @@ void put_escape(Cursor& out, char32_t c) {
     for (int shift = c < 0x100 ? 4 : 12; shift >= 0; shift -= 4) out.put_unchecked(hex[c >> shift & 0xf]);
 }
 
-// What a vehicle sends may be hostile: nothing that a terminal obeys gets through.
+// Writes text with control characters escaped. A vehicle may be hostile, so nothing that controls a terminal may pass.
 void put_visible(Cursor& out, std::string_view bytes, bool quoted) {
     out.reserve(bytes.size() * 6);
     while (!bytes.empty()) {
@@ -70,7 +70,8 @@ void put_hex(Cursor& out, std::uint64_t value) {
     for (int i = digits - 1; i >= 0; --i) out.put_unchecked("0123456789abcdef"[value >> (4 * i) & 0xf]);
 }
 
-// A|B, entries of one bit first, then those of several whose bits are not all named yet, then what has no name, in hexadecimal.
+// Writes flags as A|B: first the single-bit entries, then entries of several bits that still add a bit.
+// Bits without a name follow as one hexadecimal number.
 void put_flags(Cursor& out, const dialect::Enum& flags, std::uint64_t value) {
     std::uint64_t unnamed = value;
     bool first = true;
@@ -91,7 +92,7 @@ void put_flags(Cursor& out, const dialect::Enum& flags, std::uint64_t value) {
     if (unnamed != 0) put_separated([&] { put_hex(out, unnamed); });
 }
 
-// False where the enum has no name for the value: then it is a plain number.
+// Returns false and writes nothing if the enum has no name for the value. The caller then writes a number.
 bool put_enum(Cursor& out, const dialect::Enum& enumeration, bool bitmask, std::uint64_t value) {
     if (const auto* entry = enumeration.find(value)) {
         out.put(entry->name);
@@ -125,13 +126,13 @@ void put_scaled(Cursor& out, Integer value, unsigned decimals) {
     out.set(write_scaled(out.at(), negative, negative ? 0 - bits : bits, decimals));
 }
 
-// Bits of a signed field without the sign's copies above its width.
+// The bits of a field in its own width, without sign extension.
 template <class Integer>
 std::uint64_t flag_bits(Integer value) noexcept {
     return static_cast<std::uint64_t>(static_cast<std::make_unsigned_t<Integer>>(value));
 }
 
-// Returns whether units belong behind it: not behind a name or "-".
+// Writes one element. Returns true if units should follow, that is, not after a name or "-".
 template <class T>
 bool put_element(Cursor& out, const MessageView& view, const dialect::Field& field, const Scale& scale,
                  std::size_t index) {
@@ -178,7 +179,8 @@ bool put_elements(Cursor& out, const MessageView& view, const dialect::Field& fi
     return true;
 }
 
-// Bytes that are neither amounts nor names (payloads, identifiers): two digits each, the zeros at the end as a count.
+// Writes a byte array that holds neither quantities nor names (payloads, identifiers): two hexadecimal digits per byte.
+// Zeros at the end are only counted.
 void put_bytes(Cursor& out, const MessageView& view, const dialect::Field& field) {
     std::size_t used = field.count();
     while (used > 0 && view.get<std::uint8_t>(field, used - 1) == 0) --used;
@@ -191,7 +193,7 @@ void put_bytes(Cursor& out, const MessageView& view, const dialect::Field& field
 }
 
 bool is_opaque(const dialect::Field& field) noexcept {
-    constexpr std::uint8_t shortest = 8;  // below, numbers are as short and easier to read
+    constexpr std::uint8_t shortest = 8;  // shorter arrays are as short, and easier to read, as numbers
     return field.type == dialect::FieldType::u8 && field.array_length >= shortest && field.units.empty() &&
            field.invalid.empty() && field.enumeration == nullptr;
 }
@@ -269,7 +271,7 @@ void put_two(Cursor& out, std::int64_t below_100) {
     out.put(static_cast<char>('0' + below_100 % 10));
 }
 
-// Time of day, UTC.
+// Writes the time of day in UTC.
 void put_time(Cursor& out, WallTime time) {
     constexpr std::int64_t second = 1'000'000, day = 86400 * second;
     const auto us = (unix_us(time) % day + day) % day;

@@ -5,9 +5,9 @@ namespace mavloom::message {
 namespace {
 
 struct Lead {
-    std::uint8_t continuations;  // 0: no lead byte
-    std::uint8_t first_low = 0x80,
-                 first_high = 0xbf;  // range of the byte behind it; shuts out overlong forms and surrogates
+    std::uint8_t continuations;  // 0: not a lead byte
+    // The valid range of the second byte, which excludes overlong forms and surrogates.
+    std::uint8_t first_low = 0x80, first_high = 0xbf;
 };
 
 constexpr Lead lead_of(std::uint8_t byte) noexcept {

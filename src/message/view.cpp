@@ -8,7 +8,7 @@
 namespace mavloom::message {
 namespace {
 
-// A cast that is defined for every value: what does not fit becomes the nearest bound, NaN becomes 0.
+// Casts without undefined behaviour: out-of-range values become the nearest limit, NaN becomes 0.
 template <class Integer>
 Integer saturate(double value) noexcept {
     constexpr double low = static_cast<double>(std::numeric_limits<Integer>::min());
@@ -50,7 +50,7 @@ std::string_view MessageView::text(const dialect::Field& field) const noexcept {
     const auto bytes = payload_.subspan(field.offset, std::min(field.size(), payload_.size() - field.offset));
     auto length = bytes.size();
     while (length > 0 && bytes[length - 1] == 0) --length;
-    // Bytes of any value are characters of a string that nobody has looked at yet.
+    // The bytes are not validated here; the caller must expect any value.
     return {reinterpret_cast<const char*>(bytes.data()), length};
 }
 

@@ -9,7 +9,7 @@
 
 namespace mavloom::net {
 
-// "%eth0" or "%2" behind a link-local address. 0: no such interface.
+// Parses the zone of a link-local address, "eth0" or "2", without the "%". Returns 0 if there is no such interface.
 static std::uint32_t scope_of(const std::string& zone) {
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(zone.data(), zone.data() + zone.size(), number);

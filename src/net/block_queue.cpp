@@ -36,7 +36,8 @@ void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t 
     if (jammed_ && key != 0) note_key(key, entries_.size() - 1);
 }
 
-// Checks first that enough may go, so that nothing is dropped for a block that then does not fit.
+// First checks that enough bytes may be dropped. Otherwise it would drop blocks for a new block that does not fit
+// anyway.
 bool BlockQueue::make_room(std::size_t size, std::uint8_t block_class, std::uint64_t key, std::uint32_t& dropped) {
     if (bytes_ - droppable(block_class) + size > limits_.max_bytes) return false;
     if (!jammed_) {
@@ -83,7 +84,7 @@ std::size_t BlockQueue::droppable(std::uint8_t block_class) const noexcept {
     return sum;
 }
 
-// Moves the class's mark to its oldest block that may be dropped; false when there is none.
+// Advances the class's search position to its oldest droppable block. Returns false if there is none.
 bool BlockQueue::oldest(std::uint8_t block_class) noexcept {
     std::size_t i = std::max(oldest_[block_class], head_);
     while (i < entries_.size() && (!entries_[i].live || entries_[i].block_class != block_class || pinned(i))) ++i;
@@ -152,7 +153,8 @@ void BlockQueue::reserve(std::size_t size) {
     if (entries_.size() == entries_.capacity()) entries_.reserve(std::max<std::size_t>(64, entries_.size() * 2));
 }
 
-// Closes the holes that dropped and sent blocks left, in memory of `capacity` bytes.
+// Closes the gaps that dropped and sent blocks left. Moves to a new buffer if `capacity` (bytes) differs from the old
+// one.
 void BlockQueue::compact(std::size_t capacity) {
     std::unique_ptr<std::uint8_t[]> larger;
     if (capacity != capacity_) larger = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
@@ -196,7 +198,7 @@ void BlockQueue::note_key(std::uint64_t key, std::size_t index) {
     if (++keys_ * 2 > newest_.size()) index_keys();
 }
 
-// Open addressing; the table is never more than half full.
+// Open addressing. The table is never more than half full.
 BlockQueue::Newest& BlockQueue::slot_of(std::uint64_t key) noexcept {
     const std::size_t mask = newest_.size() - 1;
     std::size_t i = (key * 0x9e3779b97f4a7c15u >> 32) & mask;
@@ -270,7 +272,8 @@ std::size_t BlockQueue::consume(std::size_t bytes) noexcept {
     return whole;
 }
 
-// The head may be dropped again, and `oldest` and `drop_superseded` had passed it by: the next jam looks at all of them anew.
+// The first block may be dropped again, but `oldest` and `drop_superseded` had already skipped it. Clearing `jammed_`
+// makes the next jam index all blocks again.
 void BlockQueue::rewind() noexcept {
     if (begun_ == 0) return;
     begun_ = 0;

@@ -13,7 +13,7 @@ namespace mavloom::net {
 
 static constexpr int events_per_wait = 64;
 static constexpr std::uint64_t wake_token = 0, alarm_token = 1;
-// Up to here a wait has a time-out of its own.
+// A wait of at most this length passes its timeout to epoll. A longer one uses the alarm (a timerfd).
 static constexpr std::chrono::milliseconds short_wait{10};
 
 static std::uint32_t interest(bool readable, bool writable) noexcept {
@@ -24,7 +24,7 @@ static timespec timespec_of(Nanoseconds time) noexcept {
     return {static_cast<std::time_t>(time.count() / 1'000'000'000), static_cast<long>(time.count() % 1'000'000'000)};
 }
 
-// Generations begin at 1, so that no token equals those above.
+// Generations start at 1, so no token equals wake_token or alarm_token.
 static std::uint64_t token_of(WatchId id) noexcept { return std::uint64_t{id.generation} << 32 | id.slot; }
 
 SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
@@ -35,7 +35,7 @@ SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
     Fd alarm(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
     if (!alarm) return system_error("cannot make a timer descriptor", errno);
     epoll_event on_wake{EPOLLIN, {.u64 = wake_token}};
-    epoll_event on_alarm{EPOLLIN | EPOLLET, {.u64 = alarm_token}};  // never read: setting it anew clears it
+    epoll_event on_alarm{EPOLLIN | EPOLLET, {.u64 = alarm_token}};  // never read: setting the timer again clears it
     if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &on_wake) != 0 ||
         epoll_ctl(epoll.get(), EPOLL_CTL_ADD, alarm.get(), &on_alarm) != 0)
         return system_error("cannot watch a descriptor", errno);
@@ -105,7 +105,7 @@ void EventLoop::cancel_timer(TimerId& id) noexcept {
     id = {};
 }
 
-// Left alone when it comes early enough: deadlines move on with every turn, and the alarm catches up with them once it has rung.
+// Leaves an earlier alarm as it is. Deadlines move with every turn, and the next alarm is set after this one has fired.
 void EventLoop::set_alarm(MonoTime when) noexcept {
     if (alarm_at_ <= when) return;
     alarm_at_ = when;
@@ -113,15 +113,16 @@ void EventLoop::set_alarm(MonoTime when) noexcept {
     timerfd_settime(alarm_.get(), TFD_TIMER_ABSTIME, &at, nullptr);
 }
 
-// A time-out has the kernel set the machine's timer before the wait and once more behind it, which in a virtual machine takes longer than
-// receiving a datagram. So all but short waits leave that to an alarm that is seldom set.
+// An epoll timeout makes the kernel program the machine's timer before the wait, and again after it. In a virtual
+// machine, that takes longer than receiving a datagram. So long waits rely on the alarm, which is rarely set.
 void EventLoop::wait(MonoTime deadline) noexcept {
     if (!timers_.empty()) deadline = std::min(deadline, timers_.begin()->first.when);
     const Nanoseconds left = deadline == MonoTime::max() ? Nanoseconds::max()
                                                          : std::max(deadline - mono_now(), Nanoseconds{});
     const bool is_short = left <= short_wait;
     if (!is_short && deadline != MonoTime::max()) set_alarm(deadline);
-    // epoll_pwait2 waits by the nanosecond; before Linux 5.11 milliseconds have to do, rounded up so that the loop does not spin.
+    // epoll_pwait2 has nanosecond timeouts. Before Linux 5.11 there are only milliseconds, rounded up so that the loop
+    // does not spin.
     const timespec limit = timespec_of(is_short ? left : Nanoseconds{});
     count_ = epoll_pwait2(epoll_.get(), events_.get(), events_per_wait, is_short ? &limit : nullptr, nullptr);
     if (count_ >= 0 || errno != ENOSYS) return;
@@ -134,7 +135,7 @@ void EventLoop::sleep_until(MonoTime when) noexcept {
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr);
 }
 
-// Timers that a callback starts, also for now or earlier, wait for the next turn.
+// Timers that a callback starts wait for the next turn, even if they are already due.
 void EventLoop::run_timers(MonoTime now) {
     const std::uint64_t newest = last_timer_;
     for (auto it = timers_.begin(); it != timers_.end() && it->first.when <= now;) {
@@ -165,7 +166,7 @@ bool EventLoop::dispatch(MonoTime now) {
         }
         const Watch* watch = find(
             {static_cast<std::uint32_t>(event.data.u64), static_cast<std::uint32_t>(event.data.u64 >> 32)});
-        if (watch == nullptr) continue;  // unwatched by an earlier callback of this turn
+        if (watch == nullptr) continue;  // unwatched by an earlier callback in this turn
         watch->handler->on_io({(event.events & (EPOLLIN | EPOLLHUP | EPOLLRDHUP)) != 0, (event.events & EPOLLOUT) != 0,
                                (event.events & (EPOLLERR | EPOLLHUP)) != 0});
     }
@@ -174,7 +175,7 @@ bool EventLoop::dispatch(MonoTime now) {
 
 void EventLoop::wake(const Fd& handle) noexcept {
     const std::uint64_t one = 1;
-    // Fails only when 2^64 - 2 wake-ups are pending, and then the loop wakes anyway.
+    // Fails only if 2^64 - 2 wake-ups are pending. The loop then wakes up anyway.
     [[maybe_unused]] const auto written = ::write(handle.get(), &one, sizeof one);
 }
 

@@ -17,7 +17,8 @@
 namespace mavloom::net {
 
 struct LocalSocket::Slots {
-    // Room for the receive time and nothing else, so that the kernel drops descriptors (SCM_RIGHTS), which come behind it.
+    // Holds the receive time and nothing else. Passed descriptors (SCM_RIGHTS) come after it, so the kernel discards
+    // them.
     struct Control {
         alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(timespec))> bytes;
     };
@@ -25,7 +26,8 @@ struct LocalSocket::Slots {
     std::array<iovec, slots> iovecs{};
     std::array<sockaddr_un, slots> from{};
     std::array<Control, slots> control{};
-    std::unique_ptr<std::uint8_t[]> memory{new std::uint8_t[slots * slot_bytes]};  // touched as far as datagrams are long
+    // Becomes resident only as far as datagrams are long.
+    std::unique_ptr<std::uint8_t[]> memory{new std::uint8_t[slots * slot_bytes]};
 };
 
 LocalSocket::LocalSocket(Fd fd, std::unique_ptr<Slots> slots_of) : fd_(std::move(fd)), slots_(std::move(slots_of)) {
@@ -49,7 +51,8 @@ SetupResult<LocalSocket> LocalSocket::open(const std::filesystem::path& path, un
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return system_error("cannot make a Unix socket", errno);
     set_option(fd.get(), SOL_SOCKET, SO_TIMESTAMPNS, 1);
-    // Before: nobody gets in meanwhile. After: what the umask took.
+    // fchmod before bind closes the gap in which other users could connect. chmod after bind restores the bits that the
+    // umask removed.
     if (::fchmod(fd.get(), mode) != 0 || ::bind(fd.get(), as_sockaddr(*address), sizeof *address) != 0 ||
         ::chmod(path.c_str(), mode) != 0)
         return system_error(fmt::format("cannot make a socket at {}", path.string()), errno);
@@ -74,7 +77,7 @@ static WallTime kernel_time(const msghdr& header) noexcept {
     return WallTime{std::chrono::seconds(time.tv_sec) + Nanoseconds(time.tv_nsec)};
 }
 
-// The kernel counts the NUL behind a path, or leaves it out.
+// The kernel's length may or may not include the NUL after a path.
 static std::string_view sender(const sockaddr_un& from, socklen_t length) noexcept {
     constexpr std::size_t begin = offsetof(sockaddr_un, sun_path);
     if (length <= begin) return {};

@@ -21,7 +21,7 @@ SetupResult<LocalSender> LocalSender::connect(const std::filesystem::path& path)
     if (!far) return setup_error(SetupCode::usage, fmt::format("{} is too long for a socket's path", path.string()));
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return system_error("cannot make a local socket", errno);
-    sockaddr_un own{};  // without a name: the kernel gives one that is free, and no file
+    sockaddr_un own{};  // no name: the kernel assigns a free abstract address, without a file
     own.sun_family = AF_UNIX;
     if (::bind(fd.get(), as_sockaddr(own), sizeof own.sun_family) != 0)
         return system_error("cannot bind a local socket", errno);
@@ -33,7 +33,7 @@ SetupResult<LocalSender> LocalSender::connect(const std::filesystem::path& path)
 std::string LocalSender::own_address() const {
     sockaddr_un own{};
     socklen_t length = sizeof own;
-    constexpr std::size_t before = offsetof(sockaddr_un, sun_path) + 1;  // the NUL of an abstract name
+    constexpr std::size_t before = offsetof(sockaddr_un, sun_path) + 1;  // skips the NUL of an abstract name
     if (::getsockname(fd_.get(), reinterpret_cast<sockaddr*>(&own), &length) != 0 || length <= before) return {};
     return fmt::format("@{}", printable(std::string_view(own.sun_path + 1, length - before)));
 }
@@ -45,7 +45,7 @@ IoResult<std::size_t> LocalSender::send(SendBatch& batch, std::size_t first) noe
     return static_cast<std::size_t>(count);
 }
 
-// /proc/net/unix: "Num RefCount Protocol Flags Type St Inode Path", a heading first.
+// Reads /proc/net/unix. Columns: "Num RefCount Protocol Flags Type St Inode Path", after a heading line.
 static std::string inode_of_socket(const std::filesystem::path& path) {
     std::ifstream sockets("/proc/net/unix");
     for (std::string line; std::getline(sockets, line);) {

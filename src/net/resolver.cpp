@@ -22,7 +22,7 @@ static SetupError look_up_error(std::string_view host, int code) {
 SetupResult<std::vector<Address>> look_up(std::string_view host, std::uint16_t port) {
     addrinfo hints{};
     hints.ai_family = AF_UNSPEC;
-    hints.ai_socktype = SOCK_DGRAM;  // one entry an address; streams get the same ones
+    hints.ai_socktype = SOCK_DGRAM;  // one entry per address; the addresses hold for streams too
     addrinfo* found = nullptr;
     const int code = getaddrinfo(std::string(host).c_str(), nullptr, &hints, &found);
     if (code != 0) return tl::unexpected(look_up_error(host, code));
@@ -45,7 +45,7 @@ struct Resolver::State {
         std::string host;
         std::uint16_t port;
     };
-    std::mutex mutex;  // guards all below
+    std::mutex mutex;  // guards everything below
     std::condition_variable changed;
     std::deque<Question> questions;
     std::deque<Done> answers;
@@ -54,7 +54,7 @@ struct Resolver::State {
     std::thread thread;
     std::function<void()> notify;
 
-    // Holds the state itself: it may outlive the Resolver while getaddrinfo does not come back.
+    // Takes shared ownership of the state: the thread may outlive the Resolver while getaddrinfo blocks.
     static void answer_questions(const std::shared_ptr<State>& state);
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/serial.hpp"
 
-// <termios.h> knows neither termios2 nor BOTHER, and cannot stand beside the kernel's header.
+// <termios.h> has neither termios2 nor BOTHER, and conflicts with this kernel header.
 #include <asm/termbits.h>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -61,8 +61,8 @@ static bool is_pseudo_terminal(int fd) noexcept {
     return number >= UNIX98_PTY_SLAVE_MAJOR && number < UNIX98_PTY_SLAVE_MAJOR + UNIX98_PTY_MAJOR_COUNT;
 }
 
-// The lock tells programs that ask for one; TIOCEXCL turns away the others, root excepted. A pseudo-terminal would keep TIOCEXCL after us, as
-// long as its other end is open.
+// flock stops programs that ask for a lock. TIOCEXCL stops all others, except root. A pseudo-terminal gets no TIOCEXCL,
+// because it would keep that setting after this program closes it, until its other end closes too.
 SetupResult<void> SerialPort::lock(const std::string& device) {
     if (::flock(fd(), LOCK_EX | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK)
@@ -84,9 +84,9 @@ SetupResult<void> SerialPort::set_raw(const SerialOptions& options) {
     settings.c_iflag = IGNBRK;
     settings.c_oflag = 0;
     settings.c_lflag = 0;
-    // Without HUPCL closing does not drop DTR, which resets some boards.
+    // Without HUPCL, closing the port does not drop DTR. A drop of DTR resets some boards.
     settings.c_cflag = CS8 | CREAD | CLOCAL | BOTHER | (options.rtscts ? CRTSCTS : 0);
-    settings.c_cc[VMIN] = 1;  // a read of no bytes then means that the port is gone
+    settings.c_cc[VMIN] = 1;  // so a read of 0 bytes means that the port is gone
     settings.c_cc[VTIME] = 0;
     settings.c_ispeed = settings.c_ospeed = options.baud;
     if (::ioctl(fd(), TCSETS2, &settings) != 0) {

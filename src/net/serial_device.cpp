@@ -25,7 +25,8 @@ static bool is_there(const fs::path& name) {
     return !name.empty() && fs::exists(name, failed) && !failed;
 }
 
-// The first link by name that leads to the same device; the known one where it does.
+// Returns the link that leads to the device at `name`: the known link if it still does, otherwise the first one by
+// name.
 std::string SerialDevice::id_of(const std::string& name) const {
     const fs::path target = target_of(name);
     if (target.empty()) return {};
@@ -61,7 +62,7 @@ std::vector<std::string> SerialDevice::places() const {
     return {path_};
 }
 
-// The folder of a name, or the nearest one above it that is there.
+// Returns the folder of a path, or the nearest parent that exists.
 static std::string folder_of(const fs::path& name) {
     fs::path folder = name.parent_path();
     while (folder.has_relative_path() && !is_there(folder)) folder = folder.parent_path();

@@ -19,7 +19,7 @@ static int read_option(int fd, int level, int name) noexcept {
 
 std::uint64_t largest_receive_buffer(int fd, std::uint64_t bytes) noexcept {
     const int ask = static_cast<int>(std::min<std::uint64_t>(bytes, std::numeric_limits<int>::max() / 2));
-    // Without CAP_NET_ADMIN the kernel cuts SO_RCVBUF to net.core.rmem_max by itself.
+    // SO_RCVBUFFORCE needs CAP_NET_ADMIN. The kernel limits SO_RCVBUF to net.core.rmem_max.
     if (setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &ask, sizeof ask) != 0) set_option(fd, SOL_SOCKET, SO_RCVBUF, ask);
     return static_cast<std::uint64_t>(read_option(fd, SOL_SOCKET, SO_RCVBUF));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Socket options that UDP and TCP share. Private to module net.
+// Socket options that UDP and TCP share. Private to module net. Any thread; allocates only error texts.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace mavloom::net {
 
-// Options that make things better where the kernel has them; a refusal is no error.
+// Sets an optional option: ignores the error if the kernel refuses it.
 void set_option(int fd, int level, int name, int value) noexcept;
-// Asks beyond net.core.rmem_max where permitted, else for the most allowed; returns what the kernel now has.
+// Sets the receive buffer size: beyond net.core.rmem_max if permitted, else as large as allowed. Returns the actual
+// size.
 [[nodiscard]] std::uint64_t largest_receive_buffer(int fd, std::uint64_t bytes) noexcept;
 [[nodiscard]] SetupResult<Address> local_address(int fd);
 

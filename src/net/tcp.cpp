@@ -15,7 +15,7 @@
 
 namespace mavloom::net {
 
-// What the kernel may hold that is not yet sent: what waits longer than that waits in the owner's queue, where it can age.
+// Limit for unsent bytes in the kernel. Everything beyond it waits in the owner's queue, where it can expire.
 static constexpr int unsent_bytes = 128 * 1024;
 
 static void set_stream_options(int fd) noexcept {
@@ -78,7 +78,8 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     if (!listener.fd_) return system_error("cannot make a TCP socket", errno);
     const int fd = listener.fd();
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, v6_only ? 1 : 0);
-    // Lets a restarted program have its port while old connections linger; a listening one is still refused.
+    // Lets a restarted program reuse its port while old connections linger. A port with an active listener is still
+    // refused.
     set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
     if (::bind(fd, local.data(), local.size()) != 0 || ::listen(fd, SOMAXCONN) != 0) {
         return system_error(fmt::format("cannot listen on TCP {}", local.text()), errno);
@@ -89,8 +90,8 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     return listener;
 }
 
-// Numbers are given from below, so that the lowest free one tells. Some are kept from clients, for what serves the program's own user: its
-// control socket, recordings, look-ups.
+// The kernel assigns the lowest free number, so that number shows how many are left. The last few are kept from
+// clients. The program's own control socket, recordings and look-ups need them.
 static bool few_descriptors_left(int any) noexcept {
     constexpr rlim_t kept = 16;
     rlimit limit{};

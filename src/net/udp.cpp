@@ -13,13 +13,13 @@
 
 #include "net/socket_options.hpp"
 
-#ifndef SO_MEMINFO  // Linux 4.12; glibc's headers of some architectures lack it
+#ifndef SO_MEMINFO  // Linux 4.12; missing from glibc's headers on some architectures
 #define SO_MEMINFO 55
 #endif
 
 namespace mavloom::net {
 
-// Slots lie a little further apart than they are long: a stride of exactly 64 KiB would put the start of each on the same cache set.
+// The stride is a little more than 64 KiB. With exactly 64 KiB, all slots would start in the same cache set.
 static constexpr std::size_t slot_stride = ReceiveBatch::slot_bytes + 4096 + 192;
 static constexpr std::size_t batch_bytes = slot_stride * ReceiveBatch::slots;
 
@@ -37,7 +37,7 @@ SetupResult<ReceiveBatch> ReceiveBatch::create() {
     void* memory = mmap(nullptr, batch_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1,
                         0);
     if (memory == MAP_FAILED) return system_error("cannot get memory for received datagrams", errno);
-    // Transparent huge pages would make each slot resident in full.
+    // Transparent huge pages would make every slot fully resident.
     madvise(memory, batch_bytes, MADV_NOHUGEPAGE);
     return ReceiveBatch(std::make_unique<Slots>(), static_cast<std::uint8_t*>(memory));
 }
@@ -71,7 +71,7 @@ ReceiveBatch::~ReceiveBatch() {
     if (memory_ != nullptr) munmap(memory_, batch_bytes);
 }
 
-// The kernel writes the used lengths over the offered ones.
+// Restores the buffer lengths, which the kernel replaced with the used lengths.
 void ReceiveBatch::rearm(std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         msghdr& header = headers_->messages[i].msg_hdr;
@@ -115,7 +115,7 @@ void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
 static void set_hops(int fd, bool v6, std::uint8_t hops) noexcept {
     set_option(fd, IPPROTO_IP, IP_MULTICAST_TTL, hops);
     if (v6) set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_HOPS, hops);
-    if (hops == 0) return;  // for groups only: nothing else leaves with none
+    if (hops == 0) return;  // multicast only: unicast needs at least one hop
     set_option(fd, IPPROTO_IP, IP_TTL, hops);
     if (v6) set_option(fd, IPPROTO_IPV6, IPV6_UNICAST_HOPS, hops);
 }
@@ -127,7 +127,7 @@ static SetupResult<void> bind_to_device(int fd, const std::string& device) {
     return system_error(fmt::format("cannot use the interface '{}'", device), errno);
 }
 
-// Own datagrams loop back, so that other programs of this machine hear them.
+// Enables loopback of sent multicast, so that other programs on this machine receive it.
 static SetupResult<void> choose_group_interface(int fd, bool v6, std::uint32_t index) {
     set_option(fd, IPPROTO_IP, IP_MULTICAST_LOOP, 1);
     if (v6) set_option(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, 1);
@@ -159,7 +159,8 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     const int fd = socket.fd();
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, options.v6_only ? 1 : 0);
     set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);
-    // Without it the kernel hides closed ports (ICMP), and says that it sent what a full device queue dropped.
+    // Without this option the kernel hides closed ports (ICMP). It also reports datagrams as sent that a full device
+    // queue dropped.
     set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
     if (options.broadcast) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1);

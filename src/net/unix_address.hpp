@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The address of a Unix socket at a path.
+// Builds the address of a Unix socket from its path. Private to module net. Any thread; allocates nothing.
 #pragma once
 
 #include <sys/socket.h>
@@ -11,7 +11,7 @@
 
 namespace mavloom::net {
 
-// Empty where the path is longer than an address takes (107 bytes).
+// Returns nothing if the path is too long for an address (more than 107 bytes).
 [[nodiscard]] inline std::optional<sockaddr_un> unix_address(const std::filesystem::path& path) noexcept {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

@@ -28,10 +28,10 @@ SetupResult<File> File::open(const std::filesystem::path& path, int flags, std::
 }
 
 SetupResult<File> File::open_to_read(const std::filesystem::path& path, Empty empty) {
-    auto file = open(path, O_RDONLY | O_NONBLOCK, "read");  // nothing changes for a regular file
+    auto file = open(path, O_RDONLY | O_NONBLOCK, "read");  // O_NONBLOCK has no effect on a regular file
     if (file) file->empty_ = empty;
     if (file && file->regular_)
-        (void)::posix_fadvise(file->fd_, 0, 0, POSIX_FADV_SEQUENTIAL);  // only advice: a refusal changes nothing
+        (void)::posix_fadvise(file->fd_, 0, 0, POSIX_FADV_SEQUENTIAL);  // advice only; an error does no harm
     return file;
 }
 
@@ -54,7 +54,8 @@ File::~File() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-// 0 or errno. A FIFO that no writer has opened yet reads as ended, but polls as empty.
+// Returns 0 or an errno value. A read would not do: a FIFO that no writer has opened yet reads as ended, but polls as
+// empty.
 int File::wait_for_input(int limit_ms) const noexcept {
     pollfd input{fd_, POLLIN, 0};
     const int ready = ::poll(&input, 1, limit_ms);

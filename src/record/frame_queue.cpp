@@ -10,18 +10,20 @@
 
 namespace mavloom::record {
 
-// In the ring each record is a header and the frame, rounded up to eight bytes. A header with no frame fills the rest of the ring.
+// Each record in the ring is a header and a frame, padded to a multiple of eight bytes. A header without a frame marks
+// the rest of the ring as padding.
 struct FrameQueue::Header {
     std::int64_t time_ns;
     std::uint32_t link;
-    std::uint32_t frame_bytes;  // 0: padding up to the ring's end
+    std::uint32_t frame_bytes;  // 0 means padding up to the end of the ring
 };
 
 namespace {
 
 constexpr std::size_t header_bytes = 16;
 constexpr std::size_t smallest_capacity = 64 * 1024;
-constexpr std::size_t warm_bytes = 256 * 1024;  // an empty queue returns to the start beyond this, to stay in the cache
+// Past this many bytes, an empty queue returns to the start of the ring, which is still in the cache.
+constexpr std::size_t warm_bytes = 256 * 1024;
 
 constexpr std::size_t rounded(std::size_t bytes) noexcept { return (bytes + 7) & ~std::size_t{7}; }
 
@@ -47,8 +49,8 @@ bool FrameQueue::push(const Entry& entry) noexcept {
     std::uint64_t tail = tail_.position.load(std::memory_order_relaxed);
     const bool warm_end = capacity_ - to_end(tail) > warm_bytes;
     if (warm_end) look_at_head();
-    if (warm_end && tail_.head_seen == tail) {                    // empty: back to the memory that is in the cache
-        tail_.restart_at.store(tail, std::memory_order_relaxed);  // seen by the reader with the new tail
+    if (warm_end && tail_.head_seen == tail) {  // empty: returns to the memory that is still in the cache
+        tail_.restart_at.store(tail, std::memory_order_relaxed);  // visible to the reader with the new tail
         tail += to_end(tail);
         tail_.restarted_to = tail_.head_seen = tail;
     }
@@ -69,8 +71,8 @@ bool FrameQueue::push(const Entry& entry) noexcept {
     return true;
 }
 
-// The reader says that it sleeps, then looks once more; the writer publishes, then looks whether it sleeps. Sequential consistency of these
-// four (store and load on each side) lets at least one of them see the other.
+// The reader sets sleeping_, then checks the position again. The writer stores the position, then checks sleeping_.
+// Each side does a store and a load; because all four are sequentially consistent, at least one side sees the other.
 void FrameQueue::publish() noexcept {
     tail_.position.store(tail_.position.load(std::memory_order_relaxed), std::memory_order_seq_cst);
     if (!sleeping_.load(std::memory_order_seq_cst)) return;
@@ -86,8 +88,8 @@ void FrameQueue::close() noexcept {
 
 std::optional<FrameQueue::Entry> FrameQueue::next() noexcept {
     std::uint64_t head = head_.release_to;
-    head_.position.store(
-        head, std::memory_order_release);  // gives the last entry's room back; pairs with the acquire in push()
+    // Releases the room of the last entry; pairs with the acquire in look_at_head().
+    head_.position.store(head, std::memory_order_release);
     for (;;) {
         if (head == head_.tail_seen) {
             head_.tail_seen = tail_.position.load(std::memory_order_acquire);  // pairs with the release in push()

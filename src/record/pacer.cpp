@@ -23,7 +23,7 @@ MonoTime Pacer::due(WallTime recorded) noexcept {
     }
     last_recorded_ = recorded;
     const auto elapsed = static_cast<double>((recorded - anchor_recorded_).count());
-    // A very slow replay could be due later than the clock can say.
+    // At a very low speed, the due time could exceed the range of the clock.
     constexpr double ten_years_ns = 3653 * 86400e9;
     const auto wait = std::min(elapsed / speed_, ten_years_ns);
     last_due_ = std::max(last_due_, anchor_due_ + Nanoseconds{std::llround(std::max(wait, 0.0))});

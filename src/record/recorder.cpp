@@ -35,7 +35,7 @@ void Recorder::stop() {
     thread_.join();
 }
 
-// What is written goes to the system whenever the queue runs empty: whoever reads the file meanwhile sees it.
+// Flushes whenever the queue runs empty, so that other programs can follow the file.
 void Recorder::run() {
     while (queue_->wait()) {
         SetupResult<void> worst;

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Found out before the first frame, which may come hours later.
+// Checks the folder at once, because the first frame may arrive hours later.
 SetupResult<void> check_place(const fs::path& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
@@ -28,7 +28,7 @@ SetupResult<void> check_place(const fs::path& path) {
     return {};
 }
 
-// 20231114T221320.000Z: sorts as the times do.
+// For example 20231114T221320.000Z. The names sort in the order of the times.
 std::string name_of(WallTime time) {
     constexpr std::int64_t latest_ms = static_cast<std::int64_t>(time_limit_us / 1000) - 1;
     const auto ms = std::clamp<std::int64_t>(unix_us(time) / 1000, 0, latest_ms);
@@ -86,8 +86,8 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
     return closed;
 }
 
-// Where the records that are due for the old file do not fit on the disk, a new one would not hold them either: they wait, and it goes on.
-// The new segment is open before the old one is closed: where it cannot be opened, nothing has changed.
+// If the disk has no room for the buffered records of the open segment, a new segment would not help: the open segment
+// stays. The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
     if (is_due(time, time_length + frame.size()) && !is_disk_full()) {

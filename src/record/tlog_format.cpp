@@ -13,15 +13,16 @@ bool has_plausible_time(ByteView bytes) noexcept {
     return bytes.size() >= time_length && load_be64(bytes.data()) < time_limit_us;
 }
 
-// Whether the checksum is good, or for an id without definition could be with some CRC_EXTRA (1 in 256 of random ones can).
-// `readable` bytes are there from the frame's first on.
+// Whether the checksum is good. For an id without definition, whether some CRC_EXTRA would make it good, which 1 in 256
+// random checksums passes. `readable` is the number of readable bytes from the start of the frame.
 bool is_possible(const wire::FrameView& frame, std::size_t readable, const wire::MessageInfo* info) noexcept {
     if (info == nullptr) return wire::crc_extra_of(frame) >= 0;
     const auto covered = frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length());
     return wire::crc_agrees(covered, readable - 1, info->crc_extra, frame.checksum());
 }
 
-// Whether `rest`, all that follows a frame of unknown id, looks like another record: whole, or cut by the end of the file.
+// Whether `rest`, the bytes after a frame of unknown id, is empty or looks like another record. The end of the file may
+// cut that record off.
 bool continues(ByteView rest, const wire::MessageTable& table) noexcept {
     if (rest.empty()) return true;
     if (rest.size() <= time_length) return rest.front() == 0;  // the highest byte of any plausible time
@@ -60,7 +61,7 @@ std::size_t skip_startless(ByteView bytes) noexcept {
         const bool zero = bytes[i] == 0, start = wire::is_start(starts[i]);
         return zero && start;
     };
-    constexpr std::size_t block = 64;  // looked at without a branch, which compilers turn into vector instructions
+    constexpr std::size_t block = 64;  // tested without branches, so that compilers can vectorize the loop
     std::size_t at = 0;
     for (; at + block <= starts.size(); at += block) {
         bool any = false;

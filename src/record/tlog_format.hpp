@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands at a position of a tlog. Pure functions over untrusted bytes; private to module record.
+// Recognizes records in the bytes of a tlog. Pure functions over untrusted bytes. Private to module record.
 #pragma once
 
 #include "mavloom/base/bytes.hpp"
@@ -18,26 +18,28 @@ struct Found {
     const wire::MessageInfo* info = nullptr;
 };
 
-// `bytes` begins at the position in question and holds all that is left of the file, or at least two longest records.
+// Examines the start of `bytes`, which must hold the rest of the file or at least two records of the maximum length.
 [[nodiscard]] Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept;
 
-// How many bytes at the front cannot begin a record: no start byte stands where it would have to, or no plausible time before it. All but the last
-// eight at most.
+// Returns how many bytes at the front cannot begin a record, because no start byte follows at the right distance or no
+// plausible time precedes it. Never skips the last eight bytes.
 [[nodiscard]] std::size_t skip_startless(ByteView bytes) noexcept;
 
-// The length of the record at the front, by its header alone; 0 where `bytes` does not hold it whole.
+// Returns the length of the record at the front, from its header alone, or 0 if `bytes` does not hold all of it.
 [[nodiscard]] std::size_t record_length(ByteView bytes) noexcept;
 
 struct Joined {
-    std::size_t length = 0;  // of the whole record; 0 where it has to be examined
+    std::size_t length = 0;  // of the whole record; 0 if the record must be examined
     MessageId id{};
     std::uint64_t time_us = 0;
 };
 
-// A record that another one can be told to follow without looking at its checksum: its time is within a day of `before_us`, its id is known, and its
-// frame has no undefined flag and is not longer than its definition. `record` has room for the longest.
+// Recognizes a record that plausibly follows the previous one, without checking its checksum. Its time must be within a
+// day of `before_us`, and its id must be known. Its frame must have no undefined flag, and a payload no longer than its
+// definition. `record` must point to at least max_record_length bytes.
 //
-// One of these waits for the length that the one before it gave, and nothing else: so version and flags are branches, which the processor foresees.
+// Each call depends only on the length that the previous call returned. Version and flags are therefore branches, which
+// the processor predicts.
 [[nodiscard]] inline Joined joined_record(const std::uint8_t* record, std::uint64_t before_us,
                                           const wire::MessageTable& table) noexcept {
     constexpr std::uint64_t day_us = 86'400'000'000;

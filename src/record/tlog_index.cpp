@@ -29,7 +29,7 @@ SetupResult<TlogIndex> TlogIndex::build(TlogReader& reader, std::uint64_t spacin
 }
 
 std::uint64_t TlogIndex::offset_before(WallTime time) const noexcept {
-    // The last entry in front of which everything is earlier than `time`.
+    // Finds the last entry before which all records are earlier than `time`.
     const auto behind = std::partition_point(entries_.begin(), entries_.end(),
                                              [&](const Entry& e) { return e.latest_before < time; });
     return behind == entries_.begin() ? 0 : std::prev(behind)->offset;

@@ -33,13 +33,14 @@ TlogReader::Stop TlogReader::read_failed(SetupError error) {
     return Stop::failed;
 }
 
-// Whether the record at the front cannot be judged yet. A writer at the other end of a pipe may be slow: a frame of known id needs nothing behind it.
+// Whether more bytes are needed to judge the record at the front. The writer of a pipe may be slow, so there a whole
+// frame of known id is enough.
 bool TlogReader::needs_more() const noexcept {
     if (at_end_ || end_ - begin_ >= look_ahead) return false;
     return file_.is_regular() || examine_record(unread(), *table_).info == nullptr;
 }
 
-// Moves what is unread to the front and reads on. Empty when that went well.
+// Moves the unread bytes to the front of the buffer and reads more. Returns nothing on success.
 std::optional<TlogReader::Stop> TlogReader::fill() {
     std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
     base_ += begin_;
@@ -65,7 +66,8 @@ void TlogReader::lose(std::size_t bytes) noexcept {
     begin_ += bytes;
 }
 
-// Hands out the record at the front, made where it is returned: a copy of what was written a moment ago holds the processor up.
+// Returns the record at the front. It is constructed in place, because copying what was just written stalls the
+// processor.
 Result<Record, TlogReader::Stop> TlogReader::take(std::size_t size, const wire::MessageInfo* info) noexcept {
     const ByteView bytes = unread().first(size);
     const std::uint64_t offset = position();
@@ -105,7 +107,8 @@ Result<Record, TlogReader::Stop> TlogReader::next(std::uint64_t most_damage) {
     return tl::unexpected(Stop::damage);
 }
 
-// Passes over records as far as they join and the buffer reaches. Gives the size of the record at the front where it is an intact one of this id, else 0.
+// Skips records while each one joins the next and lies within the buffer. Returns the size of the record that is then
+// at the front if it is an intact record of this id, else 0.
 std::size_t TlogReader::pass_over_to(MessageId id) noexcept {
     std::uint64_t records = 0;
     std::size_t at = begin_, found = 0;

@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Renames without ever replacing a file; 0 or errno. File systems that cannot promise that in one step are asked in two.
+// Renames without replacing an existing file. Returns 0 or an errno value. If the file system has no RENAME_NOREPLACE,
+// it checks first and then renames.
 int rename_to_free_name(const fs::path& from, const fs::path& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
     if (errno != EINVAL && errno != ENOSYS) return errno;
@@ -98,7 +99,8 @@ SetupResult<void> TlogWriter::flush() {
     return keep_whole_records(file_.write({buffer_.get() + half_, used_ - half_}));
 }
 
-// After a write: forgets the records that are in the file, takes back the part of one that is not whole.
+// After a write, drops the records that are in the file from the buffer. After an error, truncates a regular file to
+// the last whole record.
 SetupResult<void> TlogWriter::keep_whole_records(File::Written result) {
     const std::size_t taken = half_ + result.bytes;
     std::size_t whole = 0;

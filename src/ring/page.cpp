@@ -46,7 +46,7 @@ RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType ty
 }
 
 void RingPage::name_link(LinkId link, std::string_view name) {
-    std::erase(gone_, link);  // one that comes again
+    std::erase(gone_, link);  // in case the link comes back
     if (rows_.size() < most_rows) add_row(link);
     while (!page_.name_link(link, name) && !gone_.empty()) {
         page_.forget_link(gone_.front());

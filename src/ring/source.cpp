@@ -15,11 +15,12 @@ namespace mavloom::ring {
 
 namespace {
 
-// How many records are read in a turn that hold no frame.
+// Limit for records without a frame that one turn reads.
 constexpr std::size_t most_empty_records = 4096;
-// Bounds what a writer's link numbers can make us remember: twice the links of a router, so that of who lives nobody is forgotten.
+// Limits the memory that a writer's link numbers can take. Twice a router's link limit, so that no live link is
+// evicted.
 constexpr std::size_t most_links = 2 * route::Engine::max_links;
-constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two looks for names that were not there
+constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two reads of the page for missing names
 constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
 
 shm::ReaderOptions reader_options(const endpoint::EndpointOptions& options) {
@@ -123,7 +124,7 @@ void RingSource::take(const shm::RingRecord& record, link::LinkHandler& handler)
     if (!lossless()) return parse(record.data, handler);
     copy_.assign(record.data.begin(), record.data.end());
     if (follower_.reader()->holds()) return parse(copy_, handler);
-    ++overwritten_;  // by a writer that evicts, while it was copied
+    ++overwritten_;  // by an evicting writer, during the copy
     forget_sequences();
 }
 
@@ -154,7 +155,8 @@ void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
 void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {
     next_look_ = {};
     if (why == shm::ReadError::empty) {
-        if (told_ != Told::unwritten) told_ = Told::nothing;  // a writer that is back writes
+        // Told::unwritten stays until the new writer has written a record; take() resets it.
+        if (told_ != Told::unwritten) told_ = Told::nothing;
         return;
     }
     if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
@@ -183,7 +185,7 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
     auto* const reader = follower_.reader();
     if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
     const Nanoseconds nap = reader->arm();
-    // A ring without writer is also looked at when it was removed, and then there is nothing to read.
+    // arm() also returns 0 for a removed ring. If it has no writer either, there is nothing to read.
     if (nap == Nanoseconds{} && told_ == Told::unwritten) return now + look_distance;
     return now + nap;
 }
@@ -217,7 +219,7 @@ RingSource::RingLink& RingSource::link_called(const std::string& name, link::Lin
     return *known->second;
 }
 
-// Half of them at once, so that it is seldom. Who speaks again later is a new link.
+// Evicts half of the links at once, so that eviction is rare. A link that returns gets a new entry.
 void RingSource::forget_longest_silent(link::LinkHandler& handler) {
     std::vector<std::uint64_t> heard;
     heard.reserve(by_name_.size());
@@ -240,7 +242,7 @@ std::string RingSource::name_of(LinkId in_ring) {
     return fmt::format("{}/{}", endpoint_.label(), in_ring.value);
 }
 
-// Whether the page has other names than before.
+// Reads the counter page. Returns whether its names have changed.
 bool RingSource::read_names() {
     next_names_ = mono_now() + names_distance;
     auto page = shm::read_counters(follower_.name());
@@ -249,8 +251,8 @@ bool RingSource::read_names() {
     return true;
 }
 
-// The page may have been away when a link spoke first: its router makes one anew that somebody removed. Under a number the link of this process's own
-// frames would not be known.
+// The page may have been missing when a link was first seen, because its router was recreating it after a removal. Such
+// a link has a number instead of a name, so is_own() could not recognise this process's own link.
 void RingSource::look_for_names() {
     if (!any_unnamed_ || next_found_ < found_.size() || mono_now() < next_names_ || !read_names()) return;
     any_unnamed_ = false;
@@ -258,7 +260,7 @@ void RingSource::look_for_names() {
     last_ = nullptr;
 }
 
-// The router calls this process's link by the address that its socket has.
+// The router names this process's link after the address of its socket.
 bool RingSource::is_own(const std::string& name) const {
     if (!inlet_) return false;
     const auto links = links_.links();

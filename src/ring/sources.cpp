@@ -29,7 +29,7 @@ SetupResult<link::EndpointId> RingSources::add(const endpoint::Endpoint& endpoin
     return rings_.back()->id();
 }
 
-// The waiter no longer sleeps on a ring that is about to go.
+// Updates the waiter, so that it no longer sleeps on the removed ring.
 void RingSources::remove(link::EndpointId ring) {
     std::erase_if(rings_, [&](const auto& known) { return known->id() == ring; });
     watch_changed();
@@ -40,7 +40,7 @@ RingSource* RingSources::find(link::EndpointId ring) const noexcept {
     return found == rings_.end() ? nullptr : found->get();
 }
 
-// Rings that came or went since the last turn.
+// Passes the open rings to the waiter if any was opened or closed since the last call.
 void RingSources::watch_changed() {
     const auto opening = [](const auto& ring) { return ring->follower().is_open() ? ring->follower().opened() : 0; };
     if (std::ranges::equal(rings_, watched_, {}, opening)) return;
@@ -52,7 +52,7 @@ void RingSources::watch_changed() {
     waiter_.watch(std::move(words));
 }
 
-// The waiter before the rings: a writer that sees a ring's wish finds the waiter ready.
+// Arms the waiter before the rings. A writer that sees a ring's request thus finds the waiter ready.
 MonoTime RingSources::due(const Room& room) {
     if (rings_.empty()) return MonoTime::max();
     watch_changed();
@@ -69,7 +69,7 @@ std::size_t RingSources::play(link::LinkHandler& handler, const Room& room) {
     waiter_.disarm();
     std::size_t played = 0;
     Room left = room;
-    first_ = (first_ + 1) % rings_.size();  // no ring is always the last one
+    first_ = (first_ + 1) % rings_.size();  // rotates the order, so that no ring is always last
     for (std::size_t i = 0; i < rings_.size(); ++i) {
         RingSource& ring = *rings_[(first_ + i) % rings_.size()];
         std::size_t& most = ring.lossless() ? left.lossless : left.lossy;

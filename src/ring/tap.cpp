@@ -20,10 +20,10 @@ RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWri
       writer_(std::move(writer)),
       page_(std::move(page)) {}
 
-// The writer's lock comes first: who has it owns the page as well.
+// Opens the ring first: the process that holds its writer lock also owns the page.
 SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, const shm::RingOptions& options,
                                                     std::function<void()> ready) {
-    const auto left = shm::read_counters(name);  // the writer takes away what a router that was killed left
+    const auto left = shm::read_counters(name);  // read first: opening the writer removes a killed router's page
     auto writer = shm::RingWriter::open(name, options);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(name, options.mode);
@@ -64,7 +64,7 @@ std::vector<std::string> RingTap::look_after(const link::Links& links) {
     return notices;
 }
 
-// One thing at a time; where there is no thread to be had, at the next look.
+// Runs one job at a time. If no thread can be started, the next look_after() tries again.
 template <class Work>
 void RingTap::work_beside(Work work) {
     if (beside_.joinable()) beside_.join();
@@ -76,7 +76,8 @@ void RingTap::work_beside(Work work) {
     }
 }
 
-// Not by the thread that routes: the memory of 8 MiB takes the kernel 5 to 20 ms, that of GiB seconds. What comes meanwhile goes into the old ring.
+// Runs on another thread than the routing. The kernel takes 5 to 20 ms to provide 8 MiB, and seconds for gigabytes.
+// Until then, frames go into the old ring.
 void RingTap::make_ring_anew() {
     std::packaged_task<SetupResult<shm::RingWriter>()> task(
         [name = name_, options = options_] { return shm::RingWriter::open(name, options); });
@@ -99,7 +100,7 @@ void RingTap::take_new_ring(std::vector<std::string>& notices) {
                         name_, anew.error().text));
     }
     told_ring_ = !anew;
-    work_beside([old = std::move(old)] {});  // giving memory back takes time as well
+    work_beside([old = std::move(old)] {});  // releasing the memory takes time too
 }
 
 void RingTap::make_page_anew(const link::Links& links, std::vector<std::string>& notices) {

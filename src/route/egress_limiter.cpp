@@ -31,7 +31,7 @@ EgressLimiter::Answer EgressLimiter::admit(const wire::FrameView& frame, bool es
         refill(now);
         const auto size = static_cast<double>(frame.size());
         if (!essential && tokens_ < size) return Answer::bytes_limited;
-        tokens_ = std::max(tokens_ - size, -static_cast<double>(*bytes_per_s_));  // a second's debt at most
+        tokens_ = std::max(tokens_ - size, -static_cast<double>(*bytes_per_s_));  // at most one second's worth of debt
     }
     rates_.count(rate, now);
     return Answer::admitted;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much may leave on one link: max_rate by source and message, max_bytes as a token bucket. Private to module route; one owner thread;
-// allocates when it is made.
+// Limits the output of one link: max_rate for each source and message, and max_bytes as a token bucket. Private to
+// module route. One owner thread. Allocates at construction.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ class EgressLimiter {
 public:
     enum class Answer : std::uint8_t { admitted, rate_limited, bytes_limited };
 
-    // Bytes that may leave at once after a silence: a quarter of a second's, and room for two frames at least.
+    // The burst allowed after a pause: the bytes of a quarter second, but at least two of the longest frames.
     [[nodiscard]] static double burst_bytes(std::uint64_t bytes_per_s) noexcept;
 
     EgressLimiter(const dialect::Rates& rates, std::optional<std::uint64_t> bytes_per_s);
 
     [[nodiscard]] bool limits() const noexcept { return rates_.limits() || bytes_per_s_.has_value(); }
-    // Counts the frame if the answer is `admitted`. An essential frame is never held for its bytes.
+    // Counts the frame if the answer is `admitted`. The byte limit never holds back an essential frame.
     [[nodiscard]] Answer admit(const wire::FrameView& frame, bool essential, MonoTime now) noexcept;
 
 private:

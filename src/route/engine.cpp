@@ -53,7 +53,7 @@ std::uint64_t Engine::Impl::mark_of(const wire::FrameView& frame) const noexcept
     return hash;
 }
 
-// Flattened, the steps below take a quarter fewer instructions.
+// Inlining all steps with `flatten` saves a quarter of the instructions.
 [[gnu::flatten]] Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash,
                                               const wire::MessageInfo* info, LinkId ingress, MonoTime now) noexcept {
     const Slot slot = slot_of(ingress);
@@ -79,7 +79,7 @@ std::uint64_t Engine::Impl::mark_of(const wire::FrameView& frame) const noexcept
     return {verdict, list_candidates(link)};
 }
 
-// A link's frames mostly go to the same many: that list is kept.
+// Frames of one link mostly go to the same links, so the link keeps its last long list.
 std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
     if (from.listed != 0 && equal(candidates_.data(), from.listed_set.data(), words_))
         return {from.list.data(), from.listed};
@@ -93,7 +93,7 @@ std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
     return {out_.data(), n};
 }
 
-// Leaves in candidates_ where the frame goes, taps aside.
+// Leaves in candidates_ the links that the frame goes to, without taps.
 Verdict Engine::Impl::judge(Passage& p) noexcept {
     if (p.link.policy.tap) [[unlikely]]
         return Verdict::tap;
@@ -119,9 +119,12 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
     return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
 }
 
-// An echo comes back where it was sent; a duplicate was heard on another link of the group, or anywhere within `dedup`. A link that
-// delivers the same bytes once more has a sender who repeats itself: that is a new frame, unless `dedup` says otherwise. On any other link it
-// is a copy, which goes only where the frame has not been yet: else two routers that reach each other twice would pass it round for ever.
+// Decides what to do with bytes that were received before:
+// - On a link that the frame was sent to, it is an echo.
+// - On another link of the same group, or on any link within `dedup`, it is a duplicate.
+// - On a link that delivered it before, it is a repetition by its sender and counts as a new frame.
+// - On any other link it is a copy. It goes only to links that the frame has not reached yet. Otherwise two routers
+//   connected by two paths would pass it round forever.
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
     const bool found = recent_.find(p.hash, p.recent);
@@ -141,7 +144,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
             verdict = Verdict::duplicate;
             return true;
         }
-        // The link is not noted as one where it was heard: a copy of the copy must not pass for a repetition.
+        // Does not add the link to `heard`: a second copy on this link must not look like a repetition.
         p.is_copy = age < echo_window && !again_here;
         if (p.is_copy) return false;
     }
@@ -162,7 +165,8 @@ bool Engine::Impl::is_on_two_members(const Passage& p) const noexcept {
     return count > 1;
 }
 
-// Kept apart from the frame itself, which begins anew where a link repeats it: under another hash, in another bucket.
+// Uses an entry of its own under the inverted hash, because the frame's own entry restarts when a link repeats the
+// frame.
 bool Engine::Impl::is_doubled(const Passage& p) noexcept {
     if (!recent_.active()) return false;
     std::size_t at = 0;
@@ -174,8 +178,9 @@ bool Engine::Impl::is_doubled(const Passage& p) noexcept {
     return false;
 }
 
-// HEARTBEAT goes on every link of a group, so who heard fewer of them has lost the others. What is sent on the chosen link alone tells nothing
-// of the rest, nor does a source that only one link ever brings. A link that is heard for the first time, or again, begins even with the best.
+// Every link of a group carries HEARTBEAT, so a link that received fewer of them lost the others. Other frames go on
+// the chosen link only, so they cannot show loss. A source heard on only one link is not counted either. A link that is
+// new, or was silent, starts with the count of the best link.
 void Engine::Impl::count_beats(const Passage& p) noexcept {
     const std::vector<Slot>& members = groups_[p.link.group].order;
     const bool is_beat = p.id == heartbeat_id && !is_doubled(p);
@@ -200,19 +205,19 @@ void Engine::Impl::learn(Passage& p) noexcept {
     watch_for_duplicate_ids(p);
 }
 
-// The frame that told of it has been learnt from already: that stays.
+// `route` has already learned from the frame that showed the reboot, so that route is learned again.
 void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcept {
     const Slot slot = slot_of(link);
     if (slot == no_slot || source.system.value == 0) return;
     Reboot& last = last_reboots_[source.system.value];
     const bool is_known = last.link != link && last.when != MonoTime{} && now - last.when < one_reboot;
-    if (is_known) return;  // by another link, and routes were learnt since
+    if (is_known) return;  // another link reported it, and new routes have been learned since
     last = {link, now};
     counters.reboots.add();
     routes_.forget_system(source.system);
     RouteTable::Change change;
     Route& route = routes_.learn(slot, pair_of(source), now, change);
-    --route.frames;  // counted when it came
+    --route.frames;  // `route` already counted this frame
     count_routes(change);
 }
 
@@ -249,7 +254,7 @@ Verdict Engine::Impl::to_everybody() noexcept {
 Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
     std::uint8_t system = 0, component = 0;
     if (p.info != nullptr) {
-        // What the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) is 0.
+        // A target beyond the end of the payload is 0: MAVLink 2 truncates trailing zeros, MAVLink 1 omits extensions.
         const ByteView payload = p.frame.payload();
         if (p.info->target_system_offset < payload.size()) system = payload[p.info->target_system_offset];
         if (p.info->target_component_offset < payload.size()) component = payload[p.info->target_component_offset];
@@ -312,7 +317,7 @@ void Engine::Impl::apply_filters(const Passage& p) noexcept {
     }
 }
 
-// HEARTBEAT goes on every link of a group: so each side hears which of them live.
+// HEARTBEAT goes on every link of a group, so that each side can tell which links are alive.
 void Engine::Impl::apply_groups(const Passage& p) noexcept {
     if (p.id == heartbeat_id) return;
     for (Group& group : groups_) {
@@ -334,7 +339,7 @@ bool Engine::Impl::is_alive(const Link& link, MonoTime now) const noexcept {
     return link.heard && now - link.last_heard < member_silence;
 }
 
-// no_slot where none is alive: then all are tried.
+// Returns no_slot if no member is alive; the frame then goes to all of them.
 Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) noexcept {
     Slot best = no_slot;
     for (const Slot slot : group.order) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The state of an Engine and the steps by which a frame passes it. Private to module route.
+// The implementation of Engine: its state, and the steps that decide where a frame goes. Private to module route.
 #pragma once
 
 #include <array>
@@ -43,10 +43,10 @@ public:
         bool filters_in = false;
         bool heard = false;
         MonoTime last_heard{};
-        std::uint32_t beats = 0;  // HEARTBEATs heard, as `best` counts them
+        std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
-        // The last long list of where its frames went.
-        std::size_t listed = 0;  // 0: none
+        // The last long list of links that frames of this link went to.
+        std::size_t listed = 0;  // length; 0 if there is no list
         std::vector<std::uint64_t> listed_set{};
         std::vector<LinkId> list{};
     };
@@ -54,38 +54,39 @@ public:
     const wire::MessageTable& table;
     Options options;
     EngineCounters counters{};
-    std::vector<std::unique_ptr<Link>> links;  // by slot; null: free
+    std::vector<std::unique_ptr<Link>> links;  // by slot; null if the slot is free
     std::size_t link_count = 0;
     std::vector<DuplicateId> duplicates;
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
     static constexpr std::size_t worth_a_list = 8;
-    static constexpr std::size_t most_listed = 1024;  // links: with more of them the lists would take too much memory
-    static constexpr std::chrono::seconds one_reboot{
-        10};  // links of one vehicle that lag behind report its restart within
-    static constexpr std::uint8_t turns_of_duplicates = 4;  // A, B, A, B: nobody who moves does that within the timeout
+    static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
+    // Within this time, slower links of a vehicle report the same restart again.
+    static constexpr std::chrono::seconds one_reboot{10};
+    // Heard on A, B, A, B: a sender that merely moves between links does not alternate like that within the timeout.
+    static constexpr std::uint8_t turns_of_duplicates = 4;
 
     struct Group {
         GroupId id;
         GroupMode mode = GroupMode::all;
         std::vector<std::uint64_t> members;
-        std::vector<Slot> order;  // as `primary` prefers them
-        Slot current = no_slot;   // of `best`
+        std::vector<Slot> order;  // in the order that `primary` prefers
+        Slot current = no_slot;   // the link that `best` uses
     };
     struct OutFilter {
         Filter filter;
-        std::vector<std::uint64_t> links;  // that have it
+        std::vector<std::uint64_t> links;  // the set of links with this filter
     };
     struct Turns {
-        LinkId last;  // 0: none
+        LinkId last;  // 0 if there is none
         std::uint8_t count;
         bool told;
     };
-    // A frame on its way through.
+    // A frame on its way through the engine.
     struct Passage {
         const wire::FrameView& frame;
-        std::uint64_t hash;  // of its bytes; 0 where no frames are remembered
+        std::uint64_t hash;  // of the frame's bytes; 0 if the engine remembers no frames
         const wire::MessageInfo* info;
         MessageId id;
         Pair source;
@@ -93,8 +94,8 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
-        bool is_copy = false;    // of a frame that another link brought
-        std::size_t recent = 0;  // its place among the recent frames
+        bool is_copy = false;    // copy of a frame that arrived earlier on another link
+        std::size_t recent = 0;  // index in recent_
     };
 
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
@@ -103,9 +104,9 @@ private:
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
-    // The link brought this HEARTBEAT a moment ago.
+    // Whether the link already delivered this HEARTBEAT within doubled_within.
     [[nodiscard]] bool is_doubled(const Passage& p) noexcept;
-    // Its source was heard on two links of the group or more.
+    // Whether the frame's source was heard on at least two links of the group.
     [[nodiscard]] bool is_on_two_members(const Passage& p) const noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
@@ -120,7 +121,7 @@ private:
     void add_taps(const Passage& p) noexcept;
     void count(LinkCounters& of, Verdict verdict) noexcept;
     void count_routes(const RouteTable::Change& change) noexcept;
-    // Takes the links of `set` out of the candidates.
+    // Removes the links of `set` from the candidates.
     void leave_out(ConstWords set, Reason reason) noexcept;
     void note(Slot slot, Reason reason) noexcept {
         if (reasons_ != nullptr) [[unlikely]]
@@ -142,7 +143,7 @@ private:
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_;  // sets of links
     std::vector<Group> groups_;
     bool has_taps_ = false, has_limits_ = false;
-    bool chooses_members_ = false;  // a group is `best` or `primary`
+    bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;
     ZeroedArray<Turns> turns_;            // by pair
     ZeroedArray<std::uint32_t> unknown_;  // frames dropped, by pair

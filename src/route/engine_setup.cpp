@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an Engine does when links come and go, and its lists for people.
+// Engine: adding and removing links, changing options, and the lists for reports.
 #include <algorithm>
 #include <bit>
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace mavloom::route {
 
-// Longer times mean for ever, and sums with the clock stay in range.
+// Longer times are cut to this, which is practically forever. Sums with the clock then cannot overflow.
 static constexpr Nanoseconds longest = std::chrono::hours{24 * 365 * 50};
 
 static Options bounded(Options options) {
@@ -121,7 +121,7 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
     return static_cast<std::uint32_t>(index);
 }
 
-// All sets that follow from the links and their policies.
+// Recomputes all sets that depend on the links and their policies.
 void Engine::Impl::rebuild() {
     for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
     std::erase_if(groups_, [&](const Group& group) {
@@ -170,7 +170,7 @@ void Engine::Impl::rebuild() {
         if (group.current != no_slot && !has(group.members.data(), group.current)) group.current = no_slot;
         chooses_members_ = chooses_members_ || (group.mode != GroupMode::all && group.order.size() > 1);
     }
-    // From the first link on: what the router itself sends there may come back by the second.
+    // Remembers frames from the first link on: what the router itself sends there may come back on a second link.
     const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
     recent_.resize(remembers ? options.recent_frames : 0, words_);
 }

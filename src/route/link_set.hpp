@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of links as bits, one for each slot: 64 links a word. Private to module route.
+// Sets of links as bit sets, with one bit per slot and 64 slots per word. Private to module route.
 #pragma once
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace mavloom::route {
 
-using Slot = std::uint32_t;  // where the engine keeps a link: below the number of links that were ever there at once
+using Slot = std::uint32_t;  // the engine's index of a link; free slots are reused, so slots stay small
 inline constexpr Slot no_slot = ~Slot{0};
 
 using Words = std::uint64_t*;
@@ -18,7 +18,7 @@ inline bool has(ConstWords set, Slot slot) noexcept { return (set[slot / 64] >> 
 inline void insert(Words set, Slot slot) noexcept { set[slot / 64] |= std::uint64_t{1} << (slot % 64); }
 inline void erase(Words set, Slot slot) noexcept { set[slot / 64] &= ~(std::uint64_t{1} << (slot % 64)); }
 
-// Calls f(w) for every word. Up to 64 links are one word, and that is what is made quick.
+// Calls f(w) for every word. Optimized for one word, that is up to 64 links.
 template <class F>
 [[gnu::always_inline]] inline void each_word(std::size_t words, F&& f) {
     if (words == 1) [[likely]] {
@@ -51,7 +51,7 @@ inline bool equal(ConstWords a, ConstWords b, std::size_t words) noexcept {
     return differs == 0;
 }
 
-// Calls f(slot) for every member, in rising order.
+// Calls f(slot) for every member, in ascending order.
 template <class F>
 void each_in_word(std::uint64_t bits, Slot first, F&& f) {
     for (; bits != 0; bits &= bits - 1) f(first + static_cast<Slot>(std::countr_zero(bits)));

@@ -6,7 +6,7 @@
 
 namespace mavloom::route {
 
-// The 128-bit product folded: every bit of the result depends on every bit of both.
+// Folds the 128-bit product, so that every bit of the result depends on every bit of both factors.
 static std::uint64_t mix(std::uint64_t a, std::uint64_t b) noexcept {
     __extension__ using Wide = unsigned __int128;
     const Wide product = static_cast<Wide>(a) * b;
@@ -20,7 +20,7 @@ std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept {
     std::uint64_t h = seed ^ mix(k0 ^ left, k1 ^ seed);
     for (; left > 16; left -= 16, p += 16)
         h = mix(load_le<std::uint64_t>(p) ^ k0, load_le<std::uint64_t>(p + 8) ^ k1 ^ h);
-    // The last 8 to 16 bytes, and for shorter rests some before them once more.
+    // Mixes the last 8 to 16 bytes. If fewer than 8 are left, it reads some earlier bytes again.
     const std::uint8_t* const end = p + left;
     const std::uint64_t first = left >= 8 ? load_le<std::uint64_t>(p) : 0;
     h = mix(first ^ k1, load_le<std::uint64_t>(end - 8) ^ k0 ^ h);

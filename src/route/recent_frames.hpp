@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The frames of the last moments by the hash of their bytes, with the links that each was heard on and sent to: what is needed to know a copy
-// or an echo. Fixed memory: four places to a bucket, of which the oldest gives way. Private to module route; one owner thread.
+// A table of recent frames, to recognize copies and echoes. For each frame it keeps a hash of its bytes, the links that
+// received it, and the links that it was sent to.
+//
+// Memory is fixed: each bucket has four places, and a new frame evicts the oldest. Private to module route; one owner
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +15,34 @@
 
 namespace mavloom::route {
 
-// 64 bits over the bytes of a frame (8 or more), never 0.
+// A 64-bit hash of a frame's bytes, of which there must be at least 8. Never 0.
 [[nodiscard]] std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept;
 
 class RecentFrames {
 public:
-    // Room for about `capacity` frames and links in `words` words each, keeping what there is. With a capacity of 0 it remembers nothing.
+    // Makes room for about `capacity` frames, with link sets of `words` words, and keeps the remembered frames. With a
+    // capacity of 0 the table is inactive.
     void resize(std::size_t capacity, std::size_t words);
     [[nodiscard]] bool active() const noexcept { return places_ != 0; }
 
-    // Has the frame's bucket fetched from memory meanwhile.
+    // Prefetches the frame's bucket into the cache.
     void prefetch(std::uint64_t hash) const noexcept {
         const std::uint64_t* place = &cells_[bucket(hash) * stride_];
         for (std::size_t i = 0; i < ways; ++i, place += stride_) __builtin_prefetch(place, 1);
     }
 
-    // False where the frame is not known. `index` is then its bucket's first place, else where it is; valid until the next `put` or `resize`.
+    // Returns whether the frame is known. `index` becomes its place, or the first place of its bucket if it is unknown.
+    // The index is valid until the next `put` or `resize`.
     [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
-    // Begins anew for the frame that was `found` at `index`, or was not: heard and sent nowhere. True if one younger than `window` had to give
-    // way.
+    // Starts a new entry, with empty link sets, at the place that `find` returned. If the frame was not `found`, this
+    // evicts the oldest of the bucket and updates `index`. Returns true if the evicted entry was younger than `window`.
     bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept;
 
     [[nodiscard]] MonoTime time(std::size_t index) const noexcept { return MonoTime(Nanoseconds(time_ns(index))); }
     [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index * stride_ + 2]; }
     [[nodiscard]] Words sent(std::size_t index) noexcept { return heard(index) + words_; }
 
-    // The link is gone and its slot will be another's.
+    // Removes a link from all sets, because its slot will be reused.
     void forget(Slot slot) noexcept;
 
 private:
@@ -52,7 +57,8 @@ private:
         return static_cast<std::int64_t>(cells_[index * stride_ + 1]);
     }
 
-    // A place is its hash (0: empty), time and the sets heard and sent, side by side: a bucket of up to 64 links is two cache lines.
+    // Each place holds the hash (0 if empty), the time, and the sets `heard` and `sent`. With up to 64 links, a bucket
+    // takes two cache lines.
     ZeroedArray<std::uint64_t> cells_;
     std::size_t places_ = 0;  // a power of two
     std::size_t words_ = 0, stride_ = 0;

@@ -41,7 +41,7 @@ void RouteTable::remove_link(Slot slot) noexcept {
 
 void RouteTable::set_timeout(Slot slot, Nanoseconds timeout) noexcept {
     links_[slot].timeout_ns = timeout.count();
-    next_expiry_ns_ = 0;  // to be found anew
+    next_expiry_ns_ = 0;  // the next `expire` recomputes it
 }
 
 Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
@@ -68,7 +68,7 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
     return route;
 }
 
-// Where the route's index stands, or the empty place where it would.
+// The place of the route in index_, or the empty place where it belongs.
 std::size_t RouteTable::place_of(Slot slot, Pair pair) const noexcept {
     std::size_t at = home(slot, pair);
     while (index_[at] != 0 && (routes_[index_[at] - 1].slot != slot || routes_[index_[at] - 1].pair != pair))
@@ -145,7 +145,7 @@ void RouteTable::remove(std::uint32_t index) noexcept {
     free_ = index;
 }
 
-// Moves back what stands behind the hole, so that every entry is still reached from its home without meeting an empty place.
+// Moves later entries into the hole, so that a search from an entry's home still reaches it before an empty place.
 void RouteTable::erase_place(std::size_t place) noexcept {
     const std::size_t mask = index_.size() - 1;
     std::size_t hole = place;

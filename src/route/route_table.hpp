@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What was learned: which system and component was heard on which link, when, and how often. Looked up by sets of links per (system) and
-// (system, component); forgotten exactly at each link's timeout. Fixed memory: a link has at most `per_link` routes and all together `most`, and
-// the stalest gives way. Private to module route; one owner thread.
+// The learned routes: which system and component was heard on which link, when, and how often. Lookups return the set
+// of links for a system, or for a pair of system and component. Routes expire exactly at the timeout of their link.
+//
+// Memory is bounded: at most `per_link` routes on one link and `most` in total. A new route evicts the stalest route of
+// its link, or, if the table is full, of the link with most routes. Private to module route; one owner thread.
 #pragma once
 
 #include <cstdint>
@@ -27,32 +29,32 @@ using Pair = std::uint16_t;  // system * 256 + component
 struct Route {
     std::int64_t heard_ns;  // steady clock
     std::uint64_t frames;
-    std::uint32_t older, newer;  // routes of the same link by age
+    std::uint32_t older, newer;  // neighbors in the list of the link's routes by age
     Slot slot;
     Pair pair;
-    bool known;  // false: forgotten by a reboot, kept for its count
+    bool known;  // false if a reboot made it forgotten; the entry then only keeps its count
 };
 
 class RouteTable {
 public:
-    static constexpr std::size_t pairs = 1u << 16;  // of system and component
+    static constexpr std::size_t pairs = 1u << 16;  // all pairs of system and component
     struct Change {
         std::uint32_t learned = 0, expired = 0, evicted = 0;
     };
 
     RouteTable(std::size_t most, std::size_t per_link);
 
-    // The number of words that a set of links takes; keeps what was learned.
+    // Sets the number of words in a set of links. Keeps the learned routes.
     void resize(std::size_t words);
     void add_link(Slot slot, Nanoseconds timeout);
     void remove_link(Slot slot) noexcept;
     void set_timeout(Slot slot, Nanoseconds timeout) noexcept;
 
-    // Forgets what is older than its link's timeout. To be called before the sets are used.
+    // Removes routes older than the timeout of their link. Call it before using the sets.
     void expire(MonoTime now, Change& change) noexcept {
         if (now.time_since_epoch().count() >= next_expiry_ns_) expire_now(now.time_since_epoch().count(), change);
     }
-    // A frame of this source was heard. The reference is valid until the next call.
+    // Adds or refreshes the route for a frame of this source. The reference is valid until the next call.
     Route& learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
     void forget_system(SystemId system) noexcept;
 
@@ -92,16 +94,16 @@ private:
     void expire_now(std::int64_t now_ns, Change& change) noexcept;
 
     std::size_t most_, per_link_, words_ = 1;
-    std::size_t used_ = 0;       // of routes_; the first so many were in use at some time
-    std::uint32_t free_ = none;  // a list by `newer`
+    std::size_t used_ = 0;       // the first used_ entries of routes_ have been in use at some time
+    std::uint32_t free_ = none;  // head of the free list, linked by `newer`
     std::size_t count_ = 0;
-    std::unique_ptr<Route[]> routes_;   // pages are touched as they are needed
-    ZeroedArray<std::uint32_t> index_;  // open addressing by (slot, pair): index into routes_ plus one
+    std::unique_ptr<Route[]> routes_;   // uninitialized, so that pages are touched only when needed
+    ZeroedArray<std::uint32_t> index_;  // open addressing by (slot, pair): index into routes_ plus one, or 0
     unsigned shift_;
     std::vector<Link> links_;  // by slot
     ZeroedArray<std::uint64_t> pair_links_, system_links_;
     ZeroedArray<std::uint16_t> system_counts_;  // known routes per system and slot
-    std::int64_t next_expiry_ns_ = never;       // not later than the first that is due
+    std::int64_t next_expiry_ns_ = never;       // at or before the earliest expiry
 };
 
 }  // namespace mavloom::route

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A fixed array of zero bits from calloc that begins on a cache line: large tables of which most is never used cost no memory until it is.
-// Private to module route.
+// A fixed-size, zero-initialized array that starts on a cache line. It comes from calloc, so unused parts of a large
+// table take no memory. Private to module route.
 #pragma once
 
 #include <cstddef>

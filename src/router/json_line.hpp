@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON as the control socket speaks it: one object a line, keys in the order they were put in.
+// JSON for the control socket: one object per line, with the keys in insertion order.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,8 @@ namespace mavloom::router {
 
 using Json = nlohmann::ordered_json;
 
-// Text from outside (names in URLs) may be any bytes: what is not UTF-8 is shown as U+FFFD.
+// Formats one object as one line. Strings from outside, such as names in URLs, may hold any bytes; invalid UTF-8
+// becomes U+FFFD.
 [[nodiscard]] std::string line_of(const Json& object);
 
 }  // namespace mavloom::router

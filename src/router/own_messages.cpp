@@ -66,7 +66,7 @@ void OwnMessages::send_due(MonoTime now) {
         if (!link.beats || now < link.due) continue;
         if (send(link, msg::Heartbeat::id, payload)) heartbeats_sent_.add();
         const Nanoseconds pause = ways_.answered(link.id) ? interval : interval_until_answered;
-        link.due = link.due + pause > now ? link.due + pause : now + pause;  // missed heartbeats are not made up for
+        link.due = link.due + pause > now ? link.due + pause : now + pause;  // does not catch up on missed heartbeats
     }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a router sends under its own system and component: a HEARTBEAT on the links that want one, and requests for an ArduPilot's streams.
-// Each link has its own sequence numbers. Nothing is sent while the router has no id. docs/guide/route.md, "The router's own heartbeat".
+// Sends the router's own messages, with its own system and component id. They are a HEARTBEAT on the links that want
+// one, and requests for ArduPilot's data streams. Each link has its own sequence numbers. A router without an id sends
+// nothing. See docs/guide/route.md, "The router's own heartbeat".
 //
-// Private to module router; one owner thread; time is a parameter. Allocates when a link or an ArduPilot is new.
+// Private to module router. One owner thread; time is a parameter. Allocates for a new link or a new ArduPilot.
 #pragma once
 
 #include <functional>
@@ -21,13 +22,15 @@
 
 namespace mavloom::router {
 
-// Whether links of this endpoint get the router's heartbeat: as `heartbeat=` says, else those that call somebody. A client or peer that came by
-// itself would take the heartbeat for a vehicle's.
+// Whether links of this endpoint get the router's heartbeat. `heartbeat=` decides. By default, an endpoint gets it if
+// it sends first (endpoint::calls_somebody) and is not a tap. A client or peer that connects to the router could
+// mistake the heartbeat for that of a vehicle.
 [[nodiscard]] bool wants_heartbeat(const endpoint::Endpoint& endpoint) noexcept;
 
 class OwnMessages {
 public:
-    // How the owner sends: false where the link did not take the frame. `answered`: whether anything was heard on the link.
+    // Callbacks to the owner. `send` returns false if the link did not take the frame. `answered` returns whether any
+    // frame has arrived on the link.
     struct Ways {
         std::function<bool(LinkId, const wire::FrameView&)> send;
         std::function<bool(LinkId)> answered;
@@ -39,18 +42,19 @@ public:
     // `table` must outlive the object and define HEARTBEAT and REQUEST_DATA_STREAM.
     OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Ways ways);
 
-    // Other values; the links stay, and begin with the next heartbeat.
+    // Applies a new configuration. Links stay, and each ArduPilot is asked again. If the router's id changed, the next
+    // heartbeat of each link is due at once and its sequence numbers restart.
     void configure(const config::RouterConfig& config);
 
-    // A link came up. `beats`: it gets heartbeats.
+    // Adds a link that came up. `beats` says whether it gets heartbeats.
     void add(LinkId link, bool beats, MonoTime now);
     void remove(LinkId link);
 
-    // When the next heartbeat is due; the end of time where there is none.
+    // Returns when the next heartbeat is due, or MonoTime::max() if none is.
     [[nodiscard]] MonoTime next_due() const noexcept;
     void send_due(MonoTime now);
 
-    // A HEARTBEAT was heard: asks an ArduPilot for its streams where the configuration says so.
+    // Handles a received HEARTBEAT: requests the data streams of an ArduPilot, if the configuration says so.
     void on_heartbeat(LinkId link, const wire::FrameView& frame, MonoTime now);
 
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return heartbeats_sent_.value(); }
@@ -66,7 +70,7 @@ private:
 
     const wire::MessageTable& table_;
     std::optional<Source> own_;
-    std::uint16_t streams_hz_ = 0;  // 0: no requests
+    std::uint16_t streams_hz_ = 0;  // 0 if there are no requests
     Ways ways_;
     std::vector<Link> links_;
     StreamRequests requests_;

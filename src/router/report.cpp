@@ -19,7 +19,7 @@ struct NamedCount {
     std::uint64_t value;
 };
 
-// One list for JSON and metrics: what arrived and left on a link, then every loss by its name.
+// The counters of a link, for JSON and metrics: traffic in and out, then every kind of loss.
 std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::LinkCounters* routed) {
     std::vector<NamedCount> all{{"frames_in", c.frames_in.value()},
                                 {"bytes_in", c.bytes_in.value()},
@@ -64,7 +64,7 @@ std::vector<NamedCount> counts_of(const link::EndpointCounters& c) {
             {"reconnects", c.reconnects.value()}};
 }
 
-// Of the links that are gone.
+// Sums over the links of an endpoint that are gone.
 std::vector<NamedCount> gone_of(const link::EndpointCounters& c) {
     auto all = counts_of(c.gone, nullptr);
     all.push_back({"queued", c.gone_queued.value()});
@@ -98,7 +98,7 @@ void put(Json& object, const std::vector<NamedCount>& counts) {
 
 double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
-// What a router was between two turns.
+// A copy of a router's counters, taken between two turns.
 struct Snapshot {
     struct OfEndpoint {
         link::EndpointId id;
@@ -125,13 +125,13 @@ struct Snapshot {
     WallTime time{};
     Nanoseconds uptime{};
     std::vector<NamedCount> counts{};
-    std::vector<OfEndpoint> endpoints{};  // by id, as the links are
+    std::vector<OfEndpoint> endpoints{};  // sorted by id, as `links` are
     std::vector<OfLink> links{};
     std::vector<observe::TrafficRow> messages{};
     std::vector<OfRecording> recordings{};
     std::vector<route::UnknownTargetInfo> unknown_targets{};
 
-    // Null: gone.
+    // Null if the link is gone.
     [[nodiscard]] const OfLink* link(LinkId id) const {
         const auto at = std::ranges::lower_bound(links, id, {}, &OfLink::id);
         return at != links.end() && at->id == id ? &*at : nullptr;
@@ -303,11 +303,11 @@ Later<Lines> report_stats(Router& router) {
     return [s = snapshot_of_all(router)] { return stat_lines(s); };
 }
 
-// ---- metrics ---------------------------------------------------------------------------------------------------------
+// ---- metrics --------------------------------------------------------------------------------------------------------
 
 namespace {
 
-// Groups samples by metric, as the format asks: all of one name stand together behind its TYPE line.
+// Groups samples by metric. The format requires all samples of one name to follow its TYPE line.
 class Metrics {
 public:
     void add(std::string_view prefix, const std::vector<NamedCount>& counts, std::string_view labels) {
@@ -327,7 +327,8 @@ public:
     }
 
 private:
-    // What is lost is judged again when a frame arrives late or a source turns out to have restarted: these may fall, which a counter must not.
+    // Loss is corrected when a frame arrives late or a source turns out to have restarted. These values can therefore
+    // decrease, which a Prometheus counter must not, so they are gauges.
     static std::string_view type_of(std::string_view name) {
         static constexpr std::array<std::string_view, 4> judged_again{"_lost_total", "_late_total", "_repeated_total",
                                                                       "_resync_total"};
@@ -338,7 +339,7 @@ private:
     std::vector<std::pair<std::string, std::string>> families_;
 };
 
-// A label's value: backslash, quote and newline are escaped.
+// Formats a label, with backslash, quote and newline escaped in the value.
 std::string label(std::string_view name, std::string_view value) {
     std::string escaped;
     for (const char c : value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `mavloom ctl` may ask for (report.hpp).
+// The requests of `mavloom ctl`; see report.hpp.
 #include <fmt/format.h>
 
 #include <array>
@@ -39,7 +39,7 @@ Later<Lines> add(Router& router, const std::string& url) {
     return done();
 }
 
-// An endpoint, a recording or a link by its name.
+// Removes an endpoint, a recording or a link by its name.
 Later<Lines> remove(Router& router, const std::string& name) {
     if (!router.remove(name))
         return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
@@ -58,7 +58,7 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
     auto endpoint = endpoint::parse_endpoint(text);
     if (!endpoint) return endpoint;
     const bool has_port = endpoint->scheme != endpoint::Scheme::tlog && endpoint->scheme != endpoint::Scheme::serial &&
-                          endpoint->scheme != endpoint::Scheme::shm;  // which Router::add refuses
+                          endpoint->scheme != endpoint::Scheme::shm;  // Router::add rejects shm://
     if (has_port && endpoint->address.port == 0)
         return setup_error(SetupCode::usage,
                            fmt::format("{}: a router's port is known to others; name one", endpoint->label()));

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t told_each_look = 2;
-constexpr Nanoseconds look_interval = 1s;  // what is looked at now and then: duplicate ids, rows of links that went
+constexpr Nanoseconds look_interval = 1s;  // interval of look_after()
 
 route::Options engine_options(const config::RouterConfig& config) {
     route::Options options;
@@ -62,7 +62,7 @@ Router::Router(const dialect::Dialect& dialect, const config::RouterConfig& conf
       silence_(std::make_unique<SilenceWatch>()) {}
 
 Router::~Router() {
-    // Their threads post.
+    // Stops the threads that may call post().
     ring_.reset();
     for (const auto& recorder : recorders_) recorder->stop();
     for (const auto& recorder : ending_recorders_) recorder->stop();
@@ -75,7 +75,7 @@ SetupResult<std::unique_ptr<Router>> Router::create(const dialect::Dialect& dial
     return std::unique_ptr<Router>(new Router(dialect, config, std::move(notice), std::move(*links)));
 }
 
-// ---- endpoints -------------------------------------------------------------------------------------------------------
+// ---- endpoints ------------------------------------------------------------------------------------------------------
 
 SetupResult<void> Router::add(const endpoint::Endpoint& endpoint) {
     if (endpoint.scheme == endpoint::Scheme::tlog) return add_recording(endpoint);
@@ -170,13 +170,13 @@ SetupResult<route::LinkPolicy> Router::policy_of(const endpoint::Endpoint& endpo
     return policy;
 }
 
-// An endpoint that names no mode takes that of its group.
+// An endpoint without `group_mode=` takes the mode of its group.
 endpoint::GroupMode Router::mode_of(const endpoint::EndpointOptions& options) const {
     const auto group = group_modes_.find(options.group);
     return options.names_group_mode || group == group_modes_.end() ? options.group_mode : group->second;
 }
 
-// Against the endpoints of its group that are there.
+// Checks the endpoint's mode against the existing endpoints of its group.
 SetupResult<void> Router::check_group(const endpoint::Endpoint& endpoint) const {
     const auto& o = endpoint.options;
     const auto member = std::ranges::find_if(
@@ -213,7 +213,7 @@ bool Router::remove(std::string_view label) {
     const auto recorder = std::ranges::find_if(recorders_, [&](const auto& r) { return r->label() == label; });
     if (recorder != recorders_.end()) {
         recordings_.erase(recordings_.begin() + (recorder - recorders_.begin()));
-        (*recorder)->end();  // the disk may be slow, and routing goes on
+        (*recorder)->end();  // does not wait for the disk, so that routing continues
         ending_recorders_.push_back(std::move(*recorder));
         recorders_.erase(recorder);
         return true;
@@ -263,7 +263,7 @@ void Router::become(const std::vector<endpoint::Endpoint>& endpoints) {
         remove(endpoint.label());
         notice_(config::LogLevel::info, fmt::format("{}: removed", endpoint.label()));
     }
-    group_modes_ = modes;  // also of a group whose members all went, and come again
+    group_modes_ = modes;  // remove() erased the modes of groups that became empty
     for (const auto& endpoint : endpoints) {
         if (has(endpoint)) continue;
         const auto added = add(endpoint);
@@ -274,7 +274,7 @@ void Router::become(const std::vector<endpoint::Endpoint>& endpoints) {
     order_as(endpoints);
 }
 
-// Groups of mode `primary` prefer in the order of the configuration, not in that of opening.
+// Groups of mode `primary` prefer links in the order of the configuration, not in the order of opening.
 void Router::order_as(const std::vector<endpoint::Endpoint>& endpoints) {
     std::ranges::stable_sort(endpoints_, {}, [&](const auto& e) {
         return std::ranges::find(endpoints, e->endpoint.label(), &endpoint::Endpoint::label) - endpoints.begin();
@@ -286,7 +286,7 @@ void Router::order_as(const std::vector<endpoint::Endpoint>& endpoints) {
     engine_.set_group_orders(orders);
 }
 
-// What was to be changed and cannot be goes on with its former options.
+// Reopens an endpoint with its former options if its new options failed.
 void Router::put_back(const std::vector<endpoint::Endpoint>& gone, const std::string& label) {
     const auto before = std::ranges::find(gone, label, &endpoint::Endpoint::label);
     if (before != gone.end() && add(*before))
@@ -298,7 +298,7 @@ bool Router::has(const endpoint::Endpoint& endpoint) const {
            std::ranges::find(recordings_, endpoint) != recordings_.end();
 }
 
-// ---- frames ----------------------------------------------------------------------------------------------------------
+// ---- frames ---------------------------------------------------------------------------------------------------------
 
 void Router::on_frame(const link::RxFrame& rx) {
     const std::uint64_t mark = engine_.mark_of(rx.frame);
@@ -311,7 +311,7 @@ void Router::on_frame(const link::RxFrame& rx) {
     if (decision.verdict != route::Verdict::echo) count_loss(rx);
 }
 
-// Frames that teach no route report no reboot.
+// Ignores reboots shown by frames that teach no route: those from taps, and those that the input filter drops.
 void Router::count_loss(const link::RxFrame& rx) {
     if (links_->count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
         return;
@@ -328,7 +328,7 @@ route::Decision Router::decide(const link::RxFrame& rx, std::uint64_t mark) {
     return decision;
 }
 
-// A frame gets our signature only if it came with one that we verified: nobody shall have us vouch for what he sends.
+// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic.
 void Router::send(const link::RxFrame& rx, std::span<const LinkId> links) {
     const bool may_sign = !any_signs_ || by_id_[rx.endpoint.value]->verifies;
     for (const LinkId link : links) {
@@ -350,7 +350,8 @@ void Router::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view
     if (may_tell_of_link(endpoint)) notice_(config::LogLevel::info, fmt::format("{}: up", name));
 }
 
-// Programs that send by the inlet would find the router's own messages in the ring, which does not hold them.
+// Adds the link to those that get the router's own messages. Taps get none. Neither does the inlet: programs behind it
+// read the ring, which does not hold the router's own messages.
 void Router::speak_on(LinkId link, link::EndpointId endpoint) {
     const OpenedEndpoint& opened = *by_id_[endpoint.value];
     if (opened.policy.tap || &opened == inlet_.get()) return;
@@ -383,7 +384,7 @@ void Router::forget_link(LinkId link) {
 
 void Router::on_notice(link::EndpointId, std::string_view text) { notice_(config::LogLevel::info, text); }
 
-// ---- turns -----------------------------------------------------------------------------------------------------------
+// ---- turns ----------------------------------------------------------------------------------------------------------
 
 void Router::turn(MonoTime deadline) {
     const std::size_t frames = links_->turn(
@@ -406,7 +407,8 @@ MonoTime Router::next_due() const noexcept {
 }
 
 void Router::finish(Nanoseconds limit) {
-    // What had arrived when the end was asked for; in a flood, what 64 turns of 64 datagrams read. A turn may meet nothing but junk.
+    // Reads what has already arrived, in a flood no more than 64 turns of 64 datagrams. A turn may read only junk, so a
+    // single turn without a frame does not end the loop.
     constexpr int most_turns = 64, most_empty = 4;
     for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty; ++turns)
         empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;
@@ -429,7 +431,7 @@ void Router::post(std::function<void()> work) {
     wake();
 }
 
-// One a turn: reports take their time, and frames go first.
+// Runs one item a turn, because reports take long and frames go first.
 void Router::run_posted() {
     std::function<void()> work;
     {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Notices links that send and hear nothing: a wrong port, a wrong baud rate, a vehicle that talks to somebody else. Each endpoint is reported
-// once, and only where it calls somebody: a peer that calls us has been heard already.
+// Detects links that send but receive nothing. Typical causes are a wrong port, a wrong baud rate, or a vehicle that
+// answers another program. It reports each endpoint once. It watches only endpoints that send first
+// (endpoint::calls_somebody): a peer that connects to the router has been heard already.
 //
-// Private to module router; one owner thread; time is a parameter.
+// Private to module router. One owner thread; time is a parameter.
 #pragma once
 
 #include <functional>
@@ -19,7 +20,7 @@ class SilenceWatch {
 public:
     static constexpr Nanoseconds patience = std::chrono::seconds{5};
 
-    // A link came up of an endpoint that calls somebody and expects an answer.
+    // Starts to watch a link that came up. Its endpoint must satisfy expects_answer.
     void add(LinkId link, link::EndpointId endpoint);
     void remove(LinkId link);
 
@@ -27,25 +28,27 @@ public:
         LinkId link;
         link::EndpointId endpoint;
     };
-    // Null for a link that is gone.
+    // Returns null for a link that is gone.
     using CountersOf = std::function<const link::LinkCounters*(LinkId)>;
-    // About once a second: what to report now. A link that was heard is watched no longer.
+    // Returns the links to report now. Call it about once a second. Once a frame has arrived on a link, it is no longer
+    // watched.
     [[nodiscard]] std::vector<Silent> look(const CountersOf& counters_of, MonoTime now);
 
 private:
     struct Watched {
         LinkId link;
         link::EndpointId endpoint;
-        MonoTime since = MonoTime::max();  // the first look at which it had sent something
+        MonoTime since = MonoTime::max();  // the first look() that found a frame sent
     };
     std::vector<Watched> watched_;
     std::vector<link::EndpointId> reported_;
 };
 
-// Whether silence on this endpoint is worth a word: it calls somebody, and is no tap.
+// Whether silence on this endpoint is worth a report: it sends first and is not a tap.
 [[nodiscard]] bool expects_answer(const endpoint::Endpoint& endpoint) noexcept;
 
-// "px4: nothing heard for 5 s; ..." with what to look at, by what did come: `link` of its link, `info` of the endpoint.
+// The report text, for example "px4: nothing heard for 5 s; ...". It suggests what to check, based on the counters of
+// the endpoint (`info`) and of its link.
 [[nodiscard]] std::string silence_text(const link::EndpointInfo& info, const link::LinkCounters& link);
 
 }  // namespace mavloom::router

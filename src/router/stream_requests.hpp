@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Whom an ArduPilot is to be asked for its streams, and when: each source on each link when it is first heard, and again when it is heard 30 s
-// later. ArduPilot sends nothing but heartbeats on a link until it is asked. Of more sources than it has room for, the one that was not heard
-// for longest makes room: who sends heartbeats outlasts a crowd that is heard once. Private to module router; one owner thread; allocates for
-// a new source. Time is a parameter.
+// Decides when to request the data streams of an ArduPilot, which sends only heartbeats on a link until it is asked.
+// Each source on each link is asked when it is first heard, and again at its next heartbeat once 30 s have passed.
+//
+// Memory is bounded: a new source evicts the one that has been silent longest. So sources that keep sending heartbeats
+// outlast any number of sources that are heard once. Private to module router. One owner thread; time is a parameter.
+// Allocates for a new source.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +22,7 @@ public:
     static constexpr std::chrono::seconds interval{30};
     static constexpr std::size_t most_sources = 1024;
 
-    // An ArduPilot was heard. True: it is to be asked now.
+    // Notes a heartbeat of an ArduPilot. Returns true if the router should ask it now.
     [[nodiscard]] bool heard(LinkId link, Source source, MonoTime now) {
         const auto asked = std::ranges::find_if(asked_,
                                                 [&](const Asked& a) { return a.link == link && a.source == source; });

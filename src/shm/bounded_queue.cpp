@@ -11,8 +11,8 @@ namespace mavloom::shm::detail {
 
 namespace {
 
-// A pointer that is stored by release and loaded by acquire. The queue orders its elements itself, but by operations that the thread sanitizer does not
-// look into.
+// A pointer, stored with release and loaded with acquire. The queue orders its elements by itself, but uses operations
+// that the thread sanitizer cannot see.
 class Element {
 public:
     explicit Element(void* pointer = nullptr) noexcept { store(pointer); }  // NOLINT(*-member-init): store() writes it
@@ -48,7 +48,7 @@ void* PointerQueue::try_pop() noexcept {
 }
 
 void* PointerQueue::pop(MonoTime deadline) noexcept {
-    // Slices, for the far future in microseconds is more than the queue's wait can count.
+    // Waits in slices, because a distant deadline in microseconds would overflow the queue's timeout.
     constexpr Nanoseconds longest_slice = std::chrono::seconds(10);
     for (;;) {
         if (void* const pointer = try_pop()) return pointer;

@@ -36,7 +36,7 @@ LinkSlot* links_in(const Segment& segment, std::uint32_t counters) noexcept {
     return reinterpret_cast<LinkSlot*>(segment.data() + page_header_bytes + sizeof(CounterSlot) * counters);
 }
 
-// A copy, checked.
+// Returns a checked copy of the page's header.
 SetupResult<PageHeader> header_of(const Segment& segment) {
     PageHeader header;
     if (segment.size() >= sizeof header) std::memcpy(&header, segment.data(), sizeof header);
@@ -54,7 +54,7 @@ SetupResult<PageHeader> header_of(const Segment& segment) {
     return header;
 }
 
-// ---- text in words, guarded by a version
+// ---- text stored in atomic words, guarded by a version
 
 template <std::size_t n>
 void store_text(std::array<SharedWords::Word64, n>& words, std::string_view text) noexcept {
@@ -71,17 +71,19 @@ std::string load_text(const std::array<SharedWords::Word64, n>& words) {
     return printable({text, ::strnlen(text, sizeof copy)});
 }
 
-// Every word within is stored by release and loaded by acquire: who reads one of the new words finds the version odd, or moved on.
+// Every word is stored with release and loaded with acquire. So a reader that sees any new word also sees that the
+// version is odd or has changed.
 template <class Slot, class Change>
 void change(Slot& slot, Change&& make) noexcept {
-    const std::uint64_t version = slot.version.load(std::memory_order_relaxed) |
-                                  1;  // odd already where a writer was killed
+    // Already odd if a writer was killed during a change.
+    const std::uint64_t version = slot.version.load(std::memory_order_relaxed) | 1;
     slot.version.store(version, std::memory_order_release);
     make(slot);
     slot.version.store(version + 1, std::memory_order_release);
 }
 
-// What `look` gives of a slot that does not change meanwhile; empty where it does again and again.
+// Returns what `look` reads from a slot that does not change during the read. Returns nothing if the slot keeps
+// changing.
 template <class Slot, class Look>
 auto read_slot(const Slot& slot, Look&& look) -> std::optional<decltype(look(slot))> {
     for (int attempt = 0; attempt < most_reads; ++attempt) {
@@ -184,7 +186,7 @@ CounterPage& CounterPage::operator=(CounterPage&& other) noexcept {
     return *this;
 }
 
-// In a child of fork() the page stays: it is the parent's.
+// After fork(), the child leaves the page alone: it belongs to the parent.
 void CounterPage::end() noexcept {
     if (segment_ && !segment_->forked()) static_cast<void>(segment_->unlink());
     segment_.reset();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bytes of a counter page (docs/formats/ring.md).
+// The binary layout of a counter page, as specified in docs/formats/ring.md.
 #pragma once
 
 #include <array>
@@ -34,14 +34,15 @@ static_assert(offsetof(PageHeader, major) == 8 && offsetof(PageHeader, byte_orde
               offsetof(PageHeader, counters) == 16 && offsetof(PageHeader, links) == 20 &&
               offsetof(PageHeader, started_ns) == 24 && offsetof(PageHeader, pid) == 32);
 
-// `version` is odd while anything but the value changes, and grows: who reads compares it before and after.
+// One counter. `version` only increases. It is odd while anything but the value changes, so readers compare it before
+// and after a read.
 struct CounterSlot {
     SharedWords::Word64 version;  // 0: never used
     SharedWords::Word64 value;
     SharedWords::Word32 type;  // CounterType; 0: free
-    SharedWords::Word32 link;  // or no_link
+    SharedWords::Word32 link;  // a link id or no_link
     SharedWords::Word64 reserved;
-    std::array<SharedWords::Word64, 12> label;  // NULs behind
+    std::array<SharedWords::Word64, 12> label;  // padded with NULs
 };
 static_assert(sizeof(CounterSlot) == 128 && offsetof(CounterSlot, value) == 8 && offsetof(CounterSlot, type) == 16 &&
               offsetof(CounterSlot, link) == 20 && offsetof(CounterSlot, label) == 32);
@@ -56,7 +57,7 @@ struct LinkSlot {
 static_assert(sizeof(LinkSlot) == 128 && offsetof(LinkSlot, link) == 8 && offsetof(LinkSlot, used) == 12 &&
               offsetof(LinkSlot, name) == 24);
 
-// Takes the page of a ring away whose owner is gone.
+// Removes a ring's counter page if the page's owner is gone.
 void remove_left_page(std::string_view ring);
 
 }  // namespace mavloom::shm

@@ -10,16 +10,17 @@
 
 namespace mavloom::shm {
 
-// All that are open, for the at-fork handler: the one list that a process has. Never destroyed: rings may be closed after it would be.
+// The process's only list of open lock files, for the at-fork handler. Never destroyed, because rings may be closed
+// during program exit.
 struct ForkRegistry {
     std::mutex mutex;
     LockFile* first = nullptr;
 
     static ForkRegistry& instance() {
-        static auto& registry = *new ForkRegistry;  // reachable for ever, so no leak
+        static auto& registry = *new ForkRegistry;  // always reachable, so not reported as a leak
         static const int registered = ::pthread_atfork([] { registry.mutex.lock(); }, [] { registry.mutex.unlock(); },
                                                        [] { registry.close_all(); });
-        static_cast<void>(registered);  // fails only without memory; then children keep locks until they exec or end
+        static_cast<void>(registered);  // fails only without memory; children then keep locks until exec or exit
         return registry;
     }
 
@@ -36,7 +37,7 @@ struct ForkRegistry {
         if (file.next_ != nullptr) file.next_->previous_ = file.previous_;
     }
 
-    // In the child, with the mutex locked by prepare.
+    // Runs in the child, with the mutex locked by the prepare handler.
     void close_all() {
         for (LockFile* file = first; file != nullptr; file = file->next_) {
             ::close(std::exchange(file->fd_, -1));

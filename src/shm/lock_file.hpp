@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A descriptor whose open-file-description locks say that this process lives. A child of fork() shares the description, and would hold the locks
-// of a parent that has died: so an at-fork handler closes it there. Made and destroyed by any thread; the rest belongs to one owner.
+// A descriptor that holds open-file-description locks, by which other processes see that this one is alive.
+//
+// A child of fork() shares the descriptor's open file description. It would keep the locks of a parent that has died,
+// so an at-fork handler closes the descriptor in the child. Any thread may construct and destroy a LockFile; one owner
+// uses everything else.
 #pragma once
 
 #include <atomic>
@@ -10,7 +13,7 @@ namespace mavloom::shm {
 
 class LockFile {
 public:
-    // Takes over `fd`.
+    // Takes ownership of `fd`.
     explicit LockFile(int fd);
     LockFile(const LockFile&) = delete;
     LockFile& operator=(const LockFile&) = delete;
@@ -20,7 +23,7 @@ public:
     [[nodiscard]] const std::atomic<bool>& forked() const noexcept { return forked_; }
     [[nodiscard]] bool try_lock(std::size_t byte) noexcept;
     void unlock(std::size_t byte) noexcept;
-    // By another description than this one.
+    // Returns whether another open file description holds a lock on the byte.
     [[nodiscard]] bool is_locked(std::size_t byte) const noexcept;
 
 private:

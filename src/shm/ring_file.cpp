@@ -15,7 +15,7 @@ namespace mavloom::shm {
 
 namespace {
 
-constexpr int most_attempts = 100;  // against others who make, replace or remove the ring meanwhile
+constexpr int most_attempts = 100;  // retries when other processes create or remove the ring meanwhile
 
 tl::unexpected<SetupError> wrong(const std::string& path, std::string_view what) {
     return setup_error(SetupCode::bad_input, fmt::format("{}: {}", path, what));
@@ -51,7 +51,7 @@ std::string names_of(const std::vector<std::string>& rings) {
     return text;
 }
 
-// It may have come since it was looked for.
+// Leaves out `name`, which may have been created since the failed open.
 std::vector<std::string> other_rings(std::string_view name) {
     auto rings = ring_names();
     std::erase(rings, name);
@@ -71,7 +71,7 @@ SetupResult<void> check_options(const RingOptions& options) {
     return {};
 }
 
-// Who owns the file can shorten it, which ends whoever writes to it.
+// The owner of the file can shorten it, which would kill any process that writes to it (SIGBUS).
 SetupResult<void> check_owner(const Segment& segment) {
     const auto owner = segment.status().owner;
     if (owner == 0 || owner == ::geteuid()) return {};
@@ -144,7 +144,8 @@ SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& op
         } else if (present.error().code != SetupCode::not_found) {
             return present;
         }
-        // The lock on the one that is there is ours: nobody else replaces it. Retired last: who is woken must not find it by its name again.
+        // If a ring is there, this process holds its writer lock, so no other writer replaces it. It is retired last,
+        // so that a woken reader cannot find it under its name again.
         auto created = create_ring(path_of(name), options, present ? &*present : nullptr);
         if (present && !present->is_named()) retire(*present);
         if (created || created.error().code != SetupCode::in_use) return created;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ring as a file: made, opened and checked. What is read from it is copied before it is checked.
+// Creates, opens and checks ring files. Private to module shm. Header data is copied before it is checked, because
+// other processes may change it. Any thread.
 #pragma once
 
 #include <functional>
@@ -11,18 +12,19 @@
 
 namespace mavloom::shm {
 
-inline constexpr std::size_t writer_byte = 0;  // whose lock the writer holds; slot n's is n + 1
+inline constexpr std::size_t writer_byte = 0;  // the writer holds the lock on this byte; slot n uses byte n + 1
 [[nodiscard]] constexpr std::size_t slot_byte(unsigned slot) noexcept { return slot + 1; }
 
-// Opens what is there and checks its identity. `not_found` lists the rings that there are.
+// Opens an existing ring and checks its identity. `not_found` lists the rings that exist.
 [[nodiscard]] SetupResult<Segment> open_ring(std::string_view name, Segment::Access access);
-// The words of a ring that open_ring() or writer_segment() gave.
+// Returns pointers into a ring that open_ring() or writer_segment() returned.
 [[nodiscard]] RingMemory<SharedWords> memory_of(const Segment& segment) noexcept;
 
-// The ring to write to, its writer lock held: the one that is there, or a new one.
+// Returns the ring to write to, existing or new, with its writer lock held.
 [[nodiscard]] SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options);
 
-// Marks it and wakes all who sleep there: who reads it drains it and opens its name again, which must not lead here any longer.
+// Marks a ring as retired and wakes everything that sleeps on it. Readers then drain the ring and reopen its name, so
+// remove the name first.
 void retire(const Segment& segment) noexcept;
 
 [[nodiscard]] WallTime unix_time() noexcept;

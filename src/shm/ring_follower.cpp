@@ -11,7 +11,7 @@
 
 namespace mavloom::shm {
 
-// Spares the list of rings that an error would have.
+// A cheap check that avoids building the list of rings for an error text.
 static bool is_there(const std::string& name) { return ::access(path_of(name).c_str(), F_OK) == 0; }
 
 bool RingFollower::try_open() {
@@ -35,7 +35,7 @@ void RingFollower::drop() {
     reader_.reset();
 }
 
-// A retired ring that still bears the name is kept, or it would be read again.
+// Keeps a retired ring that still has its name. Otherwise the follower would open and read it again.
 bool RingFollower::moved_on(ReadError error) {
     if (error == ReadError::empty || error == ReadError::forked || reader_->is_named()) return false;
     drop();

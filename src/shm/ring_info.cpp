@@ -27,13 +27,13 @@ struct CloseFolder {
 
 WallTime time_of(std::uint64_t unix_ns) { return WallTime{Nanoseconds{static_cast<std::int64_t>(unix_ns)}}; }
 
-// How far one count is behind another; never negative, for the two are not read at one moment.
+// Returns how far one count is behind another. Never negative, although the two are not read at the same moment.
 std::uint64_t behind(std::uint64_t ahead, std::uint64_t at) {
     const auto distance = static_cast<std::int64_t>(ahead - at);
     return distance > 0 ? static_cast<std::uint64_t>(distance) : 0;
 }
 
-// Bytes as another process wrote them, up to the first NUL.
+// The program name that the reader stored, up to the first NUL.
 std::string program_of(const ReaderSlot<SharedWords>& slot) {
     std::array<char, sizeof slot.program> bytes;
     for (std::size_t i = 0; i < slot.program.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<std::string> ring_names() {
         const std::string_view file = entry->d_name;
         if (!file.starts_with(prefix)) continue;
         const auto name = file.substr(prefix.size());
-        if (check_name(name)) names.emplace_back(name);  // which leaves counter pages out
+        if (check_name(name)) names.emplace_back(name);  // also skips counter pages
     }
     std::ranges::sort(names);
     return names;
@@ -121,7 +121,7 @@ SetupResult<RingStatus> ring_status(std::string_view name) {
     status.evictions = control.evictions.load(std::memory_order_relaxed);
     status.damaged = !detail::Consumer<SharedWords>(ring, std::nullopt, false)
                           .start(detail::Consumer<SharedWords>::Start::newest);
-    // Acquire: pairs with RingReader::begin().
+    // Acquire: pairs with the release in RingReader::begin().
     const std::uint64_t attached = control.attached.load(std::memory_order_acquire);
     for (unsigned slot = 0; slot < reader_slots; ++slot)
         if ((attached >> slot & 1) != 0 && segment->is_locked(slot_byte(slot)))

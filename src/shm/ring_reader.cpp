@@ -66,10 +66,10 @@ SetupResult<void> RingReader::begin() {
     if (!slot_ && options_.lossless)
         return setup_error(SetupCode::in_use,
                            fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
-    if (options_.spin) segment_->populate();  // others take the faults of their first lap
+    if (options_.spin) segment_->populate();  // other readers take the page faults during their first lap
     consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
     if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) {
-        // Release: pairs with ring_status().
+        // Release: pairs with the acquire in ring_status().
         if (slot_)
             memory_of(*segment_).control->attached.fetch_or(std::uint64_t{1} << *slot_, std::memory_order_release);
         return {};
@@ -79,7 +79,7 @@ SetupResult<void> RingReader::begin() {
         fmt::format("{}: is a damaged ring: what stands before its end are no records", segment_->path()));
 }
 
-// Two words of the program's name, for those who ask who reads.
+// Returns this program's name in two words, for display by ring_status().
 static std::array<std::uint64_t, 2> program_name() noexcept {
     std::array<char, 16> name{};
     const char* const mine = program_invocation_short_name;
@@ -89,8 +89,8 @@ static std::array<std::uint64_t, 2> program_name() noexcept {
     return words;
 }
 
-// The lock is the claim; who looks at the ring lists the slot once it is attached, with its place. What the slot's last owner left, killed perhaps,
-// is taken back before anything of ours stands there.
+// Holding the lock claims the slot. Inspectors list it only after begin() sets its bit in `attached`, when its position
+// is valid. The slot's previous owner may have been killed, so its bits are cleared before any field is set.
 std::optional<unsigned> RingReader::take_slot() noexcept {
     const auto ring = memory_of(*segment_);
     for (unsigned index = 0; index < reader_slots; ++index) {
@@ -129,7 +129,7 @@ ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
         const MonoTime now = mono_now();
         if (waiting_since == MonoTime{}) waiting_since = now;
         if (const auto why = why_nothing_comes(now)) {
-            record = try_read();  // what was written before the writer went
+            record = try_read();  // a record written just before the writer closed
             if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
             return record;
         }
@@ -138,7 +138,8 @@ ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
     }
 }
 
-// The first naps are short, for the writer wakes nobody twice within a millisecond; later ones end when the writer is looked at again.
+// The first naps are short, because the writer wakes readers at most once per millisecond. Later naps last until the
+// next check that the writer is alive.
 Nanoseconds RingReader::nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept {
     const bool is_short = !slot_ || now < waiting_since + poll_distance;
     return std::min<Nanoseconds>(is_short ? poll_distance : look_at_writer, deadline - now);
@@ -158,7 +159,7 @@ ReadResult<RingRecord> RingReader::poll() noexcept {
     if (!record && record.error() == ReadError::empty) {
         const auto why = why_nothing_comes(mono_now());
         if (!why) return record;
-        record = try_read();  // what was written before the writer went
+        record = try_read();  // a record written just before the writer closed
         if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
     }
     if (record) woke();
@@ -195,7 +196,7 @@ std::uint64_t RingReader::writers() const noexcept {
 bool RingReader::writer_alive() const noexcept { return segment_->is_locked(writer_byte); }
 bool RingReader::is_named() const noexcept { return segment_->is_named(); }
 
-// In a child of fork() nothing is touched: the slot is the parent's.
+// After fork(), the child changes nothing: the slot belongs to the parent.
 void RingReader::detach() noexcept {
     if (!slot_ || segment_->forked()) return;
     auto& control = *memory_of(*segment_).control;

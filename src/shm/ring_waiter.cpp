@@ -19,14 +19,15 @@
 
 namespace mavloom::shm {
 
-// What an old kernel sleeps on one ring, and on the first of several, before it looks at all of them.
+// On a kernel without futex_waitv, the thread sleeps this long on its only ring, or on the first of several. Then it
+// checks all rings.
 static constexpr Nanoseconds nap_of_one = std::chrono::milliseconds(20), nap_of_many = std::chrono::milliseconds(1);
 
 namespace {
 
 struct Watched {
     RingWaiter::WakeWord word;
-    std::uint32_t seen = 0;  // of what came up to here it is decided whether it is told
+    std::uint32_t seen = 0;  // changes up to this value have been handled
 };
 
 [[nodiscard]] bool sleep_on_all(std::span<futex_waitv> words, MonoTime until) noexcept {
@@ -67,7 +68,8 @@ public:
     void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
     void arm_until(MonoTime due) noexcept {
         arm();
-        // Sequentially consistent with is_due() and tell(), which take `due_` before `armed_`: who sees the old time here is told by them.
+        // Sequentially consistent with is_due() and tell(): they take `due_` before `armed_`. If this thread still
+        // reads an earlier due time, the helper thread has not taken `armed_` yet, and will call `wake_`.
         MonoTime before = due_.load(std::memory_order_seq_cst);
         do
             if (before <= due) return;
@@ -90,13 +92,13 @@ private:
                 const std::lock_guard lock(mutex_);
                 if (next_) rings_ = std::move(*std::exchange(next_, std::nullopt));
             }
-            const bool changed = look(), due = is_due();  // both, whatever the first finds
+            const bool changed = look(), due = is_due();  // always evaluates both
             if (changed || due) tell();
             if (!ends_.load(std::memory_order_relaxed)) sleep(changes);
         }
     }
 
-    // Whether a word changed since the last look.
+    // Returns whether a word has changed since the last look.
     bool look() noexcept {
         bool changed = false;
         for (auto& [word, seen] : rings_) changed |= std::exchange(seen, word->load(std::memory_order_seq_cst)) != seen;
@@ -105,7 +107,8 @@ private:
     bool is_due() noexcept {
         MonoTime due = due_.load(std::memory_order_seq_cst);
         if (due == MonoTime::max() || mono_now() < due) return false;
-        due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_seq_cst);  // another is earlier, and due too
+        // If this exchange fails, another call has set an earlier time, which is due too.
+        due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_seq_cst);
         return true;
     }
     void tell() {
@@ -130,8 +133,8 @@ private:
     SharedWords::Word32 changes_{0};
     std::mutex mutex_;
     std::optional<std::vector<Watched>> next_;  // guarded by mutex_
-    std::vector<Watched> rings_;                // the thread's
-    bool waits_for_all_ = true;                 // likewise: the kernel can
+    std::vector<Watched> rings_;                // used only by the thread
+    bool waits_for_all_ = true;                 // whether the kernel supports it; used only by the thread
     std::thread thread_;
 };
 

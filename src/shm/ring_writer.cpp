@@ -15,9 +15,10 @@
 
 namespace mavloom::shm {
 
-// How long the hold of a reader that was killed may keep a waiting writer, at most.
+// The longest time for which the hold of a killed reader can block a waiting writer.
 static constexpr Nanoseconds look_for_dead = std::chrono::milliseconds(10);
-// Between two looks, however often a full ring is written to: each is a system call for every reader in the way.
+// Minimum time between two checks for dead readers, however often a full ring is written to. Each check makes a system
+// call per blocking reader.
 static constexpr Nanoseconds look_distance = std::chrono::milliseconds(1);
 
 RingWriter::RingWriter(std::string name, const RingOptions& options, std::unique_ptr<Segment> segment)
@@ -48,7 +49,7 @@ SetupResult<RingWriter> RingWriter::open(std::string_view name, const RingOption
     if (!segment) return tl::unexpected(std::move(segment.error()));
     RingWriter writer(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
     if (auto begun = writer.begin(); !begun) {
-        writer.segment_.reset();  // leaves it as it is
+        writer.segment_.reset();  // leaves the ring unchanged
         return tl::unexpected(std::move(begun.error()));
     }
     return writer;
@@ -61,7 +62,9 @@ SetupResult<void> RingWriter::begin() {
                            fmt::format("{}: is a damaged ring: what stands before its end are no records; "
                                        "`mavloom shm remove {}` makes way for a new one",
                                        segment_->path(), name_));
-    remove_left_page(name_);  // its names are not those of this writer's numbers; before `writers` tells readers to look
+    // The old page's names do not match this writer's link numbers. Remove the page before `writers` makes readers look
+    // for names.
+    remove_left_page(name_);
     auto& control = *memory_of(*segment_).control;
     control.writer_pid.store(static_cast<std::uint32_t>(::getpid()), std::memory_order_relaxed);
     control.when_full.store(static_cast<std::uint32_t>(options_.when_full), std::memory_order_relaxed);
@@ -73,7 +76,7 @@ SetupResult<void> RingWriter::begin() {
     return {};
 }
 
-// What nearly always holds, without the why where it does not. Then the record is claimed.
+// The fast path: claims the record if nothing prevents it. On failure, make_room() finds the reason.
 [[gnu::always_inline]] inline bool RingWriter::has_room(std::size_t length) noexcept {
     return segment_ && !forked_->load(std::memory_order_relaxed) && length <= longest() &&
            producer_.claim(length) == detail::Producer<SharedWords>::Room::there;
@@ -106,7 +109,7 @@ WriteResult<void> RingWriter::make_room(std::size_t length, MonoTime deadline) n
     }
 }
 
-// Success: it is worth another try.
+// Returns success if another attempt to claim is worthwhile.
 WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadline) noexcept {
     const std::uint64_t blockers = producer_.blockers(length);
     if (blockers == 0) return {};
@@ -127,12 +130,12 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
         return tl::unexpected(WriteError::full);
     }
     if (now >= deadline) return tl::unexpected(WriteError::full);
-    producer_.wake_readers_now();  // whoever sleeps, or naps unasked, may be who holds
+    producer_.wake_readers_now();  // a sleeping or napping reader may be the one that holds
     producer_.sleep_for_room(length, std::min(looked_for_dead_ + look_for_dead, deadline) - now);
     return {};
 }
 
-// A slot's lock is taken before its hold is given up: no new reader can come into it meanwhile.
+// Takes the slot's lock before it drops the hold, so that no new reader can take the slot in between.
 void RingWriter::drop_dead(std::uint64_t slots) noexcept {
     for (; slots != 0; slots &= slots - 1) {
         const auto slot = static_cast<unsigned>(std::countr_zero(slots));
@@ -157,7 +160,7 @@ LinkId RingWriter::last_link() const noexcept {
     while (at < tail) {
         const auto header = detail::load_header(ring, at);
         const std::uint64_t size = detail::size_of(ring, at, header, tail - at);
-        if (size == 0) break;  // damage, behind which nobody reads either
+        if (size == 0) break;  // damage; readers stop here too
         if (!header.is_padding() && LinkId{header.link} < end_of_link_numbers) last = std::max(last, header.link);
         at += size;
     }
@@ -185,7 +188,7 @@ SetupResult<void> RingWriter::reopen() {
     return {};
 }
 
-// In a child of fork() nothing is touched: the ring is the parent's.
+// After fork(), the child changes nothing: the ring belongs to the parent.
 void RingWriter::end() noexcept {
     if (segment_ && !segment_->forked()) {
         memory_of(*segment_).control->writer_pid.store(0, std::memory_order_release);
@@ -195,7 +198,7 @@ void RingWriter::end() noexcept {
     segment_.reset();
 }
 
-// Of a program that lives on: it may count more than this ring.
+// Returns whether the page belongs to another live process, which may use it for more than this ring.
 static bool page_is_of_another(const std::string& name) {
     const auto page = read_counters(name);
     return page && page->owner_alive && page->owner_pid != static_cast<std::uint32_t>(::getpid());
@@ -204,7 +207,8 @@ static bool page_is_of_another(const std::string& name) {
 SetupResult<void> RingWriter::close(Leave leave) {
     SetupResult<void> removed;
     if (leave == Leave::nothing && segment_ && !segment_->forked()) {
-        const bool named = segment_->is_named();  // else the counter page is of whoever has the name now
+        // Without the name, the counter page belongs to the ring that has the name now.
+        const bool named = segment_->is_named();
         removed = segment_->unlink();
         if (removed) retire(*segment_);
         if (removed && named && !page_is_of_another(name_)) removed = remove_counter_page(name_);

@@ -22,7 +22,7 @@ namespace mavloom::shm {
 
 namespace {
 
-// The same file once more, with a description of its own.
+// Opening this path opens the same file again, with an open file description of its own.
 std::string path_of_descriptor(int fd) { return fmt::format("/proc/self/fd/{}", fd); }
 
 tl::unexpected<SetupError> cannot_open(const std::string& path, int error) {
@@ -54,7 +54,7 @@ bool write_all(int fd, ByteView bytes) {
     return true;
 }
 
-// 0 or errno. posix_fallocate is ended by any signal.
+// Returns 0 or an errno value. Retries, because any signal interrupts posix_fallocate.
 int allocate(int fd, std::size_t size) {
     int error;
     do error = ::posix_fallocate(fd, 0, static_cast<off_t>(size));
@@ -118,7 +118,7 @@ SetupResult<void> Segment::map() {
     return {};
 }
 
-// Where the kernel cannot, or the file is shorter by now, it stays as it was.
+// Failure is harmless: if the kernel lacks MADV_POPULATE, or the file was shortened, nothing changes.
 void Segment::populate() noexcept {
     constexpr std::size_t most = 64 << 20;
     ::madvise(data_, std::min(size_, most), writable() ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
@@ -148,7 +148,7 @@ SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, 
     Segment segment(path, std::make_unique<LockFile>(fd), Access::read_write);
     segment.size_ = size;
     if (const int error = allocate(fd, size); error != 0) return no_space(path, size, error);
-    // fchmod: the umask does not count.
+    // fchmod, because the umask must not apply.
     if (!write_all(fd, content) || ::fchmod(fd, mode) != 0) return no_space(path, size, errno);
     if (!segment.try_lock(0)) return system_error(fmt::format("cannot lock {}", path), errno);
     if (auto mapped = segment.map(); !mapped) return tl::unexpected(std::move(mapped.error()));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A file in /dev/shm: created whole, opened, mapped, locked byte by byte. Who holds a byte's lock is alive: the kernel lets go of it at any death.
-// The locks hang on a second descriptor that is never mapped (a mapping keeps its own description, and so its locks, alive in a forked child),
-// closed by exec and, through an at-fork handler, in every child. Move-only; one owner thread but for `forked()`.
+// A mapped file in /dev/shm with byte locks. A process counts as alive while it holds its lock; the kernel releases the
+// locks however the process ends.
+//
+// The locks belong to a second descriptor, which is never mapped. A mapping would keep its open file description, and
+// so the locks, alive in a forked child. That descriptor is closed by exec and, through an at-fork handler, in every
+// child. Private to module shm. Move-only. One owner thread; any thread may call `forked()`.
 #pragma once
 
 #include <sys/types.h>
@@ -20,9 +23,9 @@ namespace mavloom::shm {
 
 inline constexpr std::string_view shared_folder = "/dev/shm";
 
-// An error (`usage`) for what is no name of a ring: [A-Za-z0-9_-]{1,64}.
+// Returns a `usage` error if `name` is not a valid ring name: [A-Za-z0-9_-]{1,64}.
 [[nodiscard]] SetupResult<void> check_name(std::string_view name);
-// "/dev/shm/mavloom.NAME" + suffix.
+// Returns "/dev/shm/mavloom.NAME" + suffix.
 [[nodiscard]] std::string path_of(std::string_view name, std::string_view suffix = "");
 
 class LockFile;
@@ -35,32 +38,35 @@ public:
     Segment& operator=(Segment&& other) noexcept;
     ~Segment();
 
-    // `not_found` where there is none; `permission` names the owner; `bad_input` for what is no regular file or shorter than `least_bytes`.
+    // Opens and maps an existing file. Errors: `not_found`; `permission` names the owner; `bad_input` if it is not a
+    // regular file or is shorter than `least_bytes`.
     [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t least_bytes);
-    // A new file of `size` bytes that begins with `content`, with the lock on byte 0 held before it gets its name. `in_use` when the name is taken
-    // by then; `no_space` before anything is written. From `replaced` the name is taken when nothing is left to do but to give it.
+    // Creates and maps a file of `size` bytes that begins with `content`. Holds the lock on byte 0 before the file gets
+    // its name. Removes the name of `replaced` only at the last step, when nothing else can fail. Errors: `in_use` if
+    // the name is already taken; `no_space` before anything is written.
     [[nodiscard]] static SetupResult<Segment> create(const std::string& path, std::size_t size, unsigned mode,
                                                      ByteView content, const Segment* replaced = nullptr);
 
     [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    // Has the kernel map all pages now (of a long one the first 64 MiB), for each would cost a fault of microseconds later.
+    // Makes the kernel map all pages now (at most the first 64 MiB). Otherwise each page would later cost a page fault
+    // of microseconds.
     void populate() noexcept;
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] bool writable() const noexcept { return access_ == Access::read_write; }
 
-    // False: somebody else has it.
+    // Returns false if another process holds the lock.
     [[nodiscard]] bool try_lock(std::size_t byte) noexcept;
     void unlock(std::size_t byte) noexcept;
-    // Whether another description holds it.
+    // Returns whether another open file description holds the lock.
     [[nodiscard]] bool is_locked(std::size_t byte) const noexcept;
 
-    // In a child of the process that opened it: not the child's to use.
+    // True in a child of the process that opened the file. The child must not use the segment.
     [[nodiscard]] bool forked() const noexcept { return forked_flag().load(std::memory_order_relaxed); }
-    [[nodiscard]] const std::atomic<bool>& forked_flag() const noexcept;  // stays where it is when the segment moves
-    // Whether the path still leads here.
+    [[nodiscard]] const std::atomic<bool>& forked_flag() const noexcept;  // keeps its address when the segment moves
+    // Returns whether the path still leads to this file.
     [[nodiscard]] bool is_named() const noexcept;
-    // Takes the name away if it still leads here.
+    // Removes the path if it still leads to this file.
     [[nodiscard]] SetupResult<void> unlink() const;
     struct Status {
         uid_t owner = 0;
@@ -79,7 +85,7 @@ private:
     std::size_t size_ = 0;
 };
 
-// The login name of a user, or his number.
+// Returns the user's login name, or "user N" if there is none.
 [[nodiscard]] std::string user_name(uid_t user);
 
 }  // namespace mavloom::shm

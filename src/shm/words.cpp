@@ -11,7 +11,8 @@
 
 namespace mavloom::shm {
 
-// Shared futexes: the word is known by its file, whatever the address it is mapped at. Works on read-only mappings too.
+// Uses shared futexes: the kernel identifies the word by its file and offset, whatever the mapped address. Works on
+// read-only mappings too.
 bool SharedWords::sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept {
     if (longest <= Nanoseconds{}) return true;
     const auto whole = std::chrono::floor<std::chrono::seconds>(longest);

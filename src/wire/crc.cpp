@@ -11,7 +11,7 @@ namespace mavloom::wire {
 
 namespace {
 
-// One byte at a time for the ends, eight at a time between: each byte's contribution is independent (slicing-by-8).
+// Slicing-by-8: processes eight bytes at a time, whose contributions are independent, then the rest byte by byte.
 std::uint16_t update_portable(std::uint16_t crc, const std::uint8_t* p, std::size_t size) noexcept {
     const auto& t = detail::crc_slices;
     for (; size >= 8; p += 8, size -= 8) {
@@ -32,9 +32,11 @@ bool check_portable(std::uint32_t tail, const std::uint8_t* p, std::size_t size,
 
 #if defined(__x86_64__)
 
-// Reflected polynomials: bit i of a 64-bit word stands for x^(63-i), so that a little-endian load of the message is already in order. The
-// carry-less product of two such words comes out multiplied by x, hence the exponents one lower than the distance folded.
-// P = x^16 + x^12 + x^5 + 1. Method: Gopal et al., "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ" (Intel, 2009).
+// Polynomials are reflected: bit i of a 64-bit word stands for x^(63-i), so a little-endian load needs no byte swap.
+// The carry-less product of two such words comes out multiplied by x. The exponents below are therefore one less than
+// the distance folded.
+// P = x^16 + x^12 + x^5 + 1.
+// Method: Gopal et al., "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ" (Intel, 2009).
 constexpr std::uint64_t x575_mod_p = 0x9822000000000000;
 constexpr std::uint64_t x511_mod_p = 0x7f90000000000000;
 constexpr std::uint64_t x447_mod_p = 0x5159000000000000;
@@ -47,7 +49,8 @@ constexpr std::uint64_t x63_mod_p = 0x042b000000000000;
 constexpr std::uint64_t barrett_mu = 0xc2cd82058e2c0c88;    // floor(x^80 / P) without its leading x^64
 constexpr std::uint64_t inverse_of_p = 0x84298ae61426656b;  // modulo x^64
 
-// shift_in[n .. n+16) moves the first n bytes of a block to its end and fills with zeros (pshufb: high bit set gives 0).
+// A pshufb mask: shift_in[n .. n+16) moves the first n bytes of a block to its end and fills the rest with zeros.
+// pshufb writes 0 for an index whose high bit is set.
 alignas(64) constexpr std::uint8_t shift_in[32] = {0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80,
                                                    0x80, 0x80, 0x80, 0x80, 0x80, 0,    1,    2,    3,    4,    5,
                                                    6,    7,    8,    9,    10,   11,   12,   13,   14,   15};
@@ -58,7 +61,7 @@ MAVLOOM_CLMUL inline __m128i load(const std::uint8_t* p) noexcept {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
 }
 
-// What a block is worth so much further from the end; `by` holds the powers for its first and its last eight bytes.
+// Moves a block further from the end of the message. `by` holds the powers of x for its first and its last eight bytes.
 MAVLOOM_CLMUL inline __m128i fold(__m128i block, __m128i by) noexcept {
     return _mm_xor_si128(_mm_clmulepi64_si128(block, by, 0x00), _mm_clmulepi64_si128(block, by, 0x11));
 }
@@ -67,13 +70,13 @@ MAVLOOM_CLMUL inline __m128i powers(std::uint64_t first, std::uint64_t last) noe
     return _mm_set_epi64x(static_cast<long long>(last), static_cast<long long>(first));
 }
 
-// The first eight bytes of a block folded onto the last eight: what is left has 80 bits.
+// Folds the first eight bytes of a block onto the last eight. 80 bits remain.
 MAVLOOM_CLMUL inline __m128i fold_half(__m128i block) noexcept {
     return _mm_xor_si128(_mm_clmulepi64_si128(block, powers(x63_mod_p, 0), 0x00),
                          _mm_and_si128(block, _mm_set_epi64x(-1, 0)));
 }
 
-// crc = block * x^16 mod P.
+// Returns block * x^16 mod P.
 MAVLOOM_CLMUL inline std::uint16_t reduce(__m128i block) noexcept {
     block = fold_half(fold_half(block));
     const auto rest = static_cast<std::uint64_t>(_mm_extract_epi64(block, 1));
@@ -83,9 +86,11 @@ MAVLOOM_CLMUL inline std::uint16_t reduce(__m128i block) noexcept {
     return static_cast<std::uint16_t>(q ^ (q >> 5) ^ (q >> 12));
 }
 
-// Leading zeros do not change a remainder: the odd bytes at the front become the end of a block that is zero before, then whole blocks follow.
+// Leading zeros do not change the remainder. So the first size % 16 bytes become the end of a block of zeros, and whole
+// blocks follow.
 MAVLOOM_CLMUL std::uint16_t update_pclmul(std::uint16_t crc, const std::uint8_t* p, std::size_t size) noexcept {
-    if (size % 16 == 1) {  // the old checksum is xored into two bytes: one would fall out of a head of one
+    // The old checksum is xored into the first two bytes, so a head of one byte is too short.
+    if (size % 16 == 1) {
         crc = crc_update(crc, *p);
         ++p;
         --size;
@@ -101,7 +106,7 @@ MAVLOOM_CLMUL std::uint16_t update_pclmul(std::uint16_t crc, const std::uint8_t*
 
 constexpr std::size_t group = 64;
 
-// keep[group - n .. 2 * group - n) masks all but the first n bytes of a group.
+// keep[group - n .. 2 * group - n) is the mask that keeps the first n bytes of a group.
 consteval std::array<std::uint8_t, 2 * group> make_keep() {
     std::array<std::uint8_t, 2 * group> keep{};
     for (std::size_t i = 0; i < group; ++i) keep[i] = 0xff;
@@ -109,8 +114,9 @@ consteval std::array<std::uint8_t, 2 * group> make_keep() {
 }
 alignas(64) constexpr auto keep = make_keep();
 
-// To the place behind n bytes of a zero-filled group: weight[n] = x^(8 * (group - n) - 64), less 1 for the product's own x; a word's lowest byte
-// comes first. Powers of x have inverses modulo P, which has a constant term.
+// weights[n] moves a value to the place behind n bytes of a zero-filled group: x^(8 * (group - n) - 64).
+// The exponent is one less because the product is multiplied by x. The lowest byte of a word comes first.
+// Negative powers exist because P has a constant term, so x has an inverse modulo P.
 consteval std::array<std::uint64_t, group + 2> make_weights() {
     std::array<std::uint64_t, group + 2> weights{};
     for (std::size_t n = 0; n <= group; ++n) {
@@ -147,8 +153,9 @@ MAVLOOM_CLMUL inline void fold_group(Groups& sum) noexcept {
     sum = {fold(sum.a, by_512), fold(sum.b, by_512), fold(sum.c, by_512), fold(sum.d, by_512)};
 }
 
-// A polynomial of 80 bits, the low 64 of them in the last eight bytes, is a multiple of P when the quotient of those folded, taken from the
-// low end as an exact division would, ends at x^47.
+// True if the 80-bit polynomial `value`, with its low 64 bits in the last eight bytes, is a multiple of P.
+// Folds the polynomial, then divides it by P from the low end, as if the division were exact.
+// It is a multiple if the quotient has no terms above x^47.
 MAVLOOM_CLMUL inline bool is_multiple_of_p(__m128i value) noexcept {
     const __m128i by = powers(x63_mod_p, inverse_of_p);
     value = _mm_xor_si128(value, _mm_clmulepi64_si128(value, by, 0x00));
@@ -157,8 +164,8 @@ MAVLOOM_CLMUL inline bool is_multiple_of_p(__m128i value) noexcept {
     return _mm_testz_si128(quotient, x48_to_x63) != 0;
 }
 
-// A message followed by CRC_EXTRA and its own checksum leaves no remainder, and zeros behind it change nothing: so all lengths up to a group
-// cost the same, without a branch, and no remainder needs to be worked out.
+// A message followed by CRC_EXTRA and its own checksum leaves no remainder, and zeros behind it change nothing.
+// So all lengths up to a group take the same time, without a branch, and the remainder need not be computed.
 MAVLOOM_CLMUL bool check_pclmul(std::uint32_t tail, const std::uint8_t* p, std::size_t size,
                                 std::size_t readable) noexcept {
     if (((size + group - 1) & ~(group - 1)) > readable) return agrees(update_pclmul(crc_seed, p, size), tail);

@@ -10,7 +10,7 @@ namespace mavloom::wire {
 
 namespace {
 
-// Trailing zeros are dropped, but at least one byte stays.
+// Drops trailing zeros, but keeps at least one byte.
 std::size_t truncated_length(ByteView payload) noexcept {
     std::size_t length = payload.size();
     while (length > 1 && payload[length - 1] == 0) --length;

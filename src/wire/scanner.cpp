@@ -3,8 +3,10 @@
 
 namespace mavloom::wire::detail {
 
-// routing.md 5.4: a datagram's frame must end where the datagram or another frame does; a stream's must follow a good frame and be followed
-// by a start byte or by silence. Once the source's CRC_EXTRA is learned the checksum alone decides.
+// Judges a candidate frame whose id has no definition. Once the CRC_EXTRA of the source is confirmed, the checksum
+// alone decides. Before that, the surrounding bytes must fit:
+// - In a datagram, the frame must end where the datagram ends or where another frame starts.
+// - In a stream, the frame must follow a valid frame, and a start byte or silence must follow it.
 Scanner::Candidate Scanner::examine_unknown(const FrameView& frame, ByteView behind, End end) noexcept {
     using Kind = Candidate::Kind;
     if ((frame.incompat_flags() & ~incompat_signed) != 0) return {};
@@ -18,7 +20,8 @@ Scanner::Candidate Scanner::examine_unknown(const FrameView& frame, ByteView beh
             return {};
         }
     }
-    // A disagreeing checksum is shown to the memory only where the surroundings are right, so that noise cannot unlearn a byte.
+    // Learn from a mismatching checksum only if the surrounding bytes fit, so that noise cannot replace a confirmed
+    // byte.
     if (verdict == UnknownIds::Verdict::impossible && !(behind.empty() || is_start(behind[0])))
         return {Kind::bad_checksum, frame.size(), nullptr};
     if (!unknown_.learn(frame)) return {Kind::bad_checksum, frame.size(), nullptr};

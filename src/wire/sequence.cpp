@@ -8,7 +8,7 @@ namespace mavloom::wire {
 
 namespace {
 
-// Tells a repeated frame from another one that carries the same number: checksum, id and length; never 0.
+// Distinguishes a repeated frame from another one with the same sequence number, by checksum, id and length. Never 0.
 std::uint32_t fingerprint(const FrameView& frame) noexcept {
     return (std::uint32_t{frame.checksum()} << 16 | std::uint32_t{frame.payload_length()} << 8 |
             (frame.id().value & 0xff)) |
@@ -18,7 +18,7 @@ std::uint32_t fingerprint(const FrameView& frame) noexcept {
 constexpr MessageId system_time{2};
 constexpr ComponentId autopilot{1};  // MAV_COMP_ID_AUTOPILOT1
 
-// Trailing zeros of a payload may be missing.
+// A MAVLink 2 sender may have cut off trailing zeros of the payload, so missing bytes read as 0.
 std::uint32_t boot_ms_in(ByteView payload, std::size_t offset) noexcept {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4 && offset + i < payload.size(); ++i)
@@ -52,7 +52,7 @@ std::size_t SequenceTracker::find_or_add(Source source) {
     return index;
 }
 
-// Flattened it takes a quarter less time.
+// Inlining all calls makes this a quarter faster.
 [[gnu::flatten]] SequenceTracker::Update SequenceTracker::update(const FrameView& frame, const MessageInfo* info) {
     const std::size_t index = find_or_add(frame.source());
     if (index == 0) {
@@ -87,7 +87,7 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
         return {};
     }
     const bool same_bytes = state.recent[sequence % window] == fingerprint(frame);
-    if (d == -1) {  // the number of the newest frame again: a duplicate, or a sender that does not count
+    if (d == -1) {  // same number as the newest frame: a duplicate, or a sender that does not count
         if (state.repeats < constant_after) ++state.repeats;
         if (state.repeats == constant_after && !stats.no_sequence) {
             stats.no_sequence = true;
@@ -117,7 +117,8 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
     return {.verdict = Verdict::resync, .resync = 1};
 }
 
-// Between the last frame of the old clock and this one the numbers began anew: that was one jump, whatever it was taken for.
+// Handles the boot clock of a frame. Sequence numbers restarted somewhere between the last frame of the old clock and
+// this one. That was one jump, so a restart replaces whatever was counted in between by a single resync.
 void SequenceTracker::watch_clock(SequenceStats& stats, State& state, const FrameView& frame, const MessageInfo& info,
                                   Update& update) noexcept {
     if (info.id != system_time && frame.component() != autopilot) return;
@@ -125,7 +126,7 @@ void SequenceTracker::watch_clock(SequenceStats& stats, State& state, const Fram
     if (verdict == ClockVerdict::says_nothing) return;
     Update& since = state.since_clock_ran;
     if (verdict == ClockVerdict::restarted) {
-        since.resync -= 1;  // the jump itself stays
+        since.resync -= 1;  // keep one resync for the jump
         stats.lost -= static_cast<std::uint64_t>(since.lost);
         stats.late -= static_cast<std::uint64_t>(since.late);
         stats.duplicate -= std::min(stats.duplicate, static_cast<std::uint64_t>(since.duplicate));
@@ -155,7 +156,7 @@ SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageI
         return ClockVerdict::runs;
     }
     if (id != system_time && !std::exchange(clock->fell, true)) return ClockVerdict::says_nothing;
-    state.clocks[0] = {id.value, boot_ms, false};  // the others are of the time before
+    state.clocks[0] = {id.value, boot_ms, false};  // the other clocks are from before the restart
     state.clock_count = 1;
     return ClockVerdict::restarted;
 }

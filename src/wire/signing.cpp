@@ -30,7 +30,7 @@ void store_time(std::uint8_t* p, std::uint64_t ticks) noexcept {
     store_le(p + 4, static_cast<std::uint16_t>(ticks >> 32));
 }
 
-// The first 48 bits of SHA-256 over the key and everything of the frame up to and including the time.
+// The first 48 bits of SHA-256 over the key and the frame up to and including the timestamp.
 std::array<std::uint8_t, hash_length> hash_of(const SigningKey& key, ByteView up_to_time) noexcept {
     crypto_hash_sha256_state state;
     std::array<std::uint8_t, crypto_hash_sha256_BYTES> full;
@@ -43,7 +43,7 @@ std::array<std::uint8_t, hash_length> hash_of(const SigningKey& key, ByteView up
     return first;
 }
 
-// White space around one word of hexadecimal digits.
+// Parses one word of hexadecimal digits with optional white space around it.
 std::optional<std::array<std::uint8_t, SigningKey::length>> parse_hex(std::string_view text) {
     constexpr std::string_view space = " \t\r\n\v\f";
     text.remove_prefix(std::min(text.find_first_not_of(space), text.size()));
@@ -72,14 +72,14 @@ std::uint64_t SigningKey::fingerprint() const noexcept {
 
 SigningKey::~SigningKey() { sodium_memzero(bytes_.data(), bytes_.size()); }
 
-// The user named the file as input: whatever is wrong with it is `bad_input`, status 3.
+// The key file is user input, so every failure to open it is `bad_input`.
 static tl::unexpected<SetupError> cannot_open(const std::filesystem::path& file, int error) {
     auto failed = system_error(fmt::format("cannot open key file {}", file.string()), error);
     failed.value().code = SetupCode::bad_input;
     return failed;
 }
 
-// Of an open file: what is looked at is what is read.
+// Checks and reads the same open file, so that it cannot be replaced in between.
 static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& file) {
     struct stat status {};
     if (::fstat(fd, &status) != 0) return cannot_open(file, errno);
@@ -102,8 +102,8 @@ static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& fil
 }
 
 SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
-    const int fd = ::open(file.c_str(),
-                          O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);  // does not wait for the writer of a pipe
+    // O_NONBLOCK: opening a pipe must not wait for a writer.
+    const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (fd < 0) return cannot_open(file, errno);
     auto key = read_key(fd, file);
     ::close(fd);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Making keys; reading them is in signing.cpp.
+// Creates signing keys and their files. signing.cpp reads them.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sodium.h>

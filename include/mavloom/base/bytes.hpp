@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Byte spans and little-endian loads and stores (MAVLink is little-endian on the wire). The caller has checked the bounds.
+// Byte spans, and loads and stores of little-endian and big-endian numbers.
+// MAVLink is little-endian on the wire. Nothing here checks bounds: the caller does.
 #pragma once
 
 #include <bit>
@@ -31,7 +32,7 @@ using bits_of = std::conditional_t<
     std::conditional_t<sizeof(T) == 2, std::uint16_t, std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
 }  // namespace detail
 
-// Reads a little-endian T (integer or IEEE 754 float) from `p`, which needs no alignment.
+// Loads a little-endian integer or IEEE 754 float. `p` needs no alignment.
 template <class T>
 [[nodiscard]] inline T load_le(const void* p) noexcept {
     static_assert(std::is_arithmetic_v<T>);
@@ -47,7 +48,7 @@ inline void store_le(void* p, T value) noexcept {
     std::memcpy(p, &bits, sizeof bits);
 }
 
-// tlog files count big-endian. (GCC 12 makes one load of it with the built-in alone, and eight of a loop.)
+// Big-endian, for the timestamps of tlog files. (GCC 12 compiles the built-in to one load, but a loop to eight.)
 [[nodiscard]] inline std::uint64_t load_be64(const void* p) noexcept {
     return __builtin_bswap64(load_le<std::uint64_t>(p));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two clocks. Monotonic time measures and schedules; wall time only labels (DESIGN.md rule 7). Only this file asks the system for the
-// time: everything else takes instants as parameters.
+// The two clocks: monotonic time for intervals and deadlines, wall time for timestamps only.
+// Other code takes the time as a parameter, so that tests control it. Safe from any thread.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counters as single-writer relaxed words: one thread adds, any thread (or process, over a shared page) reads without disturbing it.
+// A counter that one thread increments and any other thread or process can read.
+// All accesses are relaxed atomic operations, so reading does not slow the writer down.
 #pragma once
 
 #include <atomic>
@@ -7,7 +8,8 @@
 
 namespace mavloom {
 
-// One word that its single writer owns. `add` is a plain load and store, not a locked instruction: two writers would lose counts.
+// Exactly one thread may call `add` and `set`. `add` is a plain load and store, not a locked instruction, so two
+// writers would lose counts.
 class Counter {
 public:
     constexpr Counter() noexcept = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ids as types: a system id cannot be passed where a component id is expected. Values as MAVLink defines them; 0 addresses everybody.
-// Immutable values; nothing allocates.
+// MAVLink ids as distinct types, so that a system id cannot be passed where a component id is expected.
+// The values are those of the protocol; system or component id 0 means broadcast. Plain values, no allocation.
 #pragma once
 
 #include <compare>
@@ -22,9 +22,9 @@ struct Id {
 using SystemId = Id<struct SystemTag, std::uint8_t>;
 using ComponentId = Id<struct ComponentTag, std::uint8_t>;
 using MessageId = Id<struct MessageTag, std::uint32_t>;  // 24 bits on the wire
-using LinkId = Id<struct LinkTag, std::uint32_t>;        // given by the process, never reused within a run
+using LinkId = Id<struct LinkTag, std::uint32_t>;        // assigned by this process, never reused while it runs
 
-// Who sent a frame: the pair that MAVLink addresses.
+// The sender of a frame.
 struct Source {
     SystemId system;
     ComponentId component;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The rule for the names of rings, routers and groups. Pure; allocates nothing.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace mavloom {
 
 inline constexpr std::size_t longest_name = 64;
 
-// What rings, routers and the sockets between them are called: 1 to 64 of A-Z a-z 0-9 _ -.
+// True for a valid name: 1 to 64 of A-Z a-z 0-9 _ -.
 [[nodiscard]] constexpr bool is_name(std::string_view text) noexcept {
     const auto good = [](char c) {
         return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a user typed, or a file holds, fit for a message about it. Pure; allocates the result.
+// Makes text from users and files safe to print in messages. Pure; allocates the result.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace mavloom {
 
-// Control characters replaced: C0, DEL, and C1 as UTF-8 writes them.
+// Replaces control characters with '?': C0, DEL, and C1 in UTF-8.
 [[nodiscard]] std::string printable(std::string_view text);
-// The same, cut when long.
+// Like `printable`, but cuts text longer than 120 bytes and appends "...".
 [[nodiscard]] std::string shown(std::string_view text);
-// 'text', shown.
+// Like `shown`, in single quotes.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 }  // namespace mavloom

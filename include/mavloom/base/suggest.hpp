@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// "Did you mean": the nearest valid spelling for a name that is not known (DESIGN.md rule 8).
+// "Did you mean ...?": finds the known name that is closest to an unknown one. Pure; allocates.
 #pragma once
 
 #include <span>
@@ -8,11 +8,12 @@
 
 namespace mavloom {
 
-// The candidate with the smallest edit distance to `typed` (case ignored), or one that begins with it (three letters at least), or empty when
-// none is near (over a third of its letters wrong).
+// Returns the candidate with the smallest edit distance to `typed`, ignoring case.
+// If every candidate differs in more than a third of the letters of `typed`, returns one that starts with `typed`
+// (three letters or more), else an empty view.
 [[nodiscard]] std::string_view nearest(std::string_view typed, std::span<const std::string_view> candidates);
 
-// ", did you mean 'X'?" or an empty string.
+// Returns ", did you mean 'X'?", or an empty string if nothing is close.
 [[nodiscard]] std::string did_you_mean(std::string_view typed, std::span<const std::string_view> candidates);
 
 }  // namespace mavloom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thread that no signal is delivered to: those are for the program's own threads.
+// Starts threads that receive no signals, so that signals reach only the program's own threads.
 #pragma once
 
 #include <pthread.h>
@@ -10,7 +10,8 @@
 
 namespace mavloom {
 
-// All signals blocked in the calling thread for as long as it lives; threads that begin meanwhile inherit that.
+// Blocks all signals in the calling thread for as long as this object lives. Threads started meanwhile inherit the
+// mask.
 class BlockedSignals {
 public:
     BlockedSignals() noexcept {
@@ -26,7 +27,7 @@ private:
     sigset_t before_;
 };
 
-// Throws std::system_error where the system has no thread left.
+// Throws std::system_error if the system cannot create a thread.
 template <class Run>
 [[nodiscard]] std::thread thread_without_signals(Run&& run) {
     const BlockedSignals blocked;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Which Mavloom this is. Any thread; allocates nothing.
+// The version of this build. Safe from any thread; allocates nothing.
 #pragma once
 
 #include <string_view>
 
 namespace mavloom {
 
-// "0.1.0" for a release; between releases and outside a clean checkout the commit follows: "0.1.0+g1a2b3c4d", "0.1.0+g1a2b3c4d-dirty".
-// The number stands in CMakeLists.txt, project().
+// Returns "0.1.0" for a release. Other builds append the commit: "0.1.0+g1a2b3c4d", or "0.1.0+g1a2b3c4d-dirty" with
+// local changes. The number is set by project() in CMakeLists.txt.
 [[nodiscard]] std::string_view version() noexcept;
 
 }  // namespace mavloom

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The configuration file: TOML with [router], [[endpoint]], [ring], [record], [log] and [web] (DESIGN.md sections 4 and 5,
-// docs/guide/configuration.md). Each value knows where it came from; the order is default, file, environment. Nothing is guessed: an unknown
-// section, key or value is an error with file, line and the nearest spelling. Immutable values; loading allocates.
+// Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record], [log] and [web].
+//
+// Precedence is default, file, environment; the later one wins. Each value records where it came from. An unknown
+// section, key or value is an error with file, line and the nearest known spelling. The results are plain values;
+// loading allocates. Format: docs/guide/configuration.md.
 #pragma once
 
 #include <chrono>
@@ -31,24 +33,25 @@ struct RouterConfig {
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
     std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat;  // system and component; empty: off
-    std::uint16_t request_streams_hz = 0;                            // of ArduPilot, by the id of `heartbeat`; 0: off
+    // Rate at which the router asks ArduPilot for its streams, as the id in `heartbeat`. 0: off.
+    std::uint16_t request_streams_hz = 0;
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
 
-// An endpoint asks for the router's heartbeat, which has no id to be sent by.
+// Error text: an endpoint has heartbeat=true, but the router has no id to send it as.
 inline constexpr std::string_view heartbeat_needs_id =
     "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends by";
 
 struct RingConfig {
     std::string name;  // empty: no ring
     std::uint64_t capacity_bytes = 0;
-    WhenFull full = WhenFull::evict;  // never `wait`: routing waits for nobody
+    WhenFull full = WhenFull::evict;  // never `wait`: routing must not block
     std::uint16_t mode = 0;
     friend bool operator==(const RingConfig&, const RingConfig&) = default;
 };
 
 struct RecordConfig {
-    std::string path;  // empty: nothing is recorded
+    std::string path;  // empty: no recording
     std::uint64_t rotate_bytes = 0;
     std::chrono::nanoseconds rotate_every{};
 };
@@ -59,20 +62,20 @@ struct WebConfig {
 
 enum class Origin : std::uint8_t { by_default, file, environment };
 
-// One effective value in the words of the file, and where it came from.
+// One effective value, as text in the file's syntax, and its origin.
 struct Setting {
     std::string key;
-    std::string value;  // empty: not set, and nothing stands in for it
+    std::string value;  // empty: not set, and there is no default
     Origin origin = Origin::by_default;
-    std::uint32_t line = 0;  // of the file
-    std::string variable;    // of the environment
+    std::uint32_t line = 0;  // in the file, if `origin` is `file`
+    std::string variable;    // its name, if `origin` is `environment`
 };
 
 struct Section {
-    std::string name;   // "router"; "endpoint" once for each
-    std::string label;  // of an endpoint
+    std::string name;   // such as "router"; "endpoint" occurs once per endpoint
+    std::string label;  // the endpoint's; empty for other sections
     std::vector<Setting> settings;
-    std::uint32_t line = 0;  // 0: the file has none
+    std::uint32_t line = 0;  // 0: not in the file
 };
 
 struct Config {
@@ -83,32 +86,40 @@ struct Config {
     WebConfig web;
     std::vector<endpoint::Endpoint> endpoints;
 
-    std::vector<Section> sections;   // all of the above, for people and for `check`
-    std::vector<std::string> notes;  // what was found odd and is no error: to be said once
+    std::vector<Section> sections;  // all of the above as text, for `mavloom check`
+    // Oddities that are not errors. Report each of them once.
+    std::vector<std::string> notes;
 };
 
-// NAME=VALUE pairs that begin with MAVLOOM_. Those of a section (MAVLOOM_ROUTER_..., _RING_, _RECORD_, _LOG_, _WEB_) set its keys, as
-// MAVLOOM_ROUTER_DEDUP_MS does. One that sets nothing is an error where it has the beginning of a section or is near to a key, else a note.
+// NAME=VALUE pairs whose name begins with MAVLOOM_. MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router]; _RING_,
+// _RECORD_, _LOG_ and _WEB_ work the same way. A variable that sets nothing is an error if it begins like a section
+// or resembles a key. Otherwise it adds a note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Environment environment_of(const char* const* envp);
 
-// Looks up the messages that filters and rates name. An error is `bad_input`, with file, line and the nearest name.
+// Checks that the dialect defines every message named in filters and rates. Errors are `bad_input`, with file, line
+// and the nearest name.
 [[nodiscard]] SetupResult<void> check_message_names(const Config& config, std::string_view file_name,
                                                     const dialect::Dialect& dialect);
 
-// What the configuration will do that somebody may not want, one line each with file and line: a rate on a message that a protocol waits for.
+// Lists settings that are legal but may do harm, one line each, with file and line. An example is a rate limit on a
+// message that a protocol waits for.
 [[nodiscard]] std::vector<std::string> config_warnings(const Config& config, std::string_view file_name,
                                                        const dialect::Dialect& dialect);
 
-// Reads the key files that the endpoints name. An error is `bad_input`, with file and line.
+// Checks that the endpoints' key files can be loaded. Errors are `bad_input`, with file and line.
 [[nodiscard]] SetupResult<void> check_key_files(const Config& config, std::string_view file_name);
 
-// All that a router refuses in a configuration that reads well: the two above, a ring as an endpoint, [ring] without a name, [record] without a
-// path, two modes for one group. An error is `bad_input`, with file and line.
+// Runs every check that a router makes on a configuration that parsed without errors. It refuses:
+// - what `check_message_names` and `check_key_files` refuse
+// - an endpoint that `Links::add` would refuse, or a ring as an endpoint
+// - [ring] without a name, or [record] without a path
+// - two different modes for one group
+// Errors are `bad_input`, with file and line.
 [[nodiscard]] SetupResult<void> check_for_router(const Config& config, std::string_view file_name,
                                                  const dialect::Dialect& dialect);
 
-// Errors are `bad_input` and begin with FILE:LINE: or the variable's name.
+// Errors are `bad_input`. They begin with FILE:LINE: or, for a variable, with "environment:".
 [[nodiscard]] SetupResult<Config> parse_config(std::string_view text, std::string_view file_name,
                                                const Environment& environment = {});
 [[nodiscard]] SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment = {});

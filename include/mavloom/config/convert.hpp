@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Turns a configuration of mavlink-router (main.conf: an INI file with [General], [UartEndpoint x], [UdpEndpoint x], [TcpEndpoint x]) into
-// ours, and names what it could not carry over. Keys and defaults are those of mavlink-router's documented sample; docs/guide/configuration.md
-// has the table. Free functions without state; they allocate.
+// Converts a mavlink-router configuration into a Mavloom configuration and notes what it could not carry over.
+//
+// The input is mavlink-router's main.conf: an INI file with [General], [UartEndpoint x], [UdpEndpoint x] and
+// [TcpEndpoint x]. Keys and defaults follow mavlink-router's documented sample file; docs/guide/configuration.md has
+// the table. Stateless free functions; they allocate.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +16,17 @@
 
 namespace mavloom::config {
 
-// Something of the old file that has no counterpart, or that was decided for the user.
+// A setting without a counterpart in Mavloom, or a choice that the converter made for the user.
 struct ConversionNote {
     std::uint32_t line = 0;
-    std::string section;  // as it is written there, without brackets
-    std::string key;      // empty: the section as a whole
+    std::string section;  // as written in the file, without brackets
+    std::string key;      // empty: concerns the whole section
     std::string text;
 };
 
 struct Conversion {
-    std::string toml;                   // a configuration that `parse_config` takes
-    std::vector<ConversionNote> notes;  // in the order of the file
+    std::string toml;                   // valid input for `parse_config`
+    std::vector<ConversionNote> notes;  // sorted by line
 };
 
 // Errors are `bad_input` and begin with FILE:LINE:.

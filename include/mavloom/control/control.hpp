@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How a running router is looked at and changed: a Unix stream socket that takes one JSON request a line and answers in JSON lines
-// (router_report.hpp), and, where asked, an HTTP address that gives metrics to Prometheus. Both run on a thread of their own and ask the
-// router's thread between two of its turns, which copies counters; the text is made here. Whoever stalls or floods there harms himself only.
+// Lets other programs query and change a running router, over a Unix socket and optionally over HTTP.
 //
-// The socket is RUN/NAME.ctl, mode 0600: /run/mavloom where it can be made, else $XDG_RUNTIME_DIR/mavloom (DESIGN.md section 5).
+// The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
+// address, if there is one, serves metrics to Prometheus.
+//
+// Both run on one thread of their own. Requests are posted to the router's thread, which runs them between two turns
+// and only copies counters. The control thread formats the answer, so a client that stalls or floods cannot slow down
+// routing.
+//
+// The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
+// /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.
 #pragma once
 
 #include <filesystem>
@@ -19,24 +25,24 @@
 
 namespace mavloom::control {
 
-// RUN/NAME.ctl; makes the folder RUN where it is missing.
+// Returns RUN/NAME.ctl and creates the folder RUN if it is missing.
 [[nodiscard]] SetupResult<std::filesystem::path> control_path(std::string_view name);
 
 struct ControlOptions {
-    std::filesystem::path socket;  // empty: none
+    std::filesystem::path socket;  // empty: no control socket
     std::optional<endpoint::HostPort> metrics;
 };
 
 class Control {
 public:
-    // A socket that is left from a router that is gone is taken over; one that is served is an error. `served` must outlive the object; its
-    // turns must go on, or stop for good.
+    // Replaces a socket that a dead router left behind. A socket that another router serves is an error (`in_use`).
+    // `served` must outlive the object. Its turns must keep running, or stop for good.
     [[nodiscard]] static SetupResult<std::unique_ptr<Control>> create(Served& served, const ControlOptions& options);
     ~Control();
     Control(const Control&) = delete;
     Control& operator=(const Control&) = delete;
 
-    // The port that was given where port 0 was asked for; 0 without metrics.
+    // The actual port, also if port 0 was requested. 0 without metrics.
     [[nodiscard]] std::uint16_t metrics_port() const noexcept;
 
 private:
@@ -45,8 +51,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Sends one request to the router called `name` and gives the lines of its answer without the last. Errors: no such router (`not_found`), no
-// answer within `limit`, what the router said.
+// Sends one request to the router `name` and returns the lines of its answer, without the final status line. Errors:
+// `not_found` if no such router runs; `unreachable` if it does not answer within `limit` or reports an error.
 [[nodiscard]] SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::string_view request,
                                                                std::chrono::milliseconds limit);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a control socket and a metrics address serve: the router, and whatever else runs for long and can be asked (a simulator, a gateway).
+// A program that a control socket and a metrics address can serve. It is a router, or another long-running program such
+// as a simulator or a gateway.
 #pragma once
 
 #include <functional>
@@ -11,7 +12,7 @@ namespace mavloom::control {
 
 using Lines = std::vector<std::string>;
 
-// Makes the text of an answer, which takes a hundred times as long as the copy that it is made from.
+// Formats an answer later, on another thread. Formatting takes about a hundred times as long as copying the counters.
 template <class Text>
 using Later = std::function<Text()>;
 
@@ -22,15 +23,18 @@ public:
     Served& operator=(const Served&) = delete;
     virtual ~Served() = default;
 
-    // Any thread: `work` is run on the owner's thread, between two of its turns. What is still waiting when the owner goes is destroyed unrun.
+    // Any thread may call it. `work` runs on the owner's thread, between two of its turns. Work that is still pending
+    // when the owner ends is destroyed without being run.
     virtual void post(std::function<void()> work) = 0;
-    // Destroys what was posted and not yet run; for a poster that is about to go.
+    // Destroys posted work that has not run yet. Call it before a poster is destroyed.
     virtual void drop_posted() = 0;
 
-    // On the owner's thread, where they copy and do nothing more. What they return may be called on another.
-    // One request line's answer, the last line of which is {"ok":true} or {"ok":false,"error":"..."}.
+    // `answer` and `metrics` run on the owner's thread and only copy data. Another thread may call the functions that
+    // they return.
+    //
+    // Answers one request line. The last line is {"ok":true} or {"ok":false,"error":"..."}.
     [[nodiscard]] virtual Later<Lines> answer(std::string_view request) = 0;
-    // Prometheus' text exposition format, version 0.0.4.
+    // Prometheus text exposition format, version 0.0.4.
     [[nodiscard]] virtual Later<std::string> metrics() = 0;
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Tells the service manager that started this program how it is: ready, reloading, stopping, alive. One datagram each to the socket that
-// $NOTIFY_SOCKET names; without one nothing is done. Who owns it calls it from one thread. Nothing allocates after `from_environment`.
-// Protocol: systemd's sd_notify(3), which promises to stay.
+// Reports this program's state to the service manager that started it, usually systemd: ready, reloading, stopping,
+// alive.
+//
+// Each report is one datagram to the socket in $NOTIFY_SOCKET. Without that variable all calls do nothing. A report
+// never blocks, and one that cannot be sent is lost. Single owner thread; no allocation after `from_environment`.
+// Protocol: systemd's sd_notify(3), a stable interface.
 #pragma once
 
 #include <chrono>
@@ -20,19 +23,19 @@ public:
     ~ServiceManager();
 
     void ready() const noexcept { send("READY=1"); }
-    void reloading() const noexcept;  // `ready` ends it
+    void reloading() const noexcept;  // `ready` ends the reload
     void stopping() const noexcept { send("STOPPING=1"); }
 
-    // When `feed` is due next; far away where no watchdog looks.
+    // When to call `feed` next; MonoTime::max() without a watchdog.
     [[nodiscard]] MonoTime watchdog_due() const noexcept { return due_; }
-    // "I am alive", if it is time to say so: half of the watchdog's interval.
+    // Sends the watchdog's keep-alive if it is due. It is due every half watchdog interval.
     void feed(MonoTime now) noexcept;
 
 private:
     ServiceManager(int fd, std::chrono::microseconds watchdog) noexcept;
     void send(std::string_view message) const noexcept;
 
-    int fd_ = -1;  // connected; -1: nobody to tell
+    int fd_ = -1;  // connected socket; -1: no service manager
     std::chrono::nanoseconds half_interval_{};
     MonoTime due_ = MonoTime::max();
 };

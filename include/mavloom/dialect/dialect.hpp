@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Message definitions: what MAVLink's XML says, as immutable records with the computed wire layout. There is no global dialect: a process may
-// hold several, and hands each parser and decoder the one it means. The built-in one lives in read-only tables of the binary; one loaded
-// from XML owns its records. All members are const and safe from any thread; look-ups allocate nothing.
+// MAVLink message and enum definitions, as immutable records with the computed wire layout.
+// There is no global dialect: a process can hold several, and gives each parser and decoder the one to use.
+// The records of the built-in dialect are read-only tables in the binary; a dialect loaded from XML owns its records.
+// All members are const and safe from any thread. Look-ups allocate nothing; a failed `message` or `field` allocates
+// its error text.
 // Source: MAVLink guide, "MAVLink XML Schema" and "Packet Serialization".
 #pragma once
 
@@ -27,16 +29,17 @@ enum class FieldType : std::uint8_t { char8, u8, i8, u16, i16, u32, i32, u64, i6
     return sizes[static_cast<std::size_t>(type)];
 }
 
-// Replaced or abandoned, as <deprecated> or <superseded> says. Empty `since` means: not deprecated.
+// A <deprecated> or <superseded> element of the XML. An empty `since` means: not deprecated.
 struct Deprecation {
     std::string_view since;        // "2020-01"
     std::string_view replaced_by;  // a name, or empty
 };
 
-// A parameter of a MAV_CMD entry: what param1 to param7 of COMMAND_LONG, COMMAND_INT and MISSION_ITEM_INT mean for that command.
+// A parameter of a MAV_CMD entry: the meaning of one of param1 to param7 in COMMAND_LONG, COMMAND_INT, MISSION_ITEM and
+// MISSION_ITEM_INT for that command.
 struct CommandParam {
     std::uint8_t index = 0;      // 1 to 7
-    std::string_view label;      // "Radius"; empty where the definition gives none
+    std::string_view label;      // "Radius"; empty if the definition gives none
     std::string_view units;      // "m"
     std::string_view enum_name;  // empty: a plain number
     std::string_view default_value;
@@ -47,17 +50,17 @@ struct CommandParam {
 struct EnumEntry {
     std::string_view name;  // "MAV_TYPE_QUADROTOR"
     std::uint64_t value = 0;
-    std::span<const CommandParam> params;  // of MAV_CMD entries only, by rising index
+    std::span<const CommandParam> params;  // only for entries of MAV_CMD, by ascending index
     Deprecation deprecated;
 };
 
 struct Enum {
     std::string_view name;  // "MAV_TYPE"
     bool bitmask = false;
-    std::span<const EnumEntry> entries;  // by rising value, merged over all files
+    std::span<const EnumEntry> entries;  // by ascending value, merged over all files
     Deprecation deprecated;
 
-    // Null where no entry has this value.
+    // Both return null if there is no such entry.
     [[nodiscard]] const EnumEntry* find(std::uint64_t value) const noexcept;
     [[nodiscard]] const EnumEntry* find(std::string_view entry_name) const noexcept;
 };
@@ -66,13 +69,13 @@ struct Field {
     std::string_view name;
     FieldType type = FieldType::u8;
     std::uint8_t array_length = 0;  // 0: a scalar
-    std::uint8_t offset = 0;        // bytes from the start of the full payload, in wire order
+    std::uint8_t offset = 0;        // in bytes from the start of the full payload
     bool extension = false;         // absent in MAVLink 1; not part of CRC_EXTRA
-    bool instance = false;          // tells apart several sensors of one message
-    bool bitmask = false;           // display="bitmask", or its enum is one
+    bool instance = false;          // distinguishes several sensors that send the same message
+    bool bitmask = false;           // display="bitmask", or its enum is a bitmask
     std::string_view units;         // "rad/s"; empty for none
     std::string_view invalid;       // the XML's text for "no value": "UINT16_MAX", "NaN", "[0]"; empty for none
-    double multiplier = 0;          // 0: none given
+    double multiplier = 0;          // 0 if the definition gives none
     const Enum* enumeration = nullptr;
 
     [[nodiscard]] bool is_array() const noexcept { return array_length != 0; }
@@ -84,16 +87,16 @@ struct Field {
 struct Message {
     std::string_view name;          // "ATTITUDE"
     wire::MessageInfo wire;         // id, CRC_EXTRA, lengths, target offsets
-    std::span<const Field> fields;  // in the order of the definition, extensions last; `offset` gives the wire order
+    std::span<const Field> fields;  // in definition order, extensions last; for wire order see Field::offset
     std::string_view origin;        // the file that defines it: "common.xml"
     Deprecation deprecated;
 
     [[nodiscard]] MessageId id() const noexcept { return wire.id; }
-    // Null for a name the message does not have.
+    // Returns null if the message has no such field.
     [[nodiscard]] const Field* find(std::string_view field_name) const noexcept;
 };
 
-// A field that was looked up once: from here on access is by offset.
+// The result of looking up a field by name. Access through it needs no further look-up.
 struct FieldHandle {
     const Message* message = nullptr;
     const Field* field = nullptr;
@@ -101,10 +104,11 @@ struct FieldHandle {
 
 class Dialect {
 public:
-    // Reads the XML file and everything it includes. Errors name file, line, what is wrong and what was expected.
+    // Reads an XML file and everything it includes. Errors give file, line, what is wrong and what was expected.
     [[nodiscard]] static SetupResult<Dialect> load(const std::filesystem::path& xml);
 
-    // The records must outlive the dialect (the built-in tables do). `messages` by rising id, `enums` by name.
+    // Uses records that must outlive the dialect, as the built-in tables do. `messages` by ascending id, `enums` by
+    // name.
     Dialect(std::string_view name, std::span<const Message> messages, std::span<const Enum> enums);
 
     [[nodiscard]] std::string_view name() const noexcept { return name_; }  // "all"
@@ -115,21 +119,22 @@ public:
     [[nodiscard]] const Message* find(std::string_view message_name) const noexcept;
     [[nodiscard]] const Enum* find_enum(std::string_view enum_name) const noexcept;
 
-    // What the parsers need. Lives as long as the dialect or any copy of it.
+    // The table for the parsers. Valid as long as this dialect or any copy of it.
     [[nodiscard]] const wire::MessageTable& wire_table() const noexcept;
 
-    // The message, or an error (`usage`) with the nearest name.
+    // Looks up a message by name. The error (`usage`) suggests the closest name.
     [[nodiscard]] SetupResult<const Message*> message(std::string_view message_name) const;
-    // "ATTITUDE.roll"; the error names the nearest message or field.
+    // Looks up a field as "ATTITUDE.roll". The error (`usage`) suggests the closest message or field.
     [[nodiscard]] SetupResult<FieldHandle> field(std::string_view message_dot_field) const;
 
-    // This dialect with `other` added; a message or enum entry of `other` replaces one of the same id or value here (`--dialect FILE`).
-    // Too many messages together are an error (`bad_input`).
+    // Returns this dialect extended by `other` (option `--dialect FILE`).
+    // A message of `other` replaces one of the same id or name. An enum entry replaces one of the same value or name.
+    // Too many messages in total are an error (`bad_input`).
     [[nodiscard]] SetupResult<Dialect> with(const Dialect& other) const;
 
 private:
     struct Index;    // hash tables by id and by name, and the wire table
-    struct Storage;  // owns records read from XML; null for the built-in tables
+    struct Storage;  // owns records read from XML or merged; null for the built-in tables
 
     Dialect(std::string_view name, std::shared_ptr<const Storage> storage);
 
@@ -140,7 +145,7 @@ private:
     std::shared_ptr<const Index> index_;
 };
 
-// The definitions compiled into the binary: `all` of dialects/, everything it includes. Immutable.
+// The definitions compiled into the binary: `all` from dialects/ with everything it includes.
 [[nodiscard]] const Dialect& default_dialect();
 
 }  // namespace mavloom::dialect

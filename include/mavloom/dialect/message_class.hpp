@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How much a message matters to a link that cannot carry everything: what a full queue drops first, which frame a newer one supersedes, and
-// which messages a rate for all (`max_rate=*:N`) leaves alone. docs/guide/queues.md lists every message named here.
+// Classifies messages for links that cannot carry everything.
+// The class decides what a full queue drops first, which frame a newer one supersedes, and what `max_rate=*:N` does not
+// limit.
+// docs/guide/queues.md lists every message that this module treats specially.
 // Pure functions, safe from any thread; nothing allocates.
 #pragma once
 
@@ -11,33 +13,32 @@
 
 namespace mavloom::dialect {
 
-// The order in which a full queue drops: telemetry first.
+// A full queue drops telemetry first, then targeted, then essential messages.
 enum class MessageClass : std::uint8_t {
-    essential,  // a person or a protocol waits for it: HEARTBEAT, STATUSTEXT, commands, missions, parameters
-    targeted,   // everything else with a target system
-    telemetry,  // the rest, ids without definition included
+    essential,  // a user or a protocol waits for it: HEARTBEAT, STATUSTEXT, commands, missions, parameters
+    targeted,   // all others that have a target system
+    telemetry,  // all others, including ids without definition
 };
 
-// What one frame of a message means to the frames of it before and after.
+// How one frame relates to earlier and later frames of the same message.
 enum class FrameMeaning : std::uint8_t {
-    latest,       // the newest value; a newer frame of the same source and instance supersedes it
-    piece,        // a piece of a whole: useless without the others
-    event,        // something that happened once
-    answer,       // what somebody asked for
-    one_of_many,  // one of many things: an aircraft, an obstacle
-    one_of_kind,  // one of several sensors or devices that no `instance` field tells apart
+    latest,       // the latest value; a newer frame of the same source and instance supersedes it
+    piece,        // part of a transfer that is useless without the other parts
+    event,        // reports something that happened once
+    answer,       // answers a request
+    one_of_many,  // describes one of many objects: an aircraft, an obstacle
+    one_of_kind,  // from one of several sensors or devices that no `instance` field distinguishes
 };
 
 [[nodiscard]] bool is_essential(MessageId id) noexcept;
-// `info` is null for an id without definition.
+// `info` is null for an id without definition, here and below.
 [[nodiscard]] MessageClass class_of(MessageId id, const wire::MessageInfo* info) noexcept;
 [[nodiscard]] FrameMeaning meaning_of(MessageId id) noexcept;
 
-// Whether the receiver can do with fewer frames of this message: telemetry that is no piece, event or answer. Only this is thinned by a rate
-// for all messages.
+// True for telemetry that is not a piece, an event or an answer. A rate for all messages limits only these.
 [[nodiscard]] bool can_be_thinned(MessageId id, const wire::MessageInfo* info) noexcept;
-// What goes wrong when single frames of this message are dropped, as the end of a warning: "commands and their answers may get lost". Empty
-// where `can_be_thinned`.
+// The harm of dropping single frames of this message, worded as the end of a warning: "commands and their answers may
+// get lost". Empty if `can_be_thinned`.
 [[nodiscard]] std::string_view harm_of_thinning(MessageId id, const wire::MessageInfo* info) noexcept;
 
 }  // namespace mavloom::dialect

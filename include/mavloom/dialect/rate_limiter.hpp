@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Holds frames to their Rates by deadlines: 12 Hz limited to 10 comes out at 10, not at 6. One owner thread; allocates at construction only.
-// `Time` is MonoTime for links and WallTime for recordings, whose frames carry their own time.
+// Limits frames to their Rates, separately for each source and message.
+// It works with deadlines that do not drift: 12 Hz limited to 10 comes out at 10, not at 6.
+// One owner thread; allocates only at construction. `Time` is MonoTime for links, and WallTime for recordings, whose
+// frames carry their own time.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +22,10 @@ class RateLimiter {
     };
 
 public:
-    // Whether a frame is within its rate. `count` takes the answer back when the frame is really sent.
+    // The answer of `ask`. Pass it to `count` when the frame is really sent.
     struct Answer {
         bool admitted = true;
-        Stream* stream = nullptr;  // null: this message has no limit
+        Stream* stream = nullptr;  // null if this message has no limit
         Nanoseconds interval{};
     };
 
@@ -32,23 +34,24 @@ public:
 
     [[nodiscard]] bool limits() const noexcept { return !rates_.empty(); }
 
+    // Checks whether a frame is within its rate, without counting it.
     [[nodiscard]] Answer ask(const wire::FrameView& frame, Time now) noexcept {
         const Nanoseconds* const interval = limits() ? rates_.interval_of(frame.id()) : nullptr;
         if (interval == nullptr) return {};
         const auto source = std::uint64_t{frame.system().value} << 8 | frame.component().value;
         Stream& stream = stream_of(source << 24 | frame.id().value);
-        // A deadline more than an interval away is from before the clock was set back.
+        // If the deadline is more than one interval away, the clock was set back since.
         const bool is_early = now < stream.due && stream.due - now <= *interval;
         return {!is_early, &stream, *interval};
     }
-    // Before the next `ask`.
+    // Counts a frame as sent. Call it before the next `ask`, which may invalidate `answer`.
     static void count(const Answer& answer, Time now) noexcept {
         if (answer.stream == nullptr) return;
         Time& due = answer.stream->due;
         const bool in_step = due != Time::min() && now >= due && now - due < answer.interval;
         due = (in_step ? due : now) + answer.interval;
     }
-    // Both at once.
+    // Asks, and counts the frame if it is admitted.
     [[nodiscard]] bool admit(const wire::FrameView& frame, Time now) noexcept {
         const Answer answer = ask(frame, now);
         if (answer.admitted) count(answer, now);
@@ -56,7 +59,7 @@ public:
     }
 
 private:
-    // Streams are remembered in sets. A full set forgets the stream that has been silent longest, which lets one frame through early.
+    // Streams are stored in sets. A full set evicts the stream with the oldest deadline; its next frame may pass early.
     static constexpr std::size_t ways = 8, set_bits = 10, sets = std::size_t{1} << set_bits;
     static constexpr std::uint64_t no_stream = ~std::uint64_t{0};
 

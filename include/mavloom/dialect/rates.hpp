@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The rates of `max_rate`, as an endpoint's option and as `relay --max-rate`: at most so many frames a second of each source and message.
-// "ATTITUDE:10" holds for that message, whatever it is. "*:50" holds for each message that is not named and can be thinned
-// (message_class.hpp): what a person or a protocol waits for always passes. docs/guide/routing.md, "Filters and limits".
-// Immutable values, safe from any thread; compiling allocates, asking does not.
+// The limits set by the endpoint option `max_rate` and by `relay --max-rate`.
+// Each limit is in frames per second, for each source and message.
+// - "ATTITUDE:10" limits that message, whatever its class.
+// - "*:50" limits every message that has no term of its own and can be thinned (message_class.hpp). Commands, missions
+//   and parameters always pass it.
+//
+// See docs/guide/routing.md, "Filters and limits".
+// Immutable values, safe from any thread. `compile` allocates; `interval_of` does not.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +26,12 @@ class Rates {
 public:
     // Limits nothing.
     Rates() = default;
-    // Errors are `usage`: an unknown message, with the nearest name; a rate that is no positive number; two rates for one message.
+    // Errors are `usage`: an unknown message (suggests the closest name), a rate that is not a positive number, or two
+    // rates for one message.
     [[nodiscard]] static SetupResult<Rates> compile(const Dialect& dialect, std::span<const RateTerm> terms);
 
     [[nodiscard]] bool empty() const noexcept { return rules_.empty() && !others_; }
-    // The least time between two frames of this message from one source; null where there is no limit.
+    // The minimum time between two frames of this message from one source; null if there is no limit.
     [[nodiscard]] const Nanoseconds* interval_of(MessageId id) const noexcept;
 
 private:
@@ -37,11 +42,11 @@ private:
     [[nodiscard]] SetupResult<void> add(const Dialect& dialect, const RateTerm& term);
     void spare_what_cannot_be_thinned(const Dialect& dialect);
 
-    std::vector<Rule> rules_;  // by rising id
+    std::vector<Rule> rules_;  // by ascending id
     std::optional<Nanoseconds> others_;
 };
 
-// One line for each term that names a message which cannot be thinned: what it limits, and what goes wrong then.
+// Returns one line for each term that limits a message which cannot be thinned: what it drops, and the harm.
 [[nodiscard]] std::vector<std::string> rate_warnings(const Dialect& dialect, std::span<const RateTerm> terms);
 
 }  // namespace mavloom::dialect

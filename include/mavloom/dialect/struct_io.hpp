@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What generated message structs share: reading and writing fields at fixed offsets of a payload. Not for use by hand.
-// Pure functions of their arguments; nothing allocates.
+// Support code for the generated message structs: reads and writes fields at fixed payload offsets. Not for direct use.
+// Functions do no bounds checks at run time and allocate nothing.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace mavloom::dialect {
 
-// A payload of full length: bytes that the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) read as 0.
-// Views the given bytes where they suffice, which then must outlive it.
+// A payload extended to its full length. Bytes that the sender cut off (trailing zeros in MAVLink 2, extension fields
+// in MAVLink 1) read as 0. If the given bytes have full length, they are not copied and must outlive this object.
 template <std::size_t full_length>
 class FullPayload {
 public:
@@ -41,7 +41,7 @@ public:
 
 private:
     const std::uint8_t* at_;
-    std::array<std::uint8_t, full_length> padded_;  // only written where `at_` points to it
+    std::array<std::uint8_t, full_length> padded_;  // initialised only if `at_` points to it
 };
 
 template <std::size_t offset, class T>

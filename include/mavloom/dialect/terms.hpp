@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The words by which options name messages and rates: "ATTITUDE", "30", "ATTITUDE:10,*:50". One grammar for command lines, endpoint options and
-// configuration files. Parsing needs no definitions; looking up does. Pure functions; allocate their results. Errors are `usage`.
+// Parses the terms that options use for messages and rates: "ATTITUDE", "30", "ATTITUDE:10,*:50".
+// Command lines, endpoint options and configuration files share this grammar. Parsing needs no definitions; the find
+// functions do. Pure functions that allocate their results. Errors are `usage`.
 #pragma once
 
 #include <string>
@@ -19,14 +20,14 @@ struct RateTerm {
     friend bool operator==(const RateTerm&, const RateTerm&) = default;
 };
 
-// A message name as a dialect could spell it, or an id of 24 bits.
+// Accepts a well-formed message name, or a 24-bit id. The name need not exist.
 [[nodiscard]] SetupResult<std::string> parse_message_term(std::string_view text);
-// "ATTITUDE:10" or "*:50".
+// Parses "ATTITUDE:10" or "*:50".
 [[nodiscard]] SetupResult<RateTerm> parse_rate_term(std::string_view text);
-// A number above 0 that is finite.
+// Parses a finite number above 0.
 [[nodiscard]] SetupResult<double> parse_positive(std::string_view text);
 
-// Calls `each` for the parts of "a,b,c" until one fails; an empty part is an error.
+// Calls `each` for every part of "a,b,c" until one fails. An empty part is an error.
 template <class F>
 SetupResult<void> for_each_term(std::string_view text, F&& each) {
     while (true) {
@@ -39,9 +40,10 @@ SetupResult<void> for_each_term(std::string_view text, F&& each) {
     }
 }
 
-// The id of a message by its name in `dialect`, or as the number itself, which needs no definition. The error has the nearest name.
+// Looks up the id of a message by name. A number is taken as the id itself and needs no definition.
+// The error suggests the closest name.
 [[nodiscard]] SetupResult<MessageId> find_message_id(const Dialect& dialect, std::string_view name_or_id);
-// The definition by name or id.
+// Looks up a definition by name or id.
 [[nodiscard]] SetupResult<const Message*> find_message(const Dialect& dialect, std::string_view name_or_id);
 
 }  // namespace mavloom::dialect

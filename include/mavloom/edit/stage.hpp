@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The stage that decodes, changes on request and re-encodes frames: the only place, with a link's own options, where a frame's bytes change
-// (DESIGN.md rule 1). Without options every frame that can be decoded comes out byte for byte as it went in, and what cannot passes
-// untouched. One owner thread; time is a parameter; nothing allocates per frame. docs/guide/relay.md says what passes untouched and why.
+// The editing stage of `mavloom relay`: decodes frames, applies the options, and encodes them again.
+// Apart from some options of a link, this is the only place that changes the bytes of frames.
+// Without options, every frame leaves byte for byte as it came; a frame that cannot be decoded passes untouched.
+// One owner thread; time is a parameter; nothing allocates per frame. docs/guide/relay.md lists what passes untouched
+// and why.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +22,15 @@
 
 namespace mavloom::edit {
 
-// As users type them; `Stage::create` checks every word. Lists may also be one text with commas.
+// The options as the user typed them; `Stage::create` checks every term.
+// A string may hold several terms separated by commas, except in `set`.
 struct Options {
-    std::vector<std::string> set{};           // "MESSAGE.field=value"; applied after remap_system
-    std::vector<std::string> remap_system{};  // "A=B": source and target system; all at once, so "1=2" and "2=1" swap
-    std::vector<std::string> only{};          // message names or ids
-    // "ATTITUDE:10", "*:50" for all other telemetry (dialect/rates.hpp): of each source and message, counted in the frames' own time.
+    std::vector<std::string> set{};  // "MESSAGE.field=value"; applied after remap_system
+    // "A=B": replaces source and target system A by B. All pairs apply at once, so "1=2" and "2=1" swap.
+    std::vector<std::string> remap_system{};
+    std::vector<std::string> only{};  // message names or ids
+    // "ATTITUDE:10", or "*:50" for all other telemetry (dialect/rates.hpp). Limits each source and message, measured in
+    // the frames' own time.
     std::vector<std::string> max_rate{};
     std::optional<wire::Version> as_version{};
     std::optional<wire::SigningKey> sign_key{};
@@ -33,46 +38,51 @@ struct Options {
     bool resequence = false;
 };
 
-// Every frame that does not come out, or not as somebody might expect, has a name (DESIGN.md rule 3). Of the frames that went in forward:
-// frames = reencoded + rewrapped + passed_untouched + filtered + rate_limited + not_v1. Frames on the way back are counted apart.
+// A counter for every way in which a frame can be treated. For frames in the forward direction:
+// frames = reencoded + rewrapped + passed_untouched + filtered + rate_limited + not_v1.
+// Frames in the backward direction are counted in `backward` only, and in `signature_removed` if they lose their
+// signature.
 struct Counters {
-    Counter frames;     // that went in
+    Counter frames;     // input frames, forward direction
     Counter reencoded;  // decoded and encoded again
-    Counter rewrapped;  // given a new header and checksum around a payload that has no (or not all of its) definition
-    Counter passed_untouched;   // could not be, or must not be, decoded and encoded: unknown id, not canonical, signed
-    Counter filtered;           // only
-    Counter rate_limited;       // max_rate
-    Counter not_v1;             // as MAVLink 1: id over 255, or without the definition that says what to cut
-    Counter not_signed;         // of those that came out: MAVLink 1, which has no signatures, although a key was given
+    Counter rewrapped;  // new header and checksum, original payload: no definition, or not for all of the payload
+    Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
+    Counter filtered;          // dropped by `only`
+    Counter rate_limited;      // dropped by `max_rate`
+    Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition to convert it by
+    Counter not_signed;  // forwarded unsigned although a key was given, because MAVLink 1 has no signatures
     Counter signature_removed;  // a signed frame was changed and not signed again, in either direction
-    Counter backward;           // that went in on the way back
+    Counter backward;           // input frames, backward direction
 };
 
-// All but `forward` by the names of their counters.
+// What to do with the frame. All values but `forward` mean that it was dropped, and have a counter of the same name.
 enum class Verdict : std::uint8_t { forward, filtered, rate_limited, not_v1 };
 
 struct Outcome {
     Verdict verdict = Verdict::forward;
-    wire::FrameView frame;  // to be sent; valid until the next call. Empty unless `forward`
+    wire::FrameView frame;  // the frame to send, valid until the next call; empty unless `forward`
 };
 
 class Stage {
 public:
-    // `dialect` must outlive the stage. Errors are `usage`, name the option and the nearest valid spelling.
+    // `dialect` must outlive the stage. Errors are `usage`; they name the option and suggest the closest valid
+    // spelling.
     [[nodiscard]] static SetupResult<std::unique_ptr<Stage>> create(const dialect::Dialect& dialect,
                                                                     const Options& options);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    // On the way from the sources to the destinations: all options apply. `received` is the frame's own time (the kernel's, or the
-    // recording's), by which max_rate counts; `now` is the time for signatures.
+    // Processes a frame from a source to the destinations; all options apply.
+    // `received` is the frame's own time (from the kernel or the recording), used by max_rate. `now` is the time for
+    // signatures.
     [[nodiscard]] Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept;
-    // On the way back: only what keeps the conversation whole, which is remap_system in reverse (source and target system).
+    // Processes a frame from a destination back to the sources. Only remap_system applies, in reverse (source and
+    // target system).
     [[nodiscard]] Outcome backward(const wire::FrameView& frame) noexcept;
 
     [[nodiscard]] const Counters& counters() const noexcept;
-    // Options that will do harm, one line each: a rate on a message that a protocol waits for.
+    // Warnings about harmful options, one line each: for example, a rate for a message that a protocol waits for.
     [[nodiscard]] std::span<const std::string> warnings() const noexcept;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be said against an endpoint before it is opened. Pure functions, safe from any thread; errors are `usage` and name the endpoint.
+// Checks an endpoint before it is opened. Pure functions, safe from any thread. Errors are `usage` and name the
+// endpoint.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,23 @@
 
 namespace mavloom::endpoint {
 
-// Filters, groups, rates, tap= and private= of an endpoint: an error, or applied by the owner of the links (Router). The owner then also says
-// which frames count for the link's loss: not the echoes, which only it knows.
+// What to do with an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. They are an
+// error (`refused`), or the owner of the links (the router) applies them (`by_owner`). In the second case the owner
+// also decides which frames count for a link's loss, because only it recognises echoes.
 enum class RoutingOptions : std::uint8_t { refused, by_owner };
 
-// An error for a scheme or an option that live links do not honour, so that none is silently ignored.
+// Refuses a scheme or option that live links do not support, so that none is silently ignored.
 [[nodiscard]] SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing);
-// An error for what nobody can send to: 0.0.0.0, port 0, a group or a broadcast address; the text says what to type.
+// Refuses an address that cannot be a destination: 0.0.0.0, port 0, a multicast group, or a broadcast address outside
+// udpbcast. The error text suggests what to type.
 [[nodiscard]] SetupResult<void> check_destination(const Endpoint& endpoint);
-// Both, and a bind= that does not go with the destination: what can be said of an endpoint before it is opened.
+// Runs both checks above, as far as they apply to the scheme. Also refuses a bind= whose address family differs from
+// the destination's.
 [[nodiscard]] SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing);
-// bind=HOST:PORT as an address; nothing where it is not set.
+// bind=HOST:PORT as an address; empty if bind= is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
-// An error for options of a recording that is read, where a router writes it.
+// Refuses options for reading a recording (`speed`) on a recording that a router writes.
 [[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);
 
 }  // namespace mavloom::endpoint

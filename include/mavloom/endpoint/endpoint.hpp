@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Endpoints as users write them: one grammar for every command, configuration file and Python (DESIGN.md section 4, docs/guide/endpoints.md).
-// Parsing opens nothing and resolves no name. Immutable values.
+// Parses endpoints as users write them. Command lines, configuration files and Python share one grammar
+// (docs/guide/endpoints.md). Parsing opens nothing and resolves no names. The results are plain values.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ namespace mavloom::endpoint {
 enum class Scheme : std::uint8_t { udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog };
 
 [[nodiscard]] std::string_view scheme_name(Scheme scheme) noexcept;
-// Whether an endpoint of this scheme speaks first, to a far side that it names: not one whose peers or clients come by themselves.
+// True if an endpoint of this scheme speaks first, to a far side that it names. False if peers or clients contact it.
 [[nodiscard]] bool calls_somebody(Scheme scheme) noexcept;
 
 struct HostPort {
@@ -31,7 +31,8 @@ struct HostPort {
     friend bool operator==(const HostPort&, const HostPort&) = default;
 };
 
-// Terms of in_allow=, in_block=, out_allow=, out_block=: message names or ids (names are resolved against a dialect later), sys:N, comp:N.
+// Terms of in_allow=, in_block=, out_allow= and out_block=: sys:N, comp:N, and message names or ids. A dialect
+// resolves the names later.
 struct FilterTerms {
     std::vector<std::string> messages;
     std::vector<std::uint8_t> systems;
@@ -45,11 +46,12 @@ using dialect::RateTerm;
 using route::GroupMode;
 
 struct EndpointOptions {
-    std::string name;  // default: the URL without its query
+    std::string name;  // empty: the URL without its query
     std::string group;
     GroupMode group_mode = GroupMode::all;
-    bool names_group_mode = false;                 // else another endpoint of the group may
-    std::uint32_t mtu_bytes = 1280;                // 0: one frame a datagram
+    // False: `group_mode` is the default, and another endpoint of the group may set the mode.
+    bool names_group_mode = false;
+    std::uint32_t mtu_bytes = 1280;                // 0: one frame per datagram
     std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
     std::uint64_t queue_bytes = 1 << 20;
     std::optional<std::chrono::nanoseconds> queue_age;  // default: 1 s for class 2, 10 s for the others
@@ -58,7 +60,8 @@ struct EndpointOptions {
     FilterTerms in_allow, in_block, out_allow, out_block;
     bool tap = false;
     bool is_private = false;
-    std::optional<bool> heartbeat;  // of the router; default: where the endpoint calls somebody
+    // Whether the router sends its heartbeat here. Default: the value of `calls_somebody` for the scheme.
+    std::optional<bool> heartbeat;
     std::string sign_key_file, verify_key_file;
     std::uint64_t rcvbuf_bytes = 32u << 20;
     std::uint32_t max_peers = 256;
@@ -73,8 +76,8 @@ struct EndpointOptions {
     std::chrono::nanoseconds rotate_every{};
     std::uint32_t baud = 57600;  // serial; 0: auto
     std::string flow = "none";
-    bool from_oldest = false;      // shm
-    std::optional<bool> lossless;  // shm; default: as the command has it
+    bool from_oldest = false;      // shm: oldest records first
+    std::optional<bool> lossless;  // shm; default: up to the command
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 
@@ -91,29 +94,31 @@ struct Endpoint {
 
 [[nodiscard]] std::string_view group_mode_name(GroupMode mode) noexcept;
 
-// Why a router refuses shm://NAME, with what to type instead.
+// The error text for shm://NAME in a router, with the option to use instead.
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
 
-// Whether a path is a recording's by its name: FLIGHT.tlog, FLIGHT.TLOG, or FLIGHT.tlog.1 as an older one is renamed.
+// True if a path names a recording: FLIGHT.tlog, FLIGHT.TLOG, or a rotated FLIGHT.tlog.1.
 [[nodiscard]] bool names_recording(std::string_view path) noexcept;
 
-// The path by which a file is known however it is spelt; it need not exist.
+// The canonical path of a file, so that two spellings of it compare equal. The file need not exist.
 [[nodiscard]] std::filesystem::path same_file(const std::filesystem::path& path);
 
-// "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, pymavlink's among them. Errors are `usage`, name what is wrong with this
-// text and the spelling to type.
+// Parses "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, including pymavlink's. Errors are
+// `usage`; they quote the text, say what is wrong and suggest a spelling.
 [[nodiscard]] SetupResult<Endpoint> parse_endpoint(std::string_view text);
 
-// One option as a URL's query or a file's key has it; `parse_endpoint` is built on this.
+// Sets one option from a URL's query or a configuration key. `parse_endpoint` uses it too.
 [[nodiscard]] SetupResult<void> set_endpoint_option(Endpoint& endpoint, std::string_view key, std::string_view value);
-// The options of all schemes, in the order of the guide's table; `set_endpoint_option` says which scheme takes which.
+// The options of all schemes, in the order of the guide's table. `set_endpoint_option` checks that the scheme takes
+// them.
 [[nodiscard]] std::span<const std::string_view> endpoint_option_names() noexcept;
-// Refuses (`usage`) options that contradict each other.
+// Refuses options that contradict each other (`usage`).
 [[nodiscard]] SetupResult<void> check_options(const Endpoint& endpoint);
-// Refuses (`usage`) what makes sense only where the endpoint is written to, for commands that read it.
+// Refuses options that only make sense for writing, on an endpoint that a command reads (`usage`).
 [[nodiscard]] SetupResult<void> check_source_options(const Endpoint& endpoint);
 
-// "250ms", "2", "2s", "1m", "1h": seconds unless a unit follows. "64k", "1M", "32MiB": bytes.
+// Durations: "250ms", "2", "2s", "1m", "1h"; without a unit, seconds. Sizes: "64k", "1M", "32MiB"; without a unit,
+// bytes.
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text);
 [[nodiscard]] SetupResult<std::uint64_t> parse_size(std::string_view text);
 

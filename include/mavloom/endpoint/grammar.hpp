@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pieces that the endpoint grammar and the configuration file share. Pure functions, safe from any thread.
+// Parsers that the endpoint grammar and the configuration file share. Pure functions, safe from any thread. Errors
+// are `usage`.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 
 namespace mavloom::endpoint {
 
-using SchemeSet = std::uint16_t;  // bit n: the scheme with that enumerator
+using SchemeSet = std::uint16_t;  // bit n: the scheme whose enumerator is n
 
 [[nodiscard]] constexpr SchemeSet set_of(Scheme scheme) noexcept {
     return static_cast<SchemeSet>(1u << static_cast<unsigned>(scheme));
@@ -35,11 +36,12 @@ using dialect::parse_positive;
 using mavloom::in_quotes;
 using mavloom::shown;
 
-// The options that the scheme takes, and the text of the value that stands where none is given (empty: not set).
+// The options that the scheme takes, and an option's default as text (empty: no default).
 [[nodiscard]] std::vector<std::string_view> option_names_for(Scheme scheme);
 [[nodiscard]] std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept;
 
-// The keys of [router] in a configuration file: people type them as options of one endpoint, and the error says where they belong.
+// The keys of [router] in the configuration file. Users sometimes give them as endpoint options; the error then says
+// where they belong.
 inline constexpr std::array<std::string_view, 6> router_keys{"dedup_ms",      "unknown_component", "unknown_target",
                                                              "route_timeout", "heartbeat",         "request_streams"};
 
@@ -48,28 +50,30 @@ struct OptionText {
     std::string value;
 };
 
-// What stands behind the '?' where options begin; empty where there is none. A bare path that ends in ".tlog" may have one in its name.
+// The text after the '?' that begins the options; nothing if there is none. A bare path that ends in ".tlog" may
+// contain a '?' itself.
 [[nodiscard]] std::optional<std::string_view> query_of(std::string_view endpoint);
 
-// "a=1&b=x%20y", decoded; a key given twice, a missing value and a bad escape are errors.
+// Splits and decodes "a=1&b=x%20y". A repeated key, a missing value and an invalid escape are errors.
 [[nodiscard]] SetupResult<std::vector<OptionText>> split_query(std::string_view query);
 [[nodiscard]] SetupResult<std::string> percent_decoded(std::string_view text);
 
-// "HOST:PORT" or "[IPv6]:PORT".
+// "HOST:PORT" or "[IPv6]:PORT". `scheme` only serves the error text.
 [[nodiscard]] SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme);
-// A host as a URL or a `host` key has it: the result has no brackets.
+// A host from a URL or a `host` key. The result has no brackets. `scheme` and `port` only serve the error text.
 [[nodiscard]] SetupResult<std::string> parse_host(std::string_view text, std::string_view scheme, std::string_view port);
 [[nodiscard]] SetupResult<std::uint16_t> parse_port(std::string_view text);
-// Whether the scheme can be used with this address: nothing is sent to 0.0.0.0, a multicast group needs udpmcast, ...
+// Checks that the scheme can use this address. For example, 0.0.0.0 is no destination, and a multicast group needs
+// udpmcast.
 [[nodiscard]] SetupResult<void> check_address(Scheme scheme, const HostPort& address);
-// Whether the path, device or ring name fits the scheme.
+// Checks that the path, device or ring name fits the scheme.
 [[nodiscard]] SetupResult<void> check_path(Scheme scheme, std::string_view path);
 
 // "[::1]:14550", "localhost:14550".
 [[nodiscard]] std::string to_text(const HostPort& address);
 
 [[nodiscard]] tl::unexpected<SetupError> usage(std::string text);
-// Puts a parsed value where it belongs; the error passes through.
+// Stores a parsed value in `target`, or returns the parser's error.
 template <class T, class Target>
 SetupResult<void> put(SetupResult<T> parsed, Target& target) {
     if (!parsed) return tl::unexpected(std::move(parsed.error()));
@@ -78,7 +82,7 @@ SetupResult<void> put(SetupResult<T> parsed, Target& target) {
 }
 
 [[nodiscard]] SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most);
-// When a recording goes on in a new file: by size, by time.
+// The limits at which a recording continues in a new file: by size and by time.
 [[nodiscard]] SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text);
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text);
 [[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Receives on a thread of its own, so that whoever prints, writes or sleeps never makes the kernel drop a datagram: frames wait in a bounded
-// queue (`--buffer`), and what does not fit there is counted as `buffer_full`. Recordings wait for room instead.
+// Receives frames on its own thread, so that a consumer that prints, writes or sleeps does not make the kernel drop
+// datagrams. Frames wait in a bounded queue (`--buffer`). The receiver drops frames from live links that do not fit and
+// counts them as `buffer_full`. Recordings and rings are read only while there is room.
 //
-// One consumer thread: `next` and `wait`. `stop` may be called from any thread and from a signal handler. Everything under "after stop" is
-// complete once the consumer has seen the end (`wait` returned false) or `join` has returned.
+// One consumer thread calls `next`, `wait` and `link_name`. Any thread, and a signal handler, may call `stop`. The
+// results under "after stop" are complete once `wait` has returned false or `join` has returned.
 #pragma once
 
 #include <atomic>
@@ -25,7 +26,7 @@
 
 namespace mavloom::feed {
 
-// The link's own loss, of one source.
+// Loss of one source on one link, from its sequence numbers.
 struct SourceLoss {
     LinkId link;
     Source source;
@@ -36,7 +37,7 @@ class Receiver : private link::LinkHandler {
 public:
     static constexpr std::size_t default_buffer_bytes = 64u << 20;
 
-    // Called on the receiving thread, for people: a line that says something happened once.
+    // A log line for people about a single event. Called on the receiving thread.
     using Notice = std::function<void(std::string_view)>;
 
     [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect,
@@ -44,24 +45,25 @@ public:
     ~Receiver() override;
 
     [[nodiscard]] SetupResult<void> add(const endpoint::Endpoint& endpoint);
-    // What was opened, with the ports that were given: before `start`.
+    // The opened endpoints with their actual ports. Call it before `start`.
     [[nodiscard]] std::vector<link::EndpointInfo> endpoints() const { return sources_.links().endpoints(); }
-    // Stops by itself at `end` (`--for`).
+    // Starts the receiving thread, which stops by itself at `end` (`--for`).
     void start(MonoTime end = MonoTime::max());
 
-    // What the kernel holds already is still received (at most what a full receive buffer holds). Async-signal-safe.
+    // Stops receiving. Frames that the kernel already holds are still received, up to one full receive buffer.
+    // Async-signal-safe.
     void stop() noexcept;
     void join();
 
     [[nodiscard]] std::optional<record::FrameQueue::Entry> next() noexcept { return queue_->next(); }
     [[nodiscard]] bool wait() noexcept { return queue_->wait(); }
-    // Stays valid until the receiver goes. Consumer thread.
+    // The name of a link, valid as long as the receiver exists. Consumer thread only.
     [[nodiscard]] std::string_view link_name(LinkId link);
 
     // After stop:
     [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
-    [[nodiscard]] std::vector<SourceLoss> losses() const;  // by link, then source; the first 65,536
-    // The first recording that could not be read to its end.
+    [[nodiscard]] std::vector<SourceLoss> losses() const;  // sorted by link, then source; at most 65,536
+    // Why the first failed recording could not be read to its end; null if none failed.
     [[nodiscard]] const SetupError* error() const noexcept { return sources_.error(); }
 
 private:
@@ -82,14 +84,15 @@ private:
     std::atomic<bool> stopping_{false};
     MonoTime end_ = MonoTime::max();
 
-    Totals totals_;  // the receiving thread's until the queue is closed
+    Totals totals_;  // used by the receiving thread only, until it closes the queue
     std::map<std::tuple<LinkId, Source>, SourceLoss> losses_;
     SourceLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
 
-    // Written when a link comes up, read on its first frame: the consumer keeps the last one it asked for.
+    // The receiving thread adds a name when a link comes up. The consumer caches the last name that it looked up, so it
+    // seldom takes the lock.
     std::mutex names_mutex_;
-    std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; never removed, so that views stay valid
-    LinkId last_named_;                              // the consumer's
+    std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; never erased: views stay valid
+    LinkId last_named_;                              // used by the consumer only
     std::string_view last_name_;
 };
 

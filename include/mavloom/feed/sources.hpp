@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What listen, record, relay and replay read: live links, rings and recordings behind one handler, on one loop. A recording's frames come at its pace
-// (`speed=`), or as fast as the caller takes them; a ring's as they are written, and a lossless ring waits for the caller. With rings a second thread
-// sleeps on them (shm::RingWaiter). One owner thread; `wake` from any.
+// The inputs of `listen`, `record`, `relay` and `replay`: live links, shared-memory rings and recordings, all read in
+// one loop through one handler. A recording delivers frames at the pace of `speed=`, or as fast as the caller takes
+// them. A ring delivers frames as they are written; a lossless ring waits for the caller.
+//
+// One owner thread; any thread may call `wake`. If there are rings, a second thread sleeps on them (shm::RingWaiter).
 #pragma once
 
 #include <cstdint>
@@ -35,23 +37,26 @@ public:
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect, Copies copies = Copies::kept);
 
-    // What `add` would find wrong with it before anything is opened or waited for: options, and a file that is missing or no recording.
+    // Checks an endpoint as `add` does, but without waiting or opening it for use. It checks the options, and that a
+    // tlog:// file exists and is a recording.
     [[nodiscard]] SetupResult<void> check(const endpoint::Endpoint& endpoint) const;
 
-    // Opens the endpoint; a ring that is not there is told of by `on_notice` and waited for, without end; a tlog:// is read from
-    // `skip` behind its earliest record. `default_speed` holds where the URL has no `speed=`.
+    // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely.
+    // A recording starts `skip` after its earliest record. `default_speed` applies if the URL has no `speed=`.
     [[nodiscard]] SetupResult<link::EndpointId> add(const endpoint::Endpoint& endpoint, MonoTime now,
                                                     double default_speed = record::Pacer::max_speed,
                                                     Nanoseconds skip = {});
 
-    // A ring alone, which these calls are about: `remove` closes it and its inlet (not inside a callback); a ring that is held is not read until it is let
-    // go, for want of room at whoever takes its frames; `inlet` is the endpoint of its inlet, opened at the first call.
+    // Calls for a single ring. `ring` is the id that `add_ring` returned.
+    // - `remove_ring` closes the ring and its inlet; do not call it inside a callback.
+    // - `hold_ring` pauses reading while the consumer has no room for more frames.
+    // - `inlet` returns the endpoint of the ring's inlet and opens it at the first call.
     [[nodiscard]] SetupResult<link::EndpointId> add_ring(const endpoint::Endpoint& endpoint,
                                                          const dialect::Dialect* dialect = nullptr);
     void remove_ring(link::EndpointId ring);
     void hold_ring(link::EndpointId ring, bool held) noexcept;
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // What came out of it, and what was not handed over.
+    // The ring's counters as a link; `add_ring_to` adds them, and the records that were not delivered, to `totals`.
     [[nodiscard]] const link::LinkCounters& ring_counters(link::EndpointId ring) const noexcept;
     void add_ring_to(link::EndpointId ring, Totals& totals) const noexcept;
 
@@ -59,34 +64,35 @@ public:
         LinkId link;
         wire::SequenceStats stats;
     };
-    // What each source lost on each link of a live endpoint that is there, or of a ring.
+    // The losses of each source on each current link of a live endpoint or ring.
     [[nodiscard]] std::vector<SourceLoss> losses(link::EndpointId endpoint) const;
 
-    // The same of the ring's link `name` alone: before it is forgotten (`on_link_down`).
+    // The same for the ring's link `name` alone. Call it in `on_link_down`, before the link is forgotten.
     [[nodiscard]] std::span<const wire::SequenceStats> ring_losses(link::EndpointId ring, const std::string& name) const;
 
-    // One turn of the links, then what stands in the rings, then the recordings that are due, the earliest first, as far as there is room. Returns the
-    // number of frames handed over.
+    // Runs one turn: first the links, then the rings, then the recordings that are due, earliest record first. Rings
+    // and recordings deliver only as many frames as `room` allows. Returns the number of frames delivered.
     std::size_t turn(link::LinkHandler& handler, MonoTime deadline, Room room);
 
-    // At the end: hands over what had arrived from live sources when the end was asked for, rings as far as there is `room`, asked before each turn
-    // and after the last (the recordings' is not used), until several turns in a row brought no frame, at most what a full receive buffer holds.
+    // Call this at the end: it delivers the frames that had already arrived from live links and rings. It stops after
+    // several turns in a row without a frame, and reads no more than a full receive buffer holds. It calls `room`
+    // before each turn and after the last. Rings deliver only what `room` allows; recordings deliver nothing.
     void drain(link::LinkHandler& handler, const std::function<Room()>& room);
 
     [[nodiscard]] bool has_recordings() const noexcept { return !recordings_.empty(); }
 
-    // Sends a frame to every live source, to a ring's inlet where there is one: what a destination answered goes back. Returns the
-    // number of links that took it.
+    // Sends a frame, such as the answer of a destination, back to every live link and to the inlet of every ring.
+    // Returns the number of links that took it.
     std::size_t send(const wire::FrameView& frame);
 
-    // Adds all that is here now, after asking the kernel for its drops: at the end. What links that went had counted is added by whoever
-    // hears of their end (`on_link_down`).
+    // Adds the counters of all current links, endpoints, rings and recordings, after refreshing the kernel's drop
+    // counts. Call it once, at the end.
     void add_to(Totals& totals);
 
-    // Every source is a recording and all were read to their end.
+    // Whether all sources are recordings, and all of them have ended.
     [[nodiscard]] bool finished() const noexcept;
     [[nodiscard]] bool finished_recordings() const noexcept;
-    // The first error that ended a recording before its end.
+    // The error of the first recording that failed before its end; null if none failed.
     [[nodiscard]] const SetupError* error() const noexcept;
 
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
@@ -100,26 +106,26 @@ public:
         record::TlogReader reader;
         record::Pacer pacer;
         wire::SequenceTracker sequence;
-        std::optional<record::Record> next;  // read, not yet handed over
+        std::optional<record::Record> next;  // read, but not yet delivered
         MonoTime due{};
         bool ended = false;
-        std::optional<SetupError> error{};  // why it ended early
+        std::optional<SetupError> error{};  // set if the recording failed before its end
     };
     [[nodiscard]] const std::vector<std::unique_ptr<Recording>>& recordings() const noexcept { return recordings_; }
 
 private:
-    // Ids of recordings lie above all that Links gives.
+    // Ids of recordings start above all ids that Links assigns.
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
     Sources(std::unique_ptr<link::Links> links, const wire::MessageTable& table, Copies copies);
-    // Reads its next record. False: it met much damage and gives way to links and signals.
+    // Reads the next record of `recording`. Returns false if it met so much damage that links and signals go first.
     bool advance(Recording& recording, link::LinkHandler& handler);
     std::size_t play(link::LinkHandler& handler, std::size_t most_frames);
     [[nodiscard]] Recording* earliest() noexcept;
 
     std::unique_ptr<link::Links> links_;
     const wire::MessageTable* table_;
-    std::unique_ptr<ring::RingSources> rings_;  // its thread wakes the links
+    std::unique_ptr<ring::RingSources> rings_;  // its waiter thread wakes the links
     std::vector<std::unique_ptr<Recording>> recordings_;
     std::vector<link::EndpointId> live_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sums over all links, endpoints and recordings of a command, those that are gone included: what came in, and every loss by its name
-// (DESIGN.md rule 3). A plain value; whoever fills it owns it.
+// Totals of a command over all its links, endpoints, rings and recordings, including links that are gone. They count
+// the frames received and every kind of loss. A plain value without synchronization.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,20 @@ namespace mavloom::feed {
 
 struct Totals {
     std::uint64_t frames = 0, bytes = 0;
-    std::uint64_t buffer_full = 0;  // our own: the consumer was slower than `--buffer` allows
-    std::uint64_t kernel_drop = 0;  // datagrams that the kernel had no room for
+    std::uint64_t buffer_full = 0;  // frames dropped because the consumer was slower than `--buffer` allows
+    std::uint64_t kernel_drop = 0;  // datagrams dropped by the kernel for lack of buffer space
     std::uint64_t crc_error = 0, junk_bytes = 0, unknown_flags = 0, bad_signature = 0;
     std::uint64_t wrong_peer = 0, stray_bytes = 0, peers_refused = 0;
-    std::uint64_t lost = 0;            // on the links themselves: sequence gaps
-    std::uint64_t damaged_places = 0;  // in recordings
-    std::uint64_t lapped = 0;          // records that a ring's writer overwrote before they were read
-    std::uint64_t bad_records = 0;     // records of a ring that held no whole valid frame
-    std::uint64_t other_kinds = 0;     // records of a ring that are no MAVLink by their kind
-    std::uint64_t copies = 0;          // records of a ring left out because its router marked them as a copy or an echo
-    std::uint64_t echo = 0;            // records of a ring that hold what was sent to its inlet from here
+    std::uint64_t lost = 0;            // frames lost on the links, from sequence gaps
+    std::uint64_t damaged_places = 0;  // runs of damaged bytes in recordings
+    std::uint64_t lapped = 0;          // ring records overwritten before they were read
+    std::uint64_t bad_records = 0;     // ring records without one whole valid frame
+    std::uint64_t other_kinds = 0;     // ring records whose kind is not MAVLink
+    std::uint64_t copies = 0;          // ring records left out because the ring's router marked them as a copy or echo
+    std::uint64_t echo = 0;            // ring records of frames that this program itself sent to the inlet
 
-    // Of a link that is there, of an endpoint with its links that are gone, of a recording: once each, at the end.
+    // Adds the counters of a current link, of an endpoint with its links that have gone, of a recording or of a ring.
+    // Call it once for each, at the end.
     void add(const link::LinkCounters& counters) noexcept;
     void add(const link::EndpointCounters& counters) noexcept;
     void add(const record::ReadCounters& counters) noexcept;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The links of one process on one event loop: opens endpoints, reads batches, finds frames, hands each good one to a handler, queues whole
-// frames for the way out and sends them in batches at the end of the turn. Every UDP peer and TCP client is a link of its own (parser,
-// sequence tracking, queue, counters). Endpoints whose far side is absent are retried for ever with back-off.
+// Links moves MAVLink frames between a process and its endpoints. It opens endpoints, and it receives and sends frames.
 //
-// Owned and driven by one thread; `wake()` and the counters' values may be used from any. The frame path neither allocates, locks nor logs.
-// DESIGN.md rules 2, 3, 4, 7 and 9; routing.md section 6 for loss.
+// All links of a process share one event loop. In each turn Links reads in batches, passes each good frame to a
+// handler, and sends queued frames in batches at the end. Every UDP peer and every TCP client is a link with its own
+// parser, sequence tracking, queue and counters. If the far side of an endpoint is absent, Links retries indefinitely,
+// with back-off.
+//
+// One thread owns and drives the object. Any thread may call `wake()` and read counter values. The frame path does not
+// allocate, lock or log. Queues: docs/guide/queues.md. Loss: docs/guide/routing.md.
 #pragma once
 
 #include <cstdint>
@@ -34,63 +37,78 @@ namespace mavloom::link {
 
 using EndpointId = Id<struct EndpointTag, std::uint32_t>;
 
-// What arrived and left on one link. Every discard has its name (DESIGN.md rule 3).
+// Traffic of one link. Every discarded frame or byte has a counter.
 struct LinkCounters {
     Counter frames_in, bytes_in, frames_out, bytes_out;
     Counter crc_error, junk_bytes, unknown_flags, implausible_unknown, unknown_ids;
-    Counter bad_signature;                  // verify= is set and the signature does not agree, or there is none
-    Counter queue_bytes, queue_age;         // whole frames dropped on the way out
-    Counter lost, late, duplicate, resync;  // the link's own loss: sequence gaps at ingress
-    Counter frames_not_sent;                // in datagrams that the kernel refused
-    Counter refused;  // sent to a closed port: within 1 s after a refusal (ICMP) and before the peer is heard
+    // With verify=: frames that are unsigned or whose signature is invalid.
+    Counter bad_signature;
+    Counter queue_bytes, queue_age;  // whole frames dropped from the send queue
+    // Loss on the link itself, from gaps in the sequence numbers received.
+    Counter lost, late, duplicate, resync;
+    Counter frames_not_sent;  // in datagrams that the kernel rejected
+    // Frames sent to a closed port: those that met an ICMP refusal, and those sent within 1 s of one while the peer
+    // is silent.
+    Counter refused;
     void add(const LinkCounters& other) noexcept;
-    // What a frame's number says of the loss.
+    // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
     void add(const wire::SequenceTracker::Update& update) noexcept;
 };
 
-// What belongs to a socket rather than to one of its peers.
+// Counters of an endpoint as a whole rather than of one peer.
 struct EndpointCounters {
-    Counter kernel_drop;  // SO_MEMINFO's drop count; refreshed by `refresh_kernel_drops()`
+    Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
     Counter wrong_peer;   // udpout: datagrams from another address
-    Counter stray_bytes;  // bytes of strangers whose datagrams held no valid frame, or with verify= none that is well signed
-    Counter peers_refused;  // over max_peers, and none of the others may go (docs/guide/queues.md)
-    Counter peers_evicted;  // the longest idle, gone for a newcomer
-    Counter send_errors;    // datagrams that met a closed port (as far as ICMP reports it) or that the kernel refused
+    // Bytes in datagrams from unknown senders that held no valid frame (with verify=: no correctly signed frame).
+    Counter stray_bytes;
+    // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
+    Counter peers_refused;
+    Counter peers_evicted;  // the longest idle peers, evicted for new ones
+    // Datagrams that met a closed port, as far as ICMP reports it, or that the kernel rejected.
+    Counter send_errors;
     Counter reconnects;
-    // Sums over the peers and clients that are gone, and the bad signatures of strangers, who never were peers: with the counters of the
-    // links that are there they make the endpoint's whole. A link is added when its on_link_down has returned.
+    // Sums over links that no longer exist, plus bad signatures of senders that never became peers. Added to the
+    // counters of the existing links, they give the endpoint's totals. A link's counters move here after its
+    // on_link_down has returned.
     LinkCounters gone;
-    Counter gone_queued;  // whole frames that were still queued when their link went
+    Counter gone_queued;  // frames still queued when their link ended
 };
 
 struct RxFrame {
-    wire::FrameView frame;                    // valid during the call
-    const wire::MessageInfo* info = nullptr;  // null: id without definition (accepted by routing.md 5.4)
+    wire::FrameView frame;  // valid during the call
+    // Null: the dialect has no definition for this id.
+    const wire::MessageInfo* info = nullptr;
     LinkId link;
     EndpointId endpoint;
-    WallTime time{};                           // the kernel's receive time; a recording's own time for tlog sources
-    wire::SequenceTracker::Update sequence{};  // what it says of the link's loss, unless the owner counts that
-    std::uint8_t ring_verdict = 0;             // of a ring: what its writer says of the frame (ring/frames.hpp)
+    // The kernel's receive time. For tlog sources: the time in the recording.
+    WallTime time{};
+    // The frame's effect on the link's loss. Empty if the owner counts loss (`count_loss`).
+    wire::SequenceTracker::Update sequence{};
+    // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
+    std::uint8_t ring_verdict = 0;
 };
 
 class LinkHandler {
 public:
     virtual ~LinkHandler() = default;
-    // A good frame. May call Links::send. Never called with a lock held.
+    // Receives a good frame. It may call Links::send. No lock is held during the call.
     virtual void on_frame(const RxFrame& rx) = 0;
-    // A peer was seen for the first time, connected, went, or was expired.
+    // A link came up (new peer, connection or open port) or went down (closed, lost or idle).
     virtual void on_link_up(LinkId, EndpointId, std::string_view /*name*/) {}
     virtual void on_link_down(LinkId, EndpointId, std::string_view /*why*/) {}
-    // Something that began and was as long as a frame of this id, damaged or made with another definition. It is counted already.
+    // Bytes that look like a frame of this id but fail the checksum: damaged, or sent with another definition. Links
+    // has already counted them.
     virtual void on_bad_checksum(LinkId, EndpointId, MessageId) {}
-    // Something a person should know once (not per packet): "udpin://…: listening (receive buffer 425984 bytes)".
+    // An event that a person should see once, never once per packet: "udpin://…: listening (receive buffer 425984
+    // bytes)".
     virtual void on_notice(EndpointId, std::string_view /*text*/) {}
 };
 
 struct LinkInfo {
     LinkId id;
     EndpointId endpoint;
-    std::string name;  // unique: the endpoint's label, with "#HOST:PORT" of the peer where there can be several
+    // Unique: the endpoint's label. "#HOST:PORT" of the peer is added if the endpoint can have several.
+    std::string name;
     bool up = false;
     const LinkCounters* counters = nullptr;
 };
@@ -98,11 +116,12 @@ struct LinkInfo {
 struct EndpointInfo {
     EndpointId id;
     endpoint::Endpoint endpoint;
-    std::uint16_t local_port = 0;    // the bound port (port 0 was asked for: the one that was given)
-    std::uint64_t rcvbuf_bytes = 0;  // what the kernel gave
+    // The bound port. If port 0 was requested, the port that the kernel assigned.
+    std::uint16_t local_port = 0;
+    std::uint64_t rcvbuf_bytes = 0;  // as granted by the kernel
     const EndpointCounters* counters = nullptr;
 
-    // The endpoint's label, with the given port where port 0 was asked for.
+    // The endpoint's label; the bound port replaces a requested port 0.
     [[nodiscard]] std::string label() const {
         endpoint::Endpoint given = endpoint;
         if (given.address.port == 0) given.address.port = local_port;
@@ -112,83 +131,94 @@ struct EndpointInfo {
 
 class Links {
 public:
-    // `table` must outlive the object. A full queue then drops telemetry oldest first; with a dialect it knows which newer value replaces
-    // which.
+    // `table` must outlive the object. A full queue drops the oldest telemetry first: without a dialect it cannot
+    // tell which frame a newer one supersedes.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const wire::MessageTable& table);
-    // The same with the dialect's table, which must outlive the object, and its instance fields (docs/guide/queues.md).
+    // Uses the dialect's message table and instance fields, so that a full queue drops superseded frames first
+    // (docs/guide/queues.md). `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(
         const dialect::Dialect& dialect, endpoint::RoutingOptions routing = endpoint::RoutingOptions::refused);
     Links(const Links&) = delete;
     Links& operator=(const Links&) = delete;
     ~Links();
 
-    // Links get numbers behind `last`, not from 1: before the first is added.
+    // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
 
-    // Signed frames of a group of links are taken up to this long after a faster link brought newer ones. Who tells copies by their bytes has to
-    // know them for longer.
+    // A signed frame of a group may arrive up to this long after a faster link delivered newer ones, and is still
+    // accepted. A caller that detects duplicates by their bytes must remember frames for longer than this.
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
-    // Opens at once what can be opened (bind, listen; a port in use is an error), and starts what needs the far side (connect, look-up).
-    // With `required=true` it waits up to 5 s for the far side and fails without it. An option that these links cannot honour is an error.
-    // After the first turn it waits for nobody: a look-up or connection goes on beside the turns, whatever `required` says.
-    // With a dialect, which must outlive the endpoint, its links find and queue frames by that.
+    // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
+    // far side (name look-up, connect) continue in the background if they take long.
+    // With `required=true` the call fails if the far side is absent. It waits up to 5 s for a look-up, and up to 5 s
+    // for each TCP connection attempt. After the first turn it never waits, whatever `required` says.
+    // An option that live links do not support is an error.
+    // If `dialect` is given, this endpoint's links use it to find and queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on endpoints without a name= may lead to the same place: whoever adds them tells them apart by their ids.
+    // From now on, several endpoints without name= may have the same address. The caller distinguishes them by their
+    // ids.
     void let_repeat() noexcept;
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
-    // Where the writer of the ring `ring` makes its inlet: RUN/NAME.in. Errors as of net::run_path.
+    // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
-    // The inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` that may be sent to as `mode` says. Each sender of a
-    // valid frame is a link, all that are not bound are one; what is sent to these links is counted and goes nowhere, for they find it in the ring.
-    // A socket that nobody serves any more is replaced; `in_use` where somebody does.
+    // Opens the inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` with permissions
+    // `mode`.
+    // Each bound sender of a valid frame becomes a link; all unbound senders share one. Frames sent to these links are
+    // counted but not transmitted, because the senders read them from the ring.
+    // Replaces a socket that no process serves. If a process serves it, the error is `in_use`.
     [[nodiscard]] SetupResult<EndpointId> add_inlet(const std::string& ring, const std::filesystem::path& socket,
                                                     unsigned mode);
-    // Why an endpoint that is tried again and again could not be opened the last time; null while that goes on for the first time, and of one
-    // that never failed.
+    // The last error of an endpoint that is being retried. Null during the first attempt, and for an endpoint that
+    // never failed.
     [[nodiscard]] const SetupError* failure(EndpointId endpoint) const noexcept;
-    // Closes an endpoint and all its links; what they had queued is lost. Not to be called inside a callback.
+    // Closes an endpoint and all its links. Frames still queued are lost. Must not be called inside a callback;
+    // on_link_down is not called for these links.
     void remove(EndpointId endpoint);
-    // Closes one peer, client or sender of an endpoint, as if it had gone; it may come again. False where the link is the only one that its endpoint
-    // can have, or is gone. Not to be called inside a callback.
+    // Closes one peer, client or sender of an endpoint, as if it had left. It may return as a new link. Returns false
+    // if the link is gone or is the only one that its endpoint can have.
+    // Must not be called inside a callback; on_link_down is not called for this link.
     bool close(LinkId link);
-    // Whether the key files of its `sign=` and `verify=` hold other keys now than those in use; not so while one of them cannot be read.
+    // True if the key files of `sign=` and `verify=` now hold other keys than those in use. False while one of them
+    // cannot be read.
     [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;
 
-    // One turn: waits until something is readable, writable, due, or `deadline` (in a rush of frames, and where no endpoint has low_latency, it
-    // begins 0.2 ms after the last one at the earliest); reads all that is there (bounded, so that one flooded
-    // socket cannot starve the rest), calls the handler, then sends what was queued. Returns the number of frames received.
+    // Runs one turn. It waits for input, output, a timer or `deadline`, reads what has arrived, calls the handler, then
+    // sends what is queued. Returns the number of frames received.
+    // The amount read per turn is bounded, so that one flooded socket cannot starve the others. Under heavy load a turn
+    // starts at least 0.2 ms after the previous one, unless an endpoint has low_latency.
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
-    // Queues a whole frame for one link, or for every link of an endpoint that is up. Returns the number of links that took it.
+    // Queues a whole frame for one link, or for every active link of an endpoint. Returns the number of links that
+    // queued it.
     std::size_t send(LinkId link, wire::FrameView frame);
     std::size_t send(EndpointId endpoint, wire::FrameView frame);
-    // The same without the signature that `sign=` would give: true when the link took it and has `sign=`.
+    // Queues the frame without signing it. Returns true if the link queued it and its endpoint has `sign=`.
     bool send_unsigned(LinkId link, wire::FrameView frame);
-    // endpoint::RoutingOptions::by_owner: this frame, which is being handled, counts for its link's loss.
+    // For endpoint::RoutingOptions::by_owner: counts the frame being handled in its link's loss.
     wire::SequenceTracker::Update count_loss(const RxFrame& rx);
-    // The instant of the turn that is under way.
+    // The clock reading that the current turn uses.
     [[nodiscard]] MonoTime now() const noexcept;
-    // True when something queued is not yet with the kernel.
+    // True while a queued frame has not been handed to the kernel.
     [[nodiscard]] bool pending() const;
-    // Bytes queued for the links of an endpoint: a file source uses it to wait instead of overflowing a queue.
+    // Bytes queued for an endpoint's links. A file source pauses on it instead of overflowing a queue.
     [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;
 
-    // Wakes `turn`; any thread, also from a signal handler.
+    // Wakes `turn`. Callable from any thread and from signal handlers.
     void wake() noexcept;
 
-    // Reads SO_MEMINFO of every UDP socket into kernel_drop: to be called at snapshots and at the end.
+    // Reads SO_MEMINFO of every UDP socket into `kernel_drop`. Call it before taking a snapshot and at the end.
     void refresh_kernel_drops();
 
-    // What is there now. `counters` of a link stay until its on_link_down has returned.
+    // What exists now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
-    // The same counters without the list, in constant time; null for a link that is gone.
+    // A link's counters in constant time; null if the link is gone.
     [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept;
-    // What each source on a link lost; valid until the next turn, empty for a link that is gone.
+    // Loss per source on a link. Valid until the next turn; empty if the link is gone.
     [[nodiscard]] std::span<const wire::SequenceStats> sources(LinkId link) const noexcept;
-    // Empty for a link that is gone.
+    // Empty if the link is gone.
     [[nodiscard]] std::string_view link_name(LinkId link) const;
 
 private:

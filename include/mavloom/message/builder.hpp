@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A payload that is written field by field, by handle or by name: the counterpart of MessageView. Holds the full payload of one message
-// (at most 255 bytes, no heap). Single owner. Values from outside are checked: out of range is an error that names message, field and range.
+// Builds the payload of one message field by field; the counterpart of MessageView.
+// Holds the full payload (at most 255 bytes) without heap memory. Single owner.
+// The `set` functions check values; their errors (`usage`) name message, field and valid range.
 #pragma once
 
 #include <array>
@@ -16,35 +17,37 @@ namespace mavloom::message {
 
 class MessageBuilder {
 public:
-    // All fields 0.
+    // Starts with all fields 0.
     explicit MessageBuilder(const dialect::Message& definition) noexcept : definition_(&definition) {}
-    // The fields of a received payload; bytes that were cut off are 0, bytes beyond the definition are dropped.
+    // Starts with the fields of a received payload. Missing bytes are 0; bytes beyond the definition are dropped.
     MessageBuilder(const dialect::Message& definition, ByteView payload) noexcept;
 
     [[nodiscard]] const dialect::Message& definition() const noexcept { return *definition_; }
 
-    // Writes element `index` in the field's own type; `T` must have the field's size.
+    // Writes element `index` without checks. `T` must have the size of the field's type.
     template <class T>
     void put(const dialect::Field& field, T value, std::size_t index = 0) noexcept {
         store_le(bytes_.data() + field.offset + index * sizeof(T), value);
     }
 
-    // Checked writes: integers must be in the field's range and whole; text at most the field's length in bytes.
+    // Checked writes: an integer field takes only whole numbers in its range. Text must fit in the field's length in
+    // bytes.
     [[nodiscard]] SetupResult<void> set_number(const dialect::Field& field, double value, std::size_t index = 0);
     [[nodiscard]] SetupResult<void> set_integer(const dialect::Field& field, std::int64_t value, std::size_t index = 0);
     [[nodiscard]] SetupResult<void> set_unsigned(const dialect::Field& field, std::uint64_t value,
                                                  std::size_t index = 0);
     [[nodiscard]] SetupResult<void> set_text(const dialect::Field& field, std::string_view utf8);
 
-    // Parses what a user types for `--set MESSAGE.field=value`: number (decimal, 0x…, nan, inf), enum names (A|B for flags),
-    // text, [a,b,c] for arrays; the error says what was expected and the nearest enum name.
+    // Parses the value in `--set MESSAGE.field=value`: a number (decimal, 0x…, nan, inf), enum names (A|B for flags),
+    // text, or [a,b,c] for arrays. The error states what was expected and suggests the closest enum name.
     [[nodiscard]] SetupResult<void> set_from_text(const dialect::Field& field, std::string_view value);
 
-    // The same for one element of an array of numbers; `index` is in range.
+    // Like `set_from_text`, for one element of a numeric array. `index` must be in range.
     [[nodiscard]] SetupResult<void> set_element_from_text(const dialect::Field& field, std::string_view value,
                                                           std::size_t index);
 
-    // The full payload, `max_length` bytes, untruncated: the frame writer truncates for MAVLink 2 and cuts extensions for MAVLink 1.
+    // The full payload of `max_length` bytes. The frame writer truncates it for MAVLink 2 and cuts extension fields for
+    // MAVLink 1.
     [[nodiscard]] ByteView payload() const noexcept { return {bytes_.data(), definition_->wire.max_length}; }
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dynamic access to a payload by its definition: the same layout that the typed structs use, for messages known only at run time.
-// A MessageView owns nothing and lives as long as the definition and the payload; reading allocates nothing and cannot fail on bytes from
-// outside: bytes that the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) read as 0.
+// Reads the fields of a payload by their definition, for messages that are known only at run time.
+// A MessageView owns nothing; the definition and the payload must outlive it. Reading allocates nothing and cannot
+// fail. Bytes that the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) read as 0.
 // Source: MAVLink guide, "Payload Truncation" and "Message Extensions".
 #pragma once
 
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const dialect::Message& definition() const noexcept { return *definition_; }
     [[nodiscard]] ByteView payload() const noexcept { return payload_; }
 
-    // The element `index` of a field in its own type; `T` must have the size of the field's type.
+    // Returns element `index` of a field. `T` must have the size of the field's type.
     template <class T>
     [[nodiscard]] T get(const dialect::Field& field, std::size_t index = 0) const noexcept {
         assert(sizeof(T) == dialect::size_of(field.type) && index < field.count());
@@ -37,12 +37,17 @@ public:
         return load_le<T>(bytes.data());
     }
 
-    // Any numeric element as double (64-bit integers beyond 2^53 lose digits), as two's complement, or as the bits an enum is looked up by.
+    // Return an element of any numeric type, converted:
+    // - `number`: as double; 64-bit integers beyond 2^53 lose digits.
+    // - `integer`, `unsigned_integer`: integers convert modulo 2^64; floats are truncated and limited to the range, and
+    //   NaN becomes 0.
+    // Use `unsigned_integer` to look up enum entries.
     [[nodiscard]] double number(const dialect::Field& field, std::size_t index = 0) const noexcept;
     [[nodiscard]] std::int64_t integer(const dialect::Field& field, std::size_t index = 0) const noexcept;
     [[nodiscard]] std::uint64_t unsigned_integer(const dialect::Field& field, std::size_t index = 0) const noexcept;
 
-    // A char[] field up to its trailing NULs; may hold any bytes. A view into the payload.
+    // The bytes of a char[] field without trailing NULs, as a view into the payload. May hold any bytes, including
+    // invalid UTF-8.
     [[nodiscard]] std::string_view text(const dialect::Field& field) const noexcept;
 
 private:

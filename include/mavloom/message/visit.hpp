@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a field's type at run time to a C++ type at compile time. `char` counts as an unsigned byte.
+// Maps a field's type at run time to a C++ type at compile time. `char` maps to std::uint8_t.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mavloom::message {
 
-// Calls `f` with a value of the field's type (the value itself means nothing).
+// Calls `f` with a zero value of the field's type. Only the type of the argument matters.
 template <class F>
 constexpr decltype(auto) visit_type(dialect::FieldType type, F&& f) {
     using enum dialect::FieldType;

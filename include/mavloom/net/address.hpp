@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// An IPv4 or IPv6 socket address in the kernel's own form: what recvmmsg wrote can be compared, hashed and given to sendmmsg without
-// conversion. Names are not looked up here (resolver.hpp). Immutable value; only the text functions allocate.
+// An IPv4 or IPv6 socket address and port, stored as the kernel's own sockaddr.
+//
+// An address that recvmmsg wrote can be compared, hashed and passed to sendmmsg without conversion. This class does not
+// look up host names; resolver.hpp does. An Address is a plain value: threads may read one at the same time. Only the
+// functions that return text allocate.
 #pragma once
 
 #include <netinet/in.h>
@@ -18,9 +21,9 @@ class Address {
 public:
     Address() noexcept { std::memset(&storage_, 0, sizeof storage_); }
 
-    // "127.0.0.1", "::1", "fe80::1%eth0" (no brackets); nothing for a name.
+    // Parses "127.0.0.1", "::1" or "fe80::1%eth0", without brackets. Returns nothing for a host name.
     [[nodiscard]] static std::optional<Address> parse(std::string_view host, std::uint16_t port);
-    // Nothing for a family other than IPv4 and IPv6, or a length too short for it.
+    // Returns nothing if the family is neither IPv4 nor IPv6, or if `length` is too short for the family.
     [[nodiscard]] static std::optional<Address> from_sockaddr(const sockaddr* address, socklen_t length) noexcept;
 
     [[nodiscard]] bool is_v4() const noexcept { return storage_.base.sa_family == AF_INET; }
@@ -28,7 +31,7 @@ public:
     [[nodiscard]] int family() const noexcept { return storage_.base.sa_family; }
     [[nodiscard]] std::uint16_t port() const noexcept;
     [[nodiscard]] Address with_port(std::uint16_t port) const noexcept;
-    // The interface of a link-local IPv6 address ("%eth0") by its index; 0: none. IPv4 has none.
+    // Interface index of a link-local IPv6 address (the "%eth0" part). 0 means none; always 0 for IPv4.
     [[nodiscard]] std::uint32_t scope() const noexcept { return is_v6() ? storage_.v6.sin6_scope_id : 0; }
     [[nodiscard]] Address with_scope(std::uint32_t interface) const noexcept;
 
@@ -37,14 +40,16 @@ public:
     [[nodiscard]] bool is_multicast() const noexcept;  // 224.0.0.0/4 or ff00::/8
     [[nodiscard]] bool is_broadcast() const noexcept;  // 255.255.255.255
 
-    // "127.0.0.1:14550", "[::1]:14550". An IPv4 peer of a dual-stack socket (::ffff:1.2.3.4) shows as IPv4.
+    // Returns "127.0.0.1:14550" or "[::1]:14550". The IPv4 peer of a dual-stack socket (::ffff:1.2.3.4) is shown as
+    // IPv4.
     [[nodiscard]] std::string text() const;
     [[nodiscard]] std::string host_text() const;
 
     [[nodiscard]] const sockaddr* data() const noexcept { return &storage_.base; }
     [[nodiscard]] socklen_t size() const noexcept { return is_v6() ? sizeof(sockaddr_in6) : sizeof(sockaddr_in); }
 
-    // For system calls that fill an address in. `normalize` afterwards: two equal addresses then have equal bytes.
+    // Storage for system calls that write an address. Call `normalize` afterwards, so that equal addresses have equal
+    // bytes.
     [[nodiscard]] sockaddr* writable() noexcept { return &storage_.base; }
     static constexpr socklen_t capacity = sizeof(sockaddr_in6);
     void normalize() noexcept {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT
-// A queue of whole blocks on their way out, bounded by bytes and by age. Until a bound is reached it is first in, first out, and nothing
-// is lost. At the bound whole blocks go, the least important class first (the highest number): of the last class first those that a newer
-// block with the same key has superseded, then the oldest; an arriving block never displaces a more important one. Key 0 is never
-// superseded. A block of which a part is with the kernel already is never dropped.
+// A queue of outgoing blocks (whole frames) for one link, bounded by bytes and by age. See docs/guide/queues.md.
 //
-// Blocks lie one behind the other in one piece of memory, so that many leave as one. It grows with what is queued (at most twice the bound)
-// and is given back after a jam; in steady state nothing allocates. Not thread-safe. DESIGN.md rule 2; docs/guide/queues.md.
+// Until the queue reaches a bound, it is first in, first out and loses nothing. At the byte bound it drops whole
+// blocks:
+// - The least important class goes first. Class 0 is the most important.
+// - Within the least important class, superseded blocks go before all others. A newer block with the same key
+//   supersedes an older one; key 0 is never superseded.
+// - After that, the oldest block goes.
+// - A new block never displaces a block of a more important class. If that leaves too little room, the new block itself
+//   is dropped.
+// - A block that the kernel has taken in part is never dropped at a bound.
+//
+// Blocks lie back to back in one buffer, so that one system call can send many of them. The buffer grows with the
+// queue, to at most twice the bound, and shrinks again after a jam. The queue allocates nothing in steady state. Not
+// thread-safe.
 #pragma once
 
 #include <sys/uio.h>
@@ -33,9 +41,9 @@ public:
     };
     struct Pushed {
         bool queued = false;
-        std::uint32_t dropped = 0;  // blocks lost by this push, the new one included when it was not queued
+        std::uint32_t dropped = 0;  // blocks lost by this push, including the new one if it was not queued
     };
-    // A place between blocks; valid until the next push or expire.
+    // A place between two blocks. Valid until the next push or expire.
     struct Position {
         std::size_t index = 0;
     };
@@ -45,26 +53,29 @@ public:
 
     explicit BlockQueue(const Limits& limits) noexcept : limits_(limits) {}
 
-    // `key` other than 0 only for blocks that a newer one makes worthless.
+    // Queues a copy of `block`. Set `key` only if a newer block with the same key makes this one worthless; otherwise
+    // pass 0.
     Pushed push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
-    // Drops what is older than its class may be; returns how many.
+    // Drops blocks that are older than their class allows. Returns how many.
     std::uint32_t expire(MonoTime now) noexcept;
-    // Drops everything, a block begun included; returns how many.
+    // Drops everything, including a block that was sent in part. Returns how many blocks.
     std::uint32_t clear() noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return blocks_ == 0; }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
 
-    // Datagrams: whole blocks from `from` on, together at most `max_bytes` (the first always), as few pieces as they lie in. Moves `from`
-    // behind the last. No blocks: the end. What was sent is then taken off by `pop`.
+    // For datagrams. `gather` collects whole blocks, starting at `from`, into as few pieces as possible. It takes at
+    // most `max_bytes` in total, but always takes the first block. It moves `from` behind the last block taken. It
+    // takes no blocks at the end of the queue. After sending, remove the sent blocks with `pop`.
     [[nodiscard]] Position front() const noexcept { return {head_}; }
     [[nodiscard]] Gathered gather(Position& from, std::size_t max_bytes, std::span<iovec> room) const noexcept;
     void pop(Position until) noexcept;
 
-    // Streams: everything from the first unsent byte on, as far as `room` goes, and no block more than fits `max_bytes` (the first always);
-    // `consume` takes off what the kernel took and returns the blocks that are thereby whole. `rewind` makes the next stream begin with the
-    // whole block.
+    // For streams. `pieces` collects everything from the first unsent byte, as far as `room` goes. It stops before a
+    // block that would exceed `max_bytes`, but always takes the first block. After sending, pass the number of bytes
+    // that the kernel took to `consume`. It removes the blocks that are complete and returns how many. After a
+    // reconnect, `rewind` makes the next stream start with the whole first block.
     [[nodiscard]] std::size_t pieces(std::span<iovec> room, std::size_t max_bytes = SIZE_MAX) const noexcept;
     std::size_t consume(std::size_t bytes) noexcept;
     void rewind() noexcept;
@@ -82,7 +93,8 @@ private:
         std::uint32_t index = 0;
     };
     static constexpr std::size_t first_capacity = 16384;
-    static constexpr std::size_t kept_capacity = 65536;  // memory beyond it is given back when a jam is over
+    // When a jam is over, the queue frees a larger buffer.
+    static constexpr std::size_t kept_capacity = 65536;
 
     Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
     void append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
@@ -104,15 +116,17 @@ private:
     Limits limits_;
     std::unique_ptr<std::uint8_t[]> memory_;
     std::size_t capacity_ = 0, tail_ = 0;  // bytes
-    std::vector<Entry> entries_;           // by age; those before head_ are gone, dead ones lie between
+    std::vector<Entry> entries_;           // oldest first; those before head_ are gone, dropped ones may follow
     std::size_t head_ = 0;
-    std::size_t begun_ = 0;  // bytes of entries_[head_] that a stream already took
+    std::size_t begun_ = 0;  // bytes of entries_[head_] that a stream has already sent
     std::size_t bytes_ = 0, blocks_ = 0;
     std::array<std::size_t, classes> class_bytes_{};
-    std::array<std::size_t, classes> oldest_{};  // where to look for the oldest of each class: none lies before
+    // Start of the search for the oldest block of each class: no droppable block of that class lies before it.
+    std::array<std::size_t, classes> oldest_{};
 
-    // Only while jammed, that is, from the first time the byte bound was reached until the queue was empty or rewound: the newest block of
-    // each key, and those that have a newer one, in the order in which they were superseded.
+    // Used only while jammed: from the moment the byte bound is reached until the queue is empty or rewound. `newest_`
+    // maps each key to its newest block. `superseded_` lists the blocks that have a newer one, in the order in which
+    // they were superseded.
     bool jammed_ = false;
     std::vector<Newest> newest_;
     std::size_t keys_ = 0;

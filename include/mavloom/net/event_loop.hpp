@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Waits for descriptors, instants and wake-ups by epoll, and calls those who asked. It owns no descriptor but its own.
-// One thread drives it; only `wake` may be called from others, and from a signal handler. Waiting and dispatch allocate nothing.
+// An epoll event loop: it waits for descriptors, timers and wake-ups, then calls their handlers.
+//
+// The loop owns only its own descriptors; callers own the ones that it watches. One thread drives the loop. Only `wake`
+// may be called from other threads, and from signal handlers. Waiting and dispatching allocate nothing.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +22,7 @@ namespace mavloom::net {
 struct IoEvents {
     bool readable = false;
     bool writable = false;
-    bool failed = false;  // an error or hang-up is pending; reading or writing tells which
+    bool failed = false;  // an error or hang-up is pending; read or write to get the reason
 };
 
 class IoHandler {
@@ -35,7 +37,7 @@ public:
     virtual void on_timer(MonoTime now) = 0;
 };
 
-// What `watch` and `start_timer` give. Stale ids are harmless: they name nothing any more.
+// Handles that `watch` and `start_timer` return. Using a stale one is harmless: it refers to nothing.
 struct WatchId {
     std::uint32_t slot = 0, generation = 0;
     [[nodiscard]] bool valid() const noexcept { return generation != 0; }
@@ -54,21 +56,22 @@ public:
     EventLoop& operator=(const EventLoop&) = delete;
     ~EventLoop();
 
-    // Level-triggered. `handler` must stay until `unwatch`, which may be called inside any callback: what is pending for it is not
-    // delivered then.
+    // Watches `fd`, level-triggered. `handler` must live until `unwatch`. A callback may call `unwatch`: events that
+    // are still pending for that handler are then discarded.
     [[nodiscard]] SetupResult<WatchId> watch(int fd, bool readable, bool writable, IoHandler& handler);
     void change(WatchId id, bool readable, bool writable) noexcept;
     void unwatch(WatchId& id) noexcept;
 
-    // Once, at or after `when`. Cancelling an expired or empty id does nothing.
+    // Calls `handler` once, at or after `when`. Cancelling an expired or empty timer does nothing.
     [[nodiscard]] TimerId start_timer(MonoTime when, TimerHandler& handler);
     void cancel_timer(TimerId& id) noexcept;
 
-    // Waits until something happens, a timer is due, or `deadline`. May now and then return before with nothing to do.
+    // Waits for an event, a due timer or `deadline`, whichever comes first. May occasionally return early with nothing
+    // to do.
     void wait(MonoTime deadline) noexcept;
-    // Sleeps until `when` or a signal; nothing else ends it, `wake` neither.
+    // Sleeps until `when` or a signal. Nothing else ends the sleep, not even `wake`.
     static void sleep_until(MonoTime when) noexcept;
-    // Calls the handlers of what `wait` found: timers first. Returns true when `wake` was among the causes.
+    // Calls the due timers, then the handlers of the events that `wait` found. Returns true if `wake` was called.
     bool dispatch(MonoTime now);
     bool run_once(MonoTime deadline) {
         wait(deadline);
@@ -76,7 +79,7 @@ public:
     }
 
     void wake() noexcept;
-    // A duplicate of the wake-up's owner, for helper threads that may outlive the loop.
+    // Shared ownership of the wake-up descriptor, for helper threads that may outlive the loop.
     [[nodiscard]] std::shared_ptr<const Fd> wake_handle() const noexcept { return wake_; }
     static void wake(const Fd& handle) noexcept;
 
@@ -93,7 +96,7 @@ private:
     [[nodiscard]] Watch* find(WatchId id) noexcept;
 
     Fd epoll_;
-    Fd alarm_;  // a timerfd, for waits that are not short
+    Fd alarm_;  // a timerfd, for all but short waits
     MonoTime alarm_at_ = MonoTime::max();
     std::shared_ptr<const Fd> wake_;
     std::vector<Watch> watches_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file descriptor with one owner: closed once, when its owner goes. Not thread-safe; allocates nothing.
+// A file descriptor with one owner, which closes it when destroyed. Move-only. Not thread-safe; allocates nothing.
 #pragma once
 
 #include <unistd.h>
@@ -11,7 +11,7 @@ namespace mavloom::net {
 class Fd {
 public:
     constexpr Fd() noexcept = default;
-    // Takes over `fd`; -1 means none.
+    // Takes ownership of `fd`. -1 means none.
     constexpr explicit Fd(int fd) noexcept : fd_(fd) {}
     Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
     Fd& operator=(Fd&& other) noexcept {
@@ -27,7 +27,7 @@ public:
 
     [[nodiscard]] int get() const noexcept { return fd_; }
     [[nodiscard]] explicit operator bool() const noexcept { return fd_ >= 0; }
-    // Linux frees the number even when close() reports an error, so it is never tried twice.
+    // Linux frees the number even when close() reports an error, so never retry the close.
     void reset() noexcept {
         if (fd_ >= 0) ::close(std::exchange(fd_, -1));
     }

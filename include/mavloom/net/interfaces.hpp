@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The network interfaces of this machine by name, and the addresses that are its own: what a socket hears from them is what it sent itself.
-// One thread at a time; allocates when the list of addresses is read, at most once a second.
+// Looks up network interfaces by name, and checks whether an address belongs to this machine.
+//
+// A multicast or broadcast socket uses the check to recognise its own datagrams. One thread at a time. OwnAddresses
+// allocates when it reads the list of addresses, at most once a second.
 #pragma once
 
 #include <chrono>
@@ -14,19 +16,20 @@
 
 namespace mavloom::net {
 
-// `not_found` names those that there are.
+// Returns the index of the interface `name`. `not_found` lists the interfaces that exist.
 [[nodiscard]] SetupResult<std::uint32_t> interface_index(const std::string& name);
 
 class OwnAddresses {
 public:
-    // Whether the address, its port aside, is one of this machine's.
+    // Returns whether `address` is one of this machine's. Ignores the port.
     [[nodiscard]] bool contains(const Address& address, MonoTime now);
 
 private:
-    // Addresses come and go (DHCP); a stranger's must not cost a look at the list each time.
+    // Addresses change over time (DHCP), so the list is re-read. Without this interval, each unknown address would
+    // cause a read.
     static constexpr std::chrono::seconds refresh_interval{1};
 
-    std::vector<Address> known_;  // port 0
+    std::vector<Address> known_;  // all with port 0
     MonoTime read_at_{};
 };
 

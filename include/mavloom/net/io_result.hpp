@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How a call on the data path can end without success. What is normal (would_block) stands beside what is not; none of them throws or
-// allocates. Thread-safe: values only.
+// Error codes of reads and writes on the data path. They include normal outcomes such as would_block. Plain values: any
+// thread, no exceptions, no allocation.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 namespace mavloom::net {
 
 enum class IoError : std::uint8_t {
-    would_block,  // nothing to read, or no room to write, now
-    refused,      // an earlier datagram met a closed port; the call did nothing and may be repeated
+    would_block,  // nothing to read now, or no room to write
+    // The peer of an earlier datagram has closed its port. This call did nothing; repeat it.
+    refused,
     unreachable,  // no route, or the host does not answer
-    no_buffers,   // the kernel is short of memory for the moment
-    too_long,     // the datagram is longer than the path takes
-    closed,       // the far side ended the stream, or the socket has none any longer
+    no_buffers,   // the kernel is short of memory at the moment
+    too_long,     // the datagram is longer than the path allows
+    closed,       // the far side ended the stream, or the socket is not connected any more
     no_descriptors,
     other,
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A Unix datagram socket at a place in the file system that any number of programs of this machine send to. Reads many datagrams in one system
-// call (recvmmsg), with the kernel's receive time. Non-blocking. One thread; allocates when opened only.
+// A receiving Unix datagram socket, bound to a path, to which any number of local programs can send.
+//
+// One system call (recvmmsg) reads many datagrams with the kernel's receive time. Non-blocking. One thread; allocates
+// only when opened.
 #pragma once
 
 #include <cstddef>
@@ -19,26 +21,28 @@ namespace mavloom::net {
 
 struct LocalDatagram {
     ByteView bytes;
-    std::size_t cut = 0;    // bytes that it had more than a slot holds
-    std::string_view from;  // a path, or NUL and an abstract name; empty where the sender is not bound
-    WallTime time{};        // the kernel's; the epoch when it gave none
+    std::size_t cut = 0;  // how many bytes were cut off because the datagram exceeded the slot
+    // The sender's address: a path, or a NUL and an abstract name. Empty if the sender is not bound.
+    std::string_view from;
+    WallTime time{};  // set by the kernel; the epoch if the kernel gave none
 };
 
 class LocalSocket {
 public:
-    static constexpr std::size_t slots = 32;  // datagrams of one receive
+    static constexpr std::size_t slots = 32;  // datagrams per receive
     static constexpr std::size_t slot_bytes = 65536;
 
-    // Binds to `path`, where nothing may be yet; `mode`: who may send, whatever the umask.
+    // Binds to `path`, which must not exist. `mode` sets who may send, regardless of the umask.
     [[nodiscard]] static SetupResult<LocalSocket> open(const std::filesystem::path& path, unsigned mode);
     LocalSocket(LocalSocket&&) noexcept;
     LocalSocket& operator=(LocalSocket&&) noexcept;
-    ~LocalSocket();  // leaves what stands at the path
+    ~LocalSocket();  // does not remove the file at the path
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
-    // Reads what is there, up to `slots`. would_block when there is nothing. Descriptors that somebody sends along are closed unseen.
+    // Reads the waiting datagrams, at most `slots`. Returns would_block if there are none. Descriptors that a sender
+    // passes along (SCM_RIGHTS) are discarded.
     [[nodiscard]] IoResult<std::size_t> receive() noexcept;
-    // Valid until the next receive.
+    // Returns one datagram of the last receive. Valid until the next receive.
     [[nodiscard]] LocalDatagram operator[](std::size_t index) const noexcept;
 
 private:

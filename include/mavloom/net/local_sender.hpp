@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A Unix datagram socket that sends to one other on this machine. Non-blocking. It has an address of its own, so that the far side tells senders apart;
-// none that is left in a folder. One thread at a time; allocates when opened only.
+// A sending Unix datagram socket, connected to one receiver on this machine. Non-blocking.
+//
+// The socket has an abstract address of its own, so that the receiver can tell senders apart. It leaves no file behind.
+// One thread at a time; allocates only when opened.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +17,17 @@ namespace mavloom::net {
 class LocalSender {
 public:
     LocalSender() noexcept = default;
-    // `not_found` and `unreachable` while nobody has opened the path. A path of at most 107 bytes.
+    // Returns `not_found` or `unreachable` if no program has the path open. The path has at most 107 bytes.
     [[nodiscard]] static SetupResult<LocalSender> connect(const std::filesystem::path& path);
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
-    // What the kernel gave it, as people write it: "@0001f".
+    // The address that the kernel assigned, in the usual notation: "@0001f".
     [[nodiscard]] std::string own_address() const;
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
 
-    // Sends batch[first...], whose datagrams have no address; returns how many went. `would_block`: the far side's queue is full, and the descriptor
-    // becomes writable when it is not. `refused` or `closed`: the far side went.
+    // Sends batch[first...] and returns how many datagrams went out. The datagrams must have no address. Errors:
+    // - `would_block`: the receiver's queue is full. The descriptor becomes writable when there is room.
+    // - `refused` or `closed`: the receiver is gone.
     [[nodiscard]] IoResult<std::size_t> send(SendBatch& batch, std::size_t first) noexcept;
 
 private:
@@ -32,7 +35,8 @@ private:
     Fd fd_;
 };
 
-// The process that has the Unix socket at `path` open, as far as /proc shows it to us: nothing for another user's.
+// Returns the process that has the Unix socket at `path` open, as far as /proc shows it. Returns nothing if that
+// process belongs to another user.
 [[nodiscard]] std::optional<int> process_serving(const std::filesystem::path& path);
 
 }  // namespace mavloom::net

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Host names to addresses on a helper thread, so that a slow name server never holds up a loop. The thread starts with the first question;
-// one question is asked at a time. A numeric host never needs it (Address::parse).
-// Thread-safe: any thread may ask and collect. Allocates; not for the frame path.
+// Resolves host names on a helper thread, so that a slow name server never blocks an event loop.
+//
+// The thread starts with the first question and resolves one name at a time. Numeric hosts do not need it: use
+// Address::parse. Thread-safe: any thread may ask and collect answers. It allocates, so keep it off the frame path.
 #pragma once
 
 #include <chrono>
@@ -18,7 +19,7 @@
 
 namespace mavloom::net {
 
-// All addresses of `host`, IPv4 first, each once. Blocks as long as the system's resolver does.
+// Returns all addresses of `host`, IPv4 first, without duplicates. Blocks as long as the system's resolver does.
 [[nodiscard]] SetupResult<std::vector<Address>> look_up(std::string_view host, std::uint16_t port);
 
 class Resolver {
@@ -29,18 +30,20 @@ public:
         Answer answer;
     };
 
-    // `notify` is called on the helper thread, without a lock held, when an answer is ready; the destructor waits until it has returned, and
-    // it is not called afterwards. But where a look-up is then still under way it is kept, and destroyed on the helper thread at its end.
+    // The helper thread calls `notify` when an answer is ready, without holding a lock. The destructor waits for a
+    // running `notify`; no call follows it. If a look-up is in progress at destruction, `notify` is destroyed later, on
+    // the helper thread, when that look-up ends.
     explicit Resolver(std::function<void()> notify);
     Resolver(const Resolver&) = delete;
     Resolver& operator=(const Resolver&) = delete;
-    // Does not wait for a look-up under way.
+    // Does not wait for a look-up in progress.
     ~Resolver();
 
+    // Queues a question and returns its ticket.
     [[nodiscard]] std::uint64_t ask(std::string host, std::uint16_t port);
-    // The next answer that is ready, in the order of the questions.
+    // Returns the next ready answer, in the order of the questions.
     [[nodiscard]] std::optional<Done> take();
-    // Waits for one question; nothing when `limit` passes first (the answer then comes by `take`).
+    // Waits for the answer to one question. Returns nothing on timeout; `take` then returns the answer later.
     [[nodiscard]] std::optional<Answer> wait(std::uint64_t ticket, std::chrono::milliseconds limit);
 
 private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The folder of the sockets by which programs of this machine meet: $MAVLOOM_RUN where that is set, else /run/mavloom where it can be made, else
-// $XDG_RUNTIME_DIR/mavloom. Any thread, as long as none changes the environment.
+// Finds the folder for the Unix sockets through which local programs communicate.
+//
+// The folder is $MAVLOOM_RUN if set. Otherwise it is /run/mavloom if that can be created, else
+// $XDG_RUNTIME_DIR/mavloom. Any thread may call these functions, as long as no thread changes the environment.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +15,14 @@ namespace mavloom::net {
 
 inline constexpr const char* run_variable = "MAVLOOM_RUN";
 
-// Where a program makes its socket NAME.SUFFIX; makes the folder where it is missing. `what` it is, for errors. Errors: a name that is none
-// (`usage`), no folder, a path too long for a socket (`permission`).
+// Returns the path at which a program creates its socket NAME.SUFFIX. Creates the folder if necessary. Error texts call
+// the socket `what`. Errors: `usage` for an invalid name; `permission` if there is no folder or the path is too long
+// for a socket.
 [[nodiscard]] SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
                                                           std::string_view what);
 
-// For a sender, whichever user's program serves there: the first NAME.SUFFIX of these folders that is served, else why one that is there cannot be sent
-// to, else `not_found`; makes nothing.
+// Connects to the first NAME.SUFFIX in these folders that a program serves, whichever user runs it. If none is served,
+// returns the reason why an existing socket cannot be used, or `not_found` if there is none. Creates nothing.
 [[nodiscard]] SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix);
 
 }  // namespace mavloom::net

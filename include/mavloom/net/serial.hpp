@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Serial ports: raw bytes at any baud rate, non-blocking throughout, not shared with other programs unawares; where a port that was
-// unplugged may come back; and being told at once when it does. Pseudo-terminals are serial ports too. One thread at a time; reading and
-// writing allocate nothing. termios2 and BOTHER of tty_ioctl(4), inotify(7).
+// Serial ports: opening and configuring them, finding an unplugged port again, and noticing when it comes back.
+//
+// Ports carry raw bytes at any baud rate, are non-blocking, and are locked against use by other programs.
+// Pseudo-terminals count as serial ports. One thread at a time; reading and writing allocate nothing. Sources:
+// tty_ioctl(4) for termios2 and BOTHER, inotify(7).
 #pragma once
 
 #include <sys/uio.h>
@@ -24,7 +26,7 @@ namespace mavloom::net {
 struct SerialOptions {
     std::uint32_t baud = 57600;
     bool rtscts = false;
-    bool low_latency = false;  // ASYNC_LOW_LATENCY, where the driver has it
+    bool low_latency = false;  // sets ASYNC_LOW_LATENCY, if the driver supports it
 };
 
 class SerialPort {
@@ -34,28 +36,28 @@ public:
     SerialPort& operator=(SerialPort&& other) noexcept;
     ~SerialPort() { close(); }
 
-    // Eight bits, no parity, one stop bit, no translation of any byte. `in_use` when another program holds the port (flock, TIOCEXCL);
-    // `usage` when the path is no serial port.
+    // Opens `device` with eight data bits, no parity, one stop bit and no byte translation. Returns `in_use` if another
+    // program holds the port (flock, TIOCEXCL), and `usage` if the path is not a serial port.
     [[nodiscard]] static SetupResult<SerialPort> open(const std::string& device, const SerialOptions& options);
-    // What the driver has not sent yet has 100 ms to leave, and is then discarded: a port held by flow control would else hold its closer
-    // for half a minute.
+    // Waits up to 100 ms for the driver to send its remaining bytes, then discards them. Without that limit, flow
+    // control could block the close for half a minute.
     void close() noexcept;
 
-    // Discards what was received and not read yet: it was heard at another rate.
+    // Changes the baud rate. Discards received bytes that were not read yet, because they came at the old rate.
     [[nodiscard]] SetupResult<void> set_baud(std::uint32_t baud);
-    // The rate that the driver made of the one asked for.
+    // The rate that the driver actually uses, which may differ from the requested one.
     [[nodiscard]] std::uint32_t baud() const noexcept { return baud_; }
-    // Asked for, and the driver has it.
+    // Whether low latency was requested and the driver supports it.
     [[nodiscard]] bool low_latency() const noexcept { return low_latency_; }
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
 
-    // At least one byte, or would_block; everything else: the port is gone.
+    // Reads at least one byte, or returns would_block. Any other error means that the port is gone.
     [[nodiscard]] IoResult<std::size_t> read(ByteSpan room) noexcept;
-    // Some of the bytes, or would_block; everything else: the port is gone.
+    // Writes some of the bytes, or returns would_block. Any other error means that the port is gone.
     [[nodiscard]] IoResult<std::size_t> write(std::span<const iovec> pieces) noexcept;
-    // What the driver holds and has not sent (TIOCOUTQ); 0 where it does not know.
+    // Bytes that the driver holds and has not sent yet (TIOCOUTQ). 0 if the driver does not know.
     [[nodiscard]] std::size_t unsent_bytes() const noexcept;
 
 private:
@@ -68,26 +70,28 @@ private:
     bool low_latency_ = false;
 };
 
-// Under which names one device is to be found: the one that the user gave, and the link in /dev/serial/by-id that led to it while it was
-// open, which leads to it under a new number too. Another device that took its name is not taken for it while that link leads elsewhere.
+// Finds one serial device again after it was unplugged. It tracks two names: the path that the user gave, and the link
+// in /dev/serial/by-id that led to the open device. The link still leads to the device if it returns under another
+// number. While that link leads to a different device than the user's path, the path is not tried: another device may
+// have taken it.
 class SerialDevice {
 public:
     static constexpr std::string_view default_id_folder = "/dev/serial/by-id";
-    // udev makes the links a moment after the kernel has made the device.
+    // udev creates the links shortly after the kernel has created the device.
     static constexpr std::chrono::seconds link_delay{1};
 
     explicit SerialDevice(std::string path, std::string id_folder = std::string(default_id_folder))
         : path_(std::move(path)), id_folder_(std::move(id_folder)) {}
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
-    // Empty while none is known.
+    // Empty while no link is known.
     [[nodiscard]] const std::string& id_link() const noexcept { return id_link_; }
 
-    // The device was opened under `name`: looks for its link.
+    // Call when the device was opened under `name`. Finds and remembers its link.
     void note_opened(const std::string& name);
-    // Where to try now. Empty: what stands under its name is so new that its link may still come.
+    // Returns the paths to try now. Empty if the device at the path is so new that its link may still appear.
     [[nodiscard]] std::vector<std::string> places() const;
-    // Where names of it may appear; folders that exist.
+    // Returns the existing folders in which names of the device may appear.
     [[nodiscard]] std::vector<std::string> folders() const;
 
 private:
@@ -97,7 +101,8 @@ private:
     std::string id_link_;
 };
 
-// Readable when a name was made, moved, removed or got other permissions in one of some folders.
+// Watches folders through inotify. The descriptor becomes readable when a name in one of them is created, renamed,
+// removed or changes its permissions.
 class FolderWatch {
 public:
     FolderWatch() noexcept = default;
@@ -105,9 +110,9 @@ public:
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
 
-    // A folder that cannot be watched is passed over; one watched already stays.
+    // Adds a folder. Ignores a folder that cannot be watched or is already watched.
     void add(const std::string& folder) noexcept;
-    // Forgets what was told so far.
+    // Discards all pending notifications.
     void drain() noexcept;
 
 private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// TCP listeners and streams, non-blocking throughout: connecting never waits, reading and writing take what there is. Streams have
-// keepalive (a dead far side is found in about 25 s) and no delay. One thread at a time; allocates nothing per call.
+// Non-blocking TCP listeners and streams. Connecting never waits; reads and writes transfer what they can at once.
+//
+// Streams disable Nagle's algorithm (TCP_NODELAY) and use keepalive, which detects a dead peer in about 25 s. One
+// thread at a time; no call allocates on success.
 #pragma once
 
 #include <sys/uio.h>
@@ -22,20 +24,21 @@ class TcpStream {
 public:
     TcpStream() noexcept = default;
 
-    // Begins to connect, from `local` where given; when the descriptor becomes writable, `finish_connect` tells the outcome.
+    // Starts to connect, from the address `local` if given. When the descriptor becomes writable, `finish_connect`
+    // returns the outcome.
     [[nodiscard]] static SetupResult<TcpStream> start_connect(const Address& remote,
                                                               const std::optional<Address>& local = std::nullopt);
     [[nodiscard]] SetupResult<void> finish_connect();
-    // For callers that may wait: true when `finish_connect` has an outcome within `limit`.
+    // For callers that may block: waits up to `limit`. Returns true if `finish_connect` has an outcome.
     [[nodiscard]] bool wait_connected(std::chrono::milliseconds limit) const noexcept;
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
     [[nodiscard]] const Address& remote() const noexcept { return remote_; }
 
-    // At least one byte, or would_block, closed (also for a reset), other.
+    // Reads at least one byte. Errors: would_block, closed (also after a reset), other.
     [[nodiscard]] IoResult<std::size_t> read(ByteSpan room) noexcept;
-    // Some of the bytes, or would_block, closed, other.
+    // Writes some of the bytes. Errors: would_block, closed, other.
     [[nodiscard]] IoResult<std::size_t> write(std::span<const iovec> pieces) noexcept;
 
 private:
@@ -53,7 +56,8 @@ public:
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] const Address& local() const noexcept { return local_; }
-    // would_block when nobody waits; no_descriptors when the process has none or only a few left (the client then waits on).
+    // Accepts one client. Returns would_block if no client is waiting. Returns no_descriptors if a client is waiting,
+    // but the process has few or no descriptors left. The client then stays in the backlog.
     [[nodiscard]] IoResult<TcpStream> accept() noexcept;
 
 private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// UDP sockets that read and write many datagrams in one system call (recvmmsg, sendmmsg). Datagrams arrive whole, with the kernel's receive
-// time; datagrams leave gathered from pieces. Non-blocking throughout. One thread at a time; allocates when opened only.
+// Non-blocking UDP sockets that read and write many datagrams per system call (recvmmsg, sendmmsg).
+//
+// Received datagrams are whole and carry the kernel's receive time. A datagram to send is a list of pieces, which the
+// kernel joins. One thread at a time; allocates only when opened.
 #pragma once
 
 #include <sys/socket.h>
@@ -26,11 +28,11 @@ namespace mavloom::net {
 struct Datagram {
     ByteView bytes;
     const Address* from = nullptr;
-    WallTime time{};  // the kernel's (SO_TIMESTAMPNS); the epoch when it gave none
+    WallTime time{};  // set by the kernel (SO_TIMESTAMPNS); the epoch if it gave none
 };
 
-// Room for the datagrams of one recvmmsg. Each slot holds the longest datagram there is, so that none is cut; memory is touched only as far
-// as datagrams are long. May be shared by any number of sockets that are read in turn.
+// Buffers for the datagrams of one recvmmsg. A slot holds the longest possible datagram, so none is cut. Memory becomes
+// resident only as far as datagrams are long. Any number of sockets that are read in turn may share one batch.
 class ReceiveBatch {
 public:
     static constexpr std::size_t slots = 64;
@@ -56,7 +58,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Datagrams to send: each a list of pieces that must stay until they are sent.
+// Datagrams to send. Each is a list of pieces, whose memory must stay valid until they are sent.
 class SendBatch {
 public:
     static constexpr std::size_t max_datagrams = 256;
@@ -66,9 +68,9 @@ public:
     void clear() noexcept { count_ = pieces_ = 0; }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] bool full() const noexcept { return count_ == max_datagrams || pieces_ == max_pieces; }
-    // Where the next datagram's pieces are to be written; `add` then takes the first `pieces` of them.
+    // Write the pieces of the next datagram here. Then call `add`, which takes the first `pieces` of them.
     [[nodiscard]] std::span<iovec> room() noexcept { return std::span(iovecs_).subspan(pieces_); }
-    // `to` must stay until sent; null for a connected socket. The batch must not be full.
+    // `to` must stay valid until the datagram is sent; pass null for a connected socket. The batch must not be full.
     void add(const Address* to, std::size_t pieces) noexcept;
 
 private:
@@ -81,40 +83,44 @@ private:
 
 struct UdpOptions {
     std::uint64_t receive_buffer_bytes = 32u << 20;
-    bool v6_only = false;             // else a socket on :: also hears IPv4
-    bool broadcast = false;           // may send to broadcast addresses
-    std::string device;               // sends and hears by this interface only (SO_BINDTODEVICE); empty: by all
-    std::optional<std::uint8_t> ttl;  // hops; 0 only for groups: this machine
-    // A multicast group to hear; others of this machine may hear it too. `local` is then the group, so that nothing else is heard.
+    bool v6_only = false;             // if false, a socket on :: also receives IPv4
+    bool broadcast = false;           // allows sending to broadcast addresses
+    std::string device;               // the only interface to use (SO_BINDTODEVICE); empty: all
+    std::optional<std::uint8_t> ttl;  // hop limit; 0 (this machine only) applies to multicast only
+    // The multicast group to join. Other programs on this machine may join it too. Set `local` to the group, so that
+    // the socket receives nothing else.
     std::optional<Address> group;
-    std::uint32_t group_interface = 0;  // by which groups are heard and sent to; 0: as the routes say
+    std::uint32_t group_interface = 0;  // interface for multicast; 0: chosen by the routing table
 };
 
 class UdpSocket {
 public:
     UdpSocket() noexcept = default;
-    // Bound to `local` (port 0: any free one), with the largest receive buffer that the system gives up to the one asked.
+    // Binds to `local` (port 0: any free port). The receive buffer is as large as the system allows, up to the
+    // requested size.
     [[nodiscard]] static SetupResult<UdpSocket> open(const Address& local, const UdpOptions& options);
 
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
     [[nodiscard]] const Address& local() const noexcept { return local_; }
-    // As the kernel counts it, its own overhead included.
+    // As the kernel counts it, including the kernel's overhead.
     [[nodiscard]] std::uint64_t receive_buffer_bytes() const noexcept { return receive_buffer_bytes_; }
 
-    // Reads what is there, up to a batch. would_block when there is nothing.
+    // Reads the waiting datagrams, at most one batch. Returns would_block if there are none.
     [[nodiscard]] IoResult<std::size_t> receive(ReceiveBatch& batch) noexcept;
-    // Sends batch[first...]; returns how many went. An error is about batch[first], and nothing went; but `refused` may be about any earlier
-    // datagram, whose port was closed (ICMP), and is told once.
+    // Sends batch[first...] and returns how many datagrams went out. After an error nothing was sent, and the error
+    // concerns batch[first]. The exception is `refused`: it may concern any earlier datagram whose port was closed
+    // (ICMP). It is reported once.
     [[nodiscard]] IoResult<std::size_t> send(SendBatch& batch, std::size_t first) noexcept;
 
-    // Takes the oldest ICMP error about an earlier datagram off its queue; nothing where there is none.
+    // Removes and returns the oldest queued ICMP error about an earlier datagram. Returns nothing if there is none.
     struct Failure {
-        Address to;  // where the datagram was sent
+        Address to;  // the datagram's destination
         IoError error = IoError::other;
     };
     [[nodiscard]] std::optional<Failure> take_failure() noexcept;
-    // Datagrams that the kernel dropped on this socket for lack of room, ever (SO_MEMINFO; wraps at 2^32).
+    // Datagrams that the kernel has dropped on this socket for lack of buffer space, in total (SO_MEMINFO). Wraps at
+    // 2^32.
     [[nodiscard]] std::uint32_t kernel_drops() const noexcept;
 
 private:

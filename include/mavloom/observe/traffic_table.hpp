@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What was heard, by link, source and message: count, bytes, and the gaps between arrivals, from which the rate comes (measured time, not a
-// nominal window). One owner thread; allocates when a row is new (at most `max_rows`), never for a known one.
-// Source: routing.md section 6, the proposal's "per message" list.
+// Traffic statistics per link, source and message: frame count, bytes, rates and gaps between arrivals.
+// One owner thread. Allocates for a new row (at most `max_rows`), never for a known one.
 #pragma once
 
 #include <cstddef>
@@ -22,19 +21,21 @@ struct TrafficRow {
     MessageId id;
     std::uint64_t count = 0, bytes = 0;
     WallTime first{}, last{};
-    Nanoseconds shortest_gap{}, longest_gap{};  // 0 before the second frame
+    Nanoseconds shortest_gap{}, longest_gap{};  // both 0 before the second frame
 
-    // A moment, and how many frames had come by then.
+    // A point in time, and the frame count at that time.
     struct Mark {
         WallTime time{};
         std::uint64_t count = 0;
     };
-    Mark older{}, newer{};  // at least rate_window apart
+    Mark older{}, newer{};  // at least rate_window apart, or equal at the start and after the clock was set back
     static constexpr Nanoseconds rate_window = std::chrono::seconds{5};
 
-    // Frames a second between the first and the last arrival; 0 before the second frame or where no time has passed.
+    // The average rate between the first and the last frame, in Hz. 0 before the second frame, or if no time has
+    // passed.
     [[nodiscard]] double rate_hz() const noexcept;
-    // Of the last 5 to 10 s in which it came; when it was silent for longer, or comes that seldom, at most one a gap.
+    // The rate over the last 5 to 10 s in which frames arrived, in Hz.
+    // After a longer silence, or for rarer messages, at most one frame per gap.
     [[nodiscard]] double recent_rate_hz(WallTime now) const noexcept;
     [[nodiscard]] Nanoseconds mean_gap() const noexcept;
 };
@@ -44,18 +45,18 @@ public:
     static constexpr std::size_t max_rows = 65'536;
 
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
-    // Gives back the rows of links of which `is_there(LinkId)` says no.
+    // Removes the rows of all links for which `is_there(LinkId)` returns false.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {
         std::erase_if(rows_, [&](const auto& row) { return !is_there(row.second.link); });
     }
 
-    // In no order: a copy and nothing more, for who has no time.
+    // An unsorted copy of the rows. Faster than `sorted`.
     [[nodiscard]] std::vector<TrafficRow> rows() const;
-    // By link, system, component, then message id.
+    // A copy sorted by link, system, component, then message id.
     [[nodiscard]] std::vector<TrafficRow> sorted() const { return sorted(rows()); }
     [[nodiscard]] static std::vector<TrafficRow> sorted(std::vector<TrafficRow> rows);
-    // Frames of rows beyond `max_rows`.
+    // The number of frames that would have needed a row beyond `max_rows`.
     [[nodiscard]] std::uint64_t unlisted() const noexcept { return unlisted_; }
 
 private:

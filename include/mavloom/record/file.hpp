@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// An open file as the recorder and the reader need it: reads and writes that are completed or reported, never interrupted half-way by a signal
-// (only waiting for a pipe or device can be). The position in a regular file is the object's own, not the descriptor's: a forked child that reads on
-// moves nothing in its parent.
-// Move-only; one owner thread; allocates only for error texts.
+// An open file for reading or writing recordings. A signal never interrupts a read or write half-way: each one
+// completes or returns an error. Only waiting for a pipe or device can be interrupted.
+//
+// A File keeps its own position in a regular file, apart from the descriptor's. A forked child that continues reading
+// therefore does not move its parent's position. Files are move-only, have one owner thread, and allocate only for
+// paths and error texts.
 #pragma once
 
 #include <chrono>
@@ -17,13 +19,13 @@ namespace mavloom::record {
 
 class File {
 public:
-    // What `read` does while a pipe or device has nothing: wait for it, or say so.
+    // What `read` does while a pipe or device is empty: wait for data, or return an error at once.
     enum class Empty : std::uint8_t { wait, tell };
-    // A FIFO without a writer is opened at once, and has nothing until one comes.
+    // Opens a FIFO at once even if it has no writer; the FIFO stays empty until a writer opens it.
     [[nodiscard]] static SetupResult<File> open_to_read(const std::filesystem::path& path, Empty empty = Empty::wait);
-    // A new file of this name, mode 0644; one that exists is an error (`in_use`).
+    // Creates a file with mode 0644. Fails with `in_use` if it already exists.
     [[nodiscard]] static SetupResult<File> create(const std::filesystem::path& path);
-    // Something that is there and is no regular file (a device, a FIFO).
+    // Opens an existing device or FIFO. For a FIFO, this waits until it has a reader.
     [[nodiscard]] static SetupResult<File> open_to_write(const std::filesystem::path& path);
 
     File(File&& other) noexcept
@@ -35,22 +37,24 @@ public:
     File& operator=(File&& other) noexcept;
     ~File();
 
-    // Fills `out` from the current position until it is full or the file ends; returns the number of bytes. A pipe or device gives what is
-    // there, once something is, and 0 at its end. Nothing there is an error with sys_errno EAGAIN (`Empty::tell`), a signal while it waits one
-    // with EINTR.
+    // Reads from the current position and returns the number of bytes read. A regular file fills `out` unless the file
+    // ends first. A pipe or device returns the bytes available, and 0 at its end. While a pipe or device is empty:
+    // - `Empty::wait` waits for data. A signal ends the wait with an error whose sys_errno is EINTR.
+    // - `Empty::tell` returns an error whose sys_errno is EAGAIN.
     [[nodiscard]] SetupResult<std::size_t> read(ByteSpan out);
-    // Waits until a pipe or device has something to read, or has ended; false when the time has passed or a signal came. Always true of a file.
+    // Waits until a pipe or device has data or has ended. Returns false after `limit` or a signal. Returns true at once
+    // for a regular file.
     [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
     struct Written {
-        std::size_t bytes = 0;  // what the system took: less than all only where `error` is set
-        int error = 0;          // errno
+        std::size_t bytes = 0;  // bytes written; fewer than requested only if `error` is set
+        int error = 0;          // errno, or 0
     };
     [[nodiscard]] Written write(ByteView bytes) noexcept;
 
     [[nodiscard]] SetupResult<void> seek(std::uint64_t offset);
     [[nodiscard]] SetupResult<void> truncate(std::uint64_t size);
     [[nodiscard]] SetupResult<std::uint64_t> size() const;
-    // Hands all bytes to the disk, then closes. The object is closed in any case.
+    // Waits until the disk has all bytes, then closes the file. The file is closed even if this fails.
     [[nodiscard]] SetupResult<void> sync_and_close();
 
     [[nodiscard]] bool is_regular() const noexcept { return regular_; }
@@ -68,7 +72,7 @@ private:
     int fd_ = -1;
     bool regular_ = false;
     Empty empty_ = Empty::wait;
-    std::uint64_t offset_ = 0;  // of the next byte of a regular file
+    std::uint64_t offset_ = 0;  // of the next byte to read or write in a regular file
 };
 
 }  // namespace mavloom::record

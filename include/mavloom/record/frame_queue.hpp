@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Frames on their way from a receiving thread to one that is slower at times: a bounded ring of bytes in anonymous memory. One writer thread, one
-// reader thread. The writer never waits: what does not fit is refused, and the caller counts it. No allocation and no lock per frame; a
-// system call only when the reader sleeps. Memory is touched as it is needed: while the reader keeps up, only the ring's first part is.
+// A bounded queue of frames from a receiving thread to a thread that may be slower at times. It is a ring of bytes in
+// anonymous memory.
+//
+// One writer thread and one reader thread. The writer never waits: `push` refuses a frame that does not fit, and the
+// caller counts it. No frame costs an allocation or a lock. A system call occurs only when the reader sleeps or wakes.
+// While the reader keeps up, only the first part of the ring's memory is ever touched.
 #pragma once
 
 #include <atomic>
@@ -31,20 +34,21 @@ public:
     FrameQueue(const FrameQueue&) = delete;
     FrameQueue& operator=(const FrameQueue&) = delete;
 
-    // Writer. False when there is no room. Entries become visible at once; a sleeping reader is woken by `publish`.
+    // Writer: appends a copy of the entry. Returns false if there is no room. The reader sees the entry at once, but
+    // only `publish` wakes a sleeping reader.
     [[nodiscard]] bool push(const Entry& entry) noexcept;
-    // Writer: after a batch.
+    // Writer: wakes a sleeping reader. Call it after each batch of `push`.
     void publish() noexcept;
-    // Writer: nothing follows. The reader gets what is left, then the end.
+    // Writer: ends the queue. The reader still gets the remaining entries, then the end.
     void close() noexcept;
 
-    // Reader: the next entry, or empty when there is none now.
+    // Reader: returns the next entry, or nothing if the queue is empty now.
     [[nodiscard]] std::optional<Entry> next() noexcept;
-    // Reader: sleeps until there is something to read or the queue is closed and empty; false in the second case.
+    // Reader: sleeps until there is an entry to read, and returns true. Returns false if the queue is closed and empty.
     [[nodiscard]] bool wait() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
-    // Writer: a moment's value.
+    // Writer: an upper bound, because the reader may free entries meanwhile.
     [[nodiscard]] std::size_t used_bytes() const noexcept;
 
 private:
@@ -60,19 +64,22 @@ private:
 
     std::uint8_t* const memory_;
     const std::size_t capacity_;
-    // Positions count bytes since the beginning and never wrap; each lies on a cache line of its own with what its owner remembers of the other.
+    // Positions count bytes since the start and never wrap. Each position has its own cache line, together with its
+    // owner's cached copy of the other position.
     struct alignas(64) {
         std::atomic<std::uint64_t> position{0};
-        std::atomic<std::uint64_t> restart_at{~std::uint64_t{0}};  // an empty queue went on from here at the ring's start
+        // From this position the writer jumped back to the start of the ring, because the queue was empty.
+        std::atomic<std::uint64_t> restart_at{~std::uint64_t{0}};
         std::uint64_t head_seen = 0;
-        std::uint64_t restarted_to = 0;  // all before is read, even if the reader does not know yet
-    } tail_;                             // the writer's
+        // Everything before this position counts as read, even if the reader has not noticed the jump yet.
+        std::uint64_t restarted_to = 0;
+    } tail_;  // written by the writer
     struct alignas(64) {
         std::atomic<std::uint64_t> position{0};
         std::uint64_t tail_seen = 0;
         std::uint64_t release_to = 0;
-    } head_;                                            // the reader's
-    alignas(64) std::atomic<std::uint32_t> signal_{0};  // counts wake-ups; what `wait` sleeps on
+    } head_;                                            // written by the reader
+    alignas(64) std::atomic<std::uint32_t> signal_{0};  // counts wake-ups; `wait` sleeps on it
     std::atomic<bool> sleeping_{false};
     std::atomic<bool> closed_{false};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When each record of a replay is due: absolute deadlines from one common start, so that delays never add up. Takes instants and gives
-// instants; never waits and never asks for the time. One owner thread; allocates nothing.
+// Computes when each record of a replay is due. Deadlines are absolute, from one common start, so delays do not
+// accumulate. A Pacer never waits, reads no clock and does not allocate. One owner thread.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,21 @@ namespace mavloom::record {
 
 class Pacer {
 public:
-    static constexpr double max_speed = std::numeric_limits<double>::infinity();  // no waiting at all
+    static constexpr double max_speed = std::numeric_limits<double>::infinity();  // no waiting
 
     struct Limits {
-        // A longer silence in the recording is a jump of its clock, or an outage nobody wants to sit through.
+        // A longer gap between records counts as a jump: the clock was changed, or the outage is not worth replaying.
         Nanoseconds longest_gap = std::chrono::seconds{60};
-        // A smaller step back is only records out of order.
+        // A longer step back in time counts as a jump; a shorter one is only records out of order.
         Nanoseconds longest_step_back = std::chrono::seconds{1};
     };
 
-    // The first record is due at `start`. `speed` is above 0: 2 is twice as fast as recorded.
+    // The first record is due at `start`. `speed` must be above 0; 2 replays twice as fast as recorded.
     Pacer(double speed, MonoTime start) noexcept : Pacer(speed, start, Limits{}) {}
     Pacer(double speed, MonoTime start, Limits limits) noexcept;
 
-    // When the record with this time is due: never before the one asked for last. Behind a jump (see Limits) the next record is due at once, and
-    // the pace goes on from there.
+    // Returns when the record with this time is due, which is never before the previous result. After a jump (see
+    // Limits) the record is due together with the previous one, and later records are paced from there.
     [[nodiscard]] MonoTime due(WallTime recorded) noexcept;
 
     [[nodiscard]] bool waits() const noexcept { return speed_ != max_speed; }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A recording that never holds up who records: frames wait in a bounded queue for a thread that writes them. What does not fit into the
-// queue, or not onto the disk, is counted; when the disk takes records again, the recording goes on.
+// A recorder writes frames to a tlog file (docs/formats/tlog.md) without ever blocking its caller. Frames wait in a
+// bounded queue until the recorder's own thread writes them. The recorder counts the frames that the queue or the disk
+// had no room for. When the disk accepts records again, recording continues.
 //
-// One thread records, `stop` from the same; counters may be read from any. No allocation and no lock per frame. docs/formats/tlog.md.
+// One thread calls `record`, `publish`, `end` and `stop`; any thread may read the counters. No frame costs an
+// allocation or a lock.
 #pragma once
 
 #include <atomic>
@@ -18,18 +20,18 @@
 namespace mavloom::record {
 
 struct RecorderCounters {
-    Counter frames, bytes;  // in the file; what the writer still buffers is not among them
-    Counter queue_full;     // frames: the writer was too slow
-    Counter write_error;    // frames: the disk did not take them
+    Counter frames, bytes;  // in the file, without what the writer still buffers; `bytes` excludes the time stamps
+    Counter queue_full;     // frames dropped because the writing thread was too slow
+    Counter write_error;    // frames lost because the disk did not take them
 };
 
 class Recorder {
 public:
     static constexpr std::size_t default_buffer_bytes = 16u << 20;
-    // Said once when writing fails and once when it goes on. Called on the writing thread.
+    // Called on the writing thread: once when writing fails, once when it resumes, and at the end if frames were lost.
     using Notice = std::function<void(std::string_view)>;
 
-    // Opens the file. An error where it cannot be written.
+    // Opens the file and starts the writing thread. Fails if the file cannot be written.
     [[nodiscard]] static SetupResult<std::unique_ptr<Recorder>> create(std::string label,
                                                                        const std::filesystem::path& path,
                                                                        record::Rotation rotation, Notice notice,
@@ -41,16 +43,17 @@ public:
     void record(WallTime time, LinkId link, const wire::FrameView& frame) noexcept {
         if (!queue_->push({time, link, frame})) counters_.queue_full.add();
     }
-    // After a batch: wakes the writer if it sleeps.
+    // Wakes the writing thread if it sleeps. Call it after each batch of `record`.
     void publish() noexcept { queue_->publish(); }
-    // Begins to end: the writing thread writes what is queued, closes the file, and is then `finished`. Does not wait for the disk.
+    // Ends the recording without waiting for the disk. The writing thread writes the queued frames, closes the file and
+    // then sets `finished`.
     void end() noexcept { queue_->close(); }
     [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
-    // Ends, and waits for it.
+    // Calls `end` and waits until the writing thread has finished.
     void stop();
 
     [[nodiscard]] const std::string& label() const noexcept { return label_; }
-    // Where an existing file went; empty if there was none.
+    // The new name of a file that existed at this path; empty if there was none.
     [[nodiscard]] const std::filesystem::path& renamed_to() const noexcept { return renamed_to_; }
     [[nodiscard]] const RecorderCounters& counters() const noexcept { return counters_; }
 
@@ -63,7 +66,7 @@ private:
 
     std::string label_;
     std::filesystem::path renamed_to_;
-    record::RotatingWriter writer_;  // the thread's, once it runs
+    record::RotatingWriter writer_;  // used by the writing thread only, once it runs
     std::unique_ptr<FrameQueue> queue_;
     Notice notice_;
     RecorderCounters counters_;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A recording that may go on in new files: by size, by time, or never. A frame is never split, a file never replaced. Time is the frames' own
-// receive time: a new segment begins with the first frame that is `every` or more later than its segment's first one; frames that are earlier
-// (another link's, a clock set back) stay in the segment that is open. Nothing is read from a clock here.
-// One owner thread; opening a segment allocates, `write` within one does not. Waits for the disk when it closes a segment: not for a loop that
-// serves sockets. Follows docs/formats/tlog.md.
+// Writes a recording to one tlog file, or to a series of files (segments) limited by size or time. It never splits a
+// frame and never replaces a file. Format: docs/formats/tlog.md.
+//
+// Time means the receive time of the frames; the writer reads no clock. A frame that is `every` or more later than the
+// first frame of its segment starts a new segment. Earlier frames, from another link or after a clock was set back,
+// stay in the open segment.
+//
+// One owner thread. Opening a segment allocates; `write` within a segment does not. Closing a segment waits for the
+// disk, so do not use this class in a loop that serves sockets.
 #pragma once
 
 #include <chrono>
@@ -14,48 +18,51 @@
 namespace mavloom::record {
 
 struct Rotation {
-    std::uint64_t bytes = 0;           // a segment is never larger, unless a single record is; 0: no bound
-    std::chrono::nanoseconds every{};  // 0: no bound
+    std::uint64_t bytes = 0;           // largest segment, unless a single record is larger; 0: unlimited
+    std::chrono::nanoseconds every{};  // longest time from a segment's first frame; 0: unlimited
     [[nodiscard]] bool rotates() const noexcept { return bytes != 0 || every != std::chrono::nanoseconds{}; }
 };
 
 class RotatingWriter {
 public:
-    // Without rotation writes exactly `path`, as TlogWriter does. With it, each segment is `path`'s stem plus the UTC time of its first frame,
-    // flight-20231114T221320.000Z.tlog, the first one opened by the first frame; a name that is taken gets _2, _3, ... A folder that cannot be
-    // written, and rotation of a device or FIFO, are errors here.
+    // Without rotation, writes to `path`, as TlogWriter does. With rotation, each segment's name is the stem of `path`
+    // plus the UTC time of its first frame, for example flight-20231114T221320.000Z.tlog. If that name exists, the
+    // writer appends _2, _3, ... to the stem. The first frame opens the first segment. Fails if the folder is not
+    // writable, or if rotation is requested for a device or FIFO.
     [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
 
-    // TlogWriter::make_room of the segment that is open.
+    // Calls TlogWriter::make_room of the open segment.
     [[nodiscard]] SetupResult<void> make_room(const wire::FrameView& frame);
-    // Whether this error of `make_room` ends when somebody makes room on the disk: not so of devices and pipes.
+    // Whether this error of `make_room` means a full disk, so that a retry can succeed once the disk has room. False
+    // for devices and pipes.
     [[nodiscard]] bool is_full_disk(const SetupError& error) const noexcept;
-    // An error means that records are lost, as `lost_records` counts them: this one (TlogWriter::write; a new segment that cannot be opened), or
-    // the last of the segment behind us, which could not be closed.
+    // An error means that records were lost; `lost_records` counts them. There are two cases:
+    // - This record was not taken, because TlogWriter::write failed or the next segment could not be opened.
+    // - The last records of the previous segment could not be written when it was closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
-    // A record that the caller no longer tries to write: one more of `lost_records`.
+    // Counts a record that the caller stopped trying to write as lost.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
     [[nodiscard]] SetupResult<void> close();
 
-    // As it was given to `create`.
+    // The path given to `create`.
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    // The file that is written; empty before the first segment.
+    // The file of the open segment; empty before the first segment.
     [[nodiscard]] std::filesystem::path segment_path() const;
-    // Where an existing file went; empty if there was none.
+    // The new name of a file that existed at this path; empty if there was none.
     [[nodiscard]] std::filesystem::path renamed_to() const;
     [[nodiscard]] std::uint64_t segments() const noexcept { return segments_; }
-    // Of all segments. Taken: written, buffered, or lost after all because the disk stayed full.
+    // Sums over all segments. Taken records are written, still buffered, or lost because the disk stayed full.
     [[nodiscard]] std::uint64_t taken_records() const noexcept;
     [[nodiscard]] std::uint64_t written_records() const noexcept;
     [[nodiscard]] std::uint64_t written_bytes() const noexcept;
-    // Records that are in no file: refused by `write`, given up, or still buffered when their segment was closed.
+    // Records that are in no file: refused by `write`, given up, or still buffered after their segment was closed.
     [[nodiscard]] std::uint64_t lost_records() const noexcept;
 
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
-    // Whether what waits for the current file finds no room on the disk.
+    // Flushes; returns true if the disk has no room for the buffered records.
     [[nodiscard]] bool is_disk_full();
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
@@ -64,13 +71,13 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
-    WallTime begin_{};  // of the segment: its first frame's time
+    WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;
     struct Sums {
         std::uint64_t taken = 0, written = 0, bytes = 0;
-    } before_;  // of the segments before
+    } before_;  // of the closed segments
     std::uint64_t refused_ = 0;
-    bool closed_ = false;  // what the last segment still buffers is lost
+    bool closed_ = false;  // records that the last segment still buffers are lost
 };
 
 }  // namespace mavloom::record

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where in a recording a moment is: one entry per some thousand records, made in one pass. Recordings whose time runs backwards in places are
-// in order: the answer is the first record, in the order of the file, that is not before the moment asked for.
-// Immutable after `build`; any number of threads may search. 16 bytes an entry.
+// An index that finds the place of a given time in a recording. `build` makes it in one pass, with one 16-byte entry
+// for about every thousand records.
+//
+// Times may run backwards within a recording. A search finds the first record, in file order, at or after the given
+// time. The index is immutable after `build`; any number of threads may search it.
 #pragma once
 
 #include <optional>
@@ -13,27 +15,29 @@ namespace mavloom::record {
 
 class TlogIndex {
 public:
-    static constexpr std::uint64_t default_spacing = 1024;  // records an entry
+    static constexpr std::uint64_t default_spacing = 1024;  // records per entry
 
-    // Reads `reader` from where it is to the end.
+    // Reads `reader` from its current position to the end.
     [[nodiscard]] static SetupResult<TlogIndex> build(TlogReader& reader, std::uint64_t spacing = default_spacing);
 
-    // Puts `reader`, which reads the same file, on the first record at or after `time`; at the end of the file if there is none.
+    // Moves `reader`, which must read the same file, to the first record at or after `time`. If there is none, moves it
+    // to the end of the file.
     [[nodiscard]] SetupResult<void> seek(TlogReader& reader, WallTime time) const;
 
-    // The offset from which `seek` looks: no record before it is at or after `time`.
+    // The offset from which `seek` searches. All records before it are earlier than `time`.
     [[nodiscard]] std::uint64_t offset_before(WallTime time) const noexcept;
 
     [[nodiscard]] std::uint64_t records() const noexcept { return records_; }
-    // Empty recordings have no times. The earliest is not always the first, the latest not always the last.
+    // The earliest and latest times, not always those of the first and last record. Empty for an empty recording.
     [[nodiscard]] std::optional<WallTime> earliest() const noexcept { return earliest_; }
     [[nodiscard]] std::optional<WallTime> latest() const noexcept { return latest_; }
-    // How often a record is earlier than the one before it.
+    // How many records are earlier than the record before them.
     [[nodiscard]] std::uint64_t backward_steps() const noexcept { return backward_steps_; }
     [[nodiscard]] std::size_t entries() const noexcept { return entries_.size(); }
 
 private:
-    // `latest_before`, the latest time of all records in front of the entry's, never falls from entry to entry: that makes it searchable.
+    // `latest_before` is the latest time of all records before the entry's record. It never decreases from entry to
+    // entry, so it can be searched.
     struct Entry {
         WallTime latest_before;
         std::uint64_t offset;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Reads a tlog record by record through one fixed buffer, whatever the size of the file. Behind damage it goes on at the next position where a
-// plausible time and an intact frame stand, and says how many bytes it skipped. A frame of unknown id is taken where its end is the end of
-// the file or the beginning of another record.
-// Reads with read(), not by mapping: a file that somebody shortens meanwhile is an error here and would be a SIGBUS there.
-// One owner thread (counters may be read from any). Allocates at opening only. Follows docs/formats/tlog.md.
+// Reads a tlog file record by record, through one fixed buffer. Format: docs/formats/tlog.md.
+//
+// After damage, the reader resumes at the next position with a plausible time and an intact frame. It reports how many
+// bytes it skipped. It accepts a frame of unknown id only if another record or the end of the file follows.
+//
+// The reader uses read() and does not map the file. If another program shortens the file meanwhile, the reader returns
+// an error; with a mapping it would get SIGBUS. One owner thread; any thread may read the counters. Allocates when it
+// opens the file, and for error texts.
 #pragma once
 
 #include <memory>
@@ -15,46 +18,47 @@
 
 namespace mavloom::record {
 
-// Every byte read is counted once: file size = record_bytes + flagged_bytes + lost_bytes at the end of the file.
+// Counts every byte once: at the end of the file, record_bytes + flagged_bytes + lost_bytes is the file size.
 struct ReadCounters {
     Counter records, record_bytes;
-    Counter unknown_ids;  // of `records`: without definition
-    // Records whose frame has an incompatibility flag that is not defined: skipped.
+    Counter unknown_ids;  // those of `records` whose message id has no definition
+    // Records skipped because their frame has an undefined incompatibility flag.
     Counter unknown_flags, flagged_bytes;
-    Counter lost_bytes;      // damaged, or cut at the end
+    Counter lost_bytes;      // damaged, or of a record cut off at the end
     Counter damaged_places;  // runs of lost bytes
 };
 
 class TlogReader {
 public:
-    // `table` must outlive the reader.
-    // `empty` is for pipes and devices: what `next` does while there is nothing.
+    // `table` must outlive the reader. `empty` says what `next` does while a pipe or device is empty.
     [[nodiscard]] static SetupResult<TlogReader> open(const std::filesystem::path& path, const wire::MessageTable& table,
                                                       File::Empty empty = File::Empty::wait);
 
     enum class Stop : std::uint8_t {
-        end,          // the file is read to its end
-        failed,       // `error` says why; nothing more can be read
-        nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; may be called again
-        damage,  // nothing but damage in `most_damage` bytes, of `next_of` nothing of that message; may be called again
+        end,          // the end of the file was reached
+        failed,       // reading failed; `error` says why
+        nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; call again
+        damage,       // the byte limit was reached without a record that `next` or `next_of` looks for; call again
     };
-    // The next record; its views live until the next call. Waits for a pipe or device, but for no more than it takes to judge the record. Gives
-    // way after `most_damage` bytes without one: who has other work gets to it although a file is nothing but damage.
+    // Returns the next record; its views are valid until the next call. For a pipe or device, it waits only for the
+    // bytes that it needs to judge the record. After `most_damage` bytes without a record it returns Stop::damage, so
+    // that a badly damaged file does not block its caller.
     [[nodiscard]] Result<Record, Stop> next(std::uint64_t most_damage = ~std::uint64_t{0});
-    // The next record of one message. Faster than `next`, for it passes over records of other known ids without looking at their checksums as long
-    // as record joins record; where they do not, it examines what it had passed over. Damage within what is passed over is not counted. Gives way
-    // after `most_bytes` without one, whatever they held.
+    // Returns the next record of one message. It is faster than `next`: while records follow each other without a gap,
+    // it skips other known messages without checking their checksums. Where the sequence breaks, it goes back and
+    // examines the records that it had just skipped. It does not count damage within records that it skipped.
+    // After `most_bytes` without a record of the message it returns Stop::damage.
     [[nodiscard]] Result<Record, Stop> next_of(MessageId id, std::uint64_t most_bytes = ~std::uint64_t{0});
     [[nodiscard]] const SetupError& error() const noexcept { return *error_; }
-    // For who was told `nothing_yet`: File::wait.
+    // Waits for data after Stop::nothing_yet; see File::wait.
     [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept { return file_.wait(limit); }
 
-    // Goes on at `offset`, which should be that of a record. Not for pipes. Bytes read again are counted again.
+    // Continues at `offset`, which should be the offset of a record. Fails for pipes. Bytes read again count again.
     [[nodiscard]] SetupResult<void> seek(std::uint64_t offset);
 
-    // The offset of the first byte not yet handed out or skipped.
+    // The offset of the first byte not yet returned or skipped.
     [[nodiscard]] std::uint64_t position() const noexcept { return base_ + begin_; }
-    // False for pipes and devices: they cannot be sought in.
+    // False for pipes and devices, which cannot seek.
     [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
     // The file's size when it was opened; 0 for a pipe.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
@@ -62,7 +66,7 @@ public:
 
 private:
     static constexpr std::size_t buffer_length = 256 * 1024;
-    // Enough to judge a record of unknown id: itself and the one behind it.
+    // Enough to judge a record of unknown id: the record and the one after it.
     static constexpr std::size_t look_ahead = 2 * max_record_length;
 
     TlogReader(File file, std::uint64_t size, const wire::MessageTable& table);
@@ -82,7 +86,7 @@ private:
     std::uint64_t base_ = 0;           // the file offset of the buffer's first byte
     std::uint64_t size_ = 0;
     std::uint64_t lost_run_ = 0;       // bytes skipped since the last record
-    std::uint64_t examine_until_ = 0;  // file offset: before it nothing is passed over
+    std::uint64_t examine_until_ = 0;  // file offset; before it, `next_of` skips nothing unchecked
     bool at_end_ = false;
     std::optional<SetupError> error_;
     ReadCounters counters_;

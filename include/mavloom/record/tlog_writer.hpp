@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Writes a tlog: whole records only. Records gather in a buffer and go to the system when it is full, at `flush` and at `close`. When the disk
-// is full the file is cut back to its last whole record, the error is returned, and what is still in the buffer can be tried again.
-// One owner thread. Allocates at opening only. Follows docs/formats/tlog.md.
+// Writes a tlog file that holds whole records only. Format: docs/formats/tlog.md.
+//
+// The writer buffers records. It writes them to the file when the buffer is full, on `flush` and on `close`. If the
+// disk is full, it truncates the file to the last whole record and returns the error. The rest stays buffered for a
+// retry.
+// One owner thread. Allocates when it opens the file, and for error texts.
 #pragma once
 
 #include <memory>
@@ -15,36 +18,39 @@ class TlogWriter {
 public:
     static constexpr std::size_t default_buffer_bytes = 256 * 1024;
 
-    // Writes exactly `path`. A file of that name is first renamed to PATH.1, or to PATH.2, PATH.3, ... where those exist: nothing is ever
-    // overwritten, and the highest number is the newest. A device or FIFO of that name is written to as it is.
+    // Opens `path`. An existing file is first renamed to PATH.1, or to the first free one of PATH.2, PATH.3, ... So
+    // no file is overwritten, and the highest number is the newest. A device or FIFO is written to as it is.
     [[nodiscard]] static SetupResult<TlogWriter> create(const std::filesystem::path& path,
                                                         std::size_t buffer_bytes = default_buffer_bytes);
 
     TlogWriter(TlogWriter&&) noexcept = default;
     TlogWriter& operator=(TlogWriter&&) = delete;
-    // Tries to write what is buffered; only `close` says whether that worked.
+    // Tries to write the buffered records, but cannot report an error. Call `close` to learn of one.
     ~TlogWriter();
 
-    // Whether `write` would take a record of this frame. An error means that the buffer is full and could not be written: the disk may have room later.
+    // Makes room in the buffer for a record of this frame. An error means that the buffer is full and could not be
+    // written; a retry may succeed later.
     [[nodiscard]] SetupResult<void> make_room(const wire::FrameView& frame);
-    // An error means that this record was not taken, and that the buffer could not be written. Times outside 1970 to 2255 are moved to those.
+    // Buffers a record. An error means that the record was not taken, because the buffer is full and could not be
+    // written. Times before 1970 or after 2255 are clamped to that range.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
-    // Hands the buffered records to the system: other programs see them then.
+    // Writes the buffered records to the file, where other programs can see them.
     [[nodiscard]] SetupResult<void> flush();
-    // Flushes, waits for the disk, closes. An error means that the records still counted by `buffered_bytes` are not in the file.
+    // Flushes, waits for the disk and closes the file. After an error, the records that `buffered_bytes` still counts
+    // are not in the file.
     [[nodiscard]] SetupResult<void> close();
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return file_.path(); }
-    // Where an existing file went; empty if there was none.
+    // The new name of a file that existed at this path; empty if there was none.
     [[nodiscard]] const std::filesystem::path& renamed_to() const noexcept { return renamed_to_; }
-    // Written and buffered together: what the file will hold.
+    // Written and buffered records together.
     [[nodiscard]] std::uint64_t records() const noexcept { return records_; }
     [[nodiscard]] std::uint64_t size() const noexcept { return written_ + used_; }
-    // What the system has taken, whole records only.
+    // Whole records in the file.
     [[nodiscard]] std::uint64_t written_records() const noexcept { return written_records_; }
     [[nodiscard]] std::uint64_t written_bytes() const noexcept { return written_; }
     [[nodiscard]] std::size_t buffered_bytes() const noexcept { return used_; }
-    // Not a device or pipe.
+    // False for a device or pipe.
     [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
 
 private:
@@ -57,7 +63,7 @@ private:
     std::unique_ptr<std::uint8_t[]> buffer_;
     std::size_t capacity_;
     std::size_t used_ = 0;
-    // Bytes of the first buffered record that a pipe or device has taken already: they cannot be taken back.
+    // Bytes of the first buffered record that a pipe or device has already taken; they cannot be withdrawn.
     std::size_t half_ = 0;
     std::uint64_t written_ = 0, written_records_ = 0;
     std::uint64_t records_ = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `mavloom route --ring` says about a frame in its record of the ring: kind and verdict (docs/formats/ring.md). Values; any thread.
+// The kind and verdict that `mavloom route --ring` stores with each frame in the ring (docs/formats/ring.md). Plain
+// values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +10,26 @@
 
 namespace mavloom::ring {
 
-// The kind of a record that holds one whole MAVLink frame, with start byte, checksum and signature as it was received.
+// Kind of a record that holds one whole MAVLink frame as received, including start byte, checksum and signature.
 inline constexpr std::uint16_t ring_kind_frame = 1;
 
 enum class FrameSignature : std::uint8_t {
     none,       // the frame has no signature
-    unchecked,  // it has one, and nobody looked
-    good,       // it came by an endpoint with `verify=` and agrees
-    bad,        // it does not agree: a router never writes that, for it drops such frames
+    unchecked,  // it has one that was not checked
+    good,       // it came through an endpoint with `verify=` and is valid
+    bad,        // it is invalid; a router drops such frames and never writes them
 };
 
-// The record's verdict byte: bits 0 to 3 what became of the frame (0: the writer does not say), bits 4 and 5 its signature.
+// Builds the record's verdict byte. Bits 0 to 3: what became of the frame (0: the writer does not say). Bits 4 and 5:
+// its signature.
 [[nodiscard]] constexpr std::uint8_t ring_verdict(FrameSignature signature) noexcept {
     return static_cast<std::uint8_t>(static_cast<unsigned>(signature) << 4u);
 }
 [[nodiscard]] constexpr std::uint8_t ring_verdict(route::Verdict verdict, FrameSignature signature) noexcept {
     return static_cast<std::uint8_t>(ring_verdict(signature) | (static_cast<unsigned>(verdict) + 1u));
 }
-// What became of the frame; nothing where the writer did not say (mavloom.hear, `shm write`), or says what this version does not know.
+// Returns what became of the frame. Returns nothing if the writer did not say (mavloom.hear, `shm write`) or if the
+// value is unknown to this version.
 [[nodiscard]] constexpr std::optional<route::Verdict> verdict_of(std::uint8_t ring_verdict) noexcept {
     const unsigned number = ring_verdict & 15u;
     if (number == 0 || number > static_cast<unsigned>(route::Verdict::unknown_link) + 1u) return std::nullopt;
@@ -36,7 +39,7 @@ enum class FrameSignature : std::uint8_t {
     return static_cast<FrameSignature>((ring_verdict >> 4u) & 3u);
 }
 
-// Others read these numbers.
+// These numbers are part of the format: other programs read them.
 static_assert(static_cast<int>(route::Verdict::forwarded) == 0 && static_cast<int>(route::Verdict::nowhere) == 1 &&
               static_cast<int>(route::Verdict::filtered) == 2 && static_cast<int>(route::Verdict::rate_limited) == 3 &&
               static_cast<int>(route::Verdict::duplicate) == 4 && static_cast<int>(route::Verdict::echo) == 5 &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The counter page of a router's ring: the names of links, and copies of their counters, written now and then by the router's thread for whoever
-// looks. One owner thread.
+// The counter page of a router's ring: link names, and copies of the link counters for other processes to read.
+//
+// The router's thread refreshes the copies from time to time. One owner thread.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace mavloom::ring {
 
-// The counters of a link that stand in the page, under these labels.
+// A link counter that the page contains, and its label.
 struct PagedCounter {
     std::string_view label;
     Counter link::LinkCounters::*word;
@@ -35,24 +36,25 @@ inline constexpr std::array<PagedCounter, 12> paged_counters{{{"frames_in", &lin
 
 class RingPage {
 public:
-    static constexpr std::size_t most_rows = 256;  // links with counters of their own: the busiest
-    // Names of links that are gone, for their records that the ring still holds.
+    static constexpr std::size_t most_rows = 256;  // links that get counters of their own: the busiest ones
+    // Number of closed links whose names stay, because the ring still holds their records.
     static constexpr std::size_t most_gone = 1024;
 
     [[nodiscard]] static SetupResult<RingPage> create(const std::string& ring, unsigned mode);
 
     void name_link(LinkId link, std::string_view name);
     void link_went(LinkId link);
-    // The names of links of a router that was killed: they are gone, the lowest number first.
+    // Adds the link names that a killed router left. They count as closed links. The page forgets the lowest numbers
+    // first.
     void inherit(const std::map<LinkId, std::string>& names);
 
     struct OfRing {
         std::uint64_t records = 0, dropped = 0;
     };
-    // Copies what was counted. `inlet`: which of the endpoints it is.
+    // Copies the current counters into the page. `inlet`: which of the endpoints is the ring's inlet.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                  std::optional<link::EndpointId> inlet, const OfRing& ring);
-    // Somebody took the page's name away. Two system calls.
+    // Returns whether the page was removed or replaced. Makes two system calls.
     [[nodiscard]] bool is_removed() const noexcept { return page_.is_removed(); }
 
 private:
@@ -66,12 +68,12 @@ private:
 
     shm::CounterPage page_;
     std::map<LinkId, Words> rows_;
-    std::deque<LinkId> gone_;  // the longest gone first
+    std::deque<LinkId> gone_;  // the link that closed first comes first
     Words others_{};
     Counter *records_, *dropped_, *links_, *stray_bytes_, *refused_, *evicted_;
 };
 
-// The busiest links, at most `most`, by id. For tests.
+// Returns the busiest links, at most `most`, ordered by id. Public for tests.
 [[nodiscard]] std::vector<const link::LinkInfo*> busiest_links(const std::vector<link::LinkInfo>& links,
                                                                std::size_t most);
 

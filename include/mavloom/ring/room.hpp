@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much a turn may hand over, and what is left out. Plain values.
+// Limits for one turn: how many frames each kind of source may deliver, and whether copies are left out. Plain values.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace mavloom::ring {
 
-// How many frames a turn may hand over: of the recordings together, of lossless rings together, of the other rings together.
+// How many frames one turn may deliver. Recordings, lossless rings and lossy rings each share one budget.
 struct Room {
     explicit Room(std::size_t all) : recordings(all), lossless(all), lossy(all) {}
     Room(std::size_t r, std::size_t lossless_rings, std::size_t lossy_rings)
@@ -15,7 +15,7 @@ struct Room {
     std::size_t recordings, lossless, lossy;
 };
 
-// What the router of a ring marked as a duplicate or an echo: handed over, or left out and counted.
+// What happens to frames that the ring's router marked as a duplicate or an echo: delivered, or left out and counted.
 enum class Copies : std::uint8_t { kept, left_out };
 
 }  // namespace mavloom::ring

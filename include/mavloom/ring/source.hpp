@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// One ring as a source of frames: its records are parsed, what is no frame is counted, and the links that its writer heard them on become links here.
-// One owner thread.
+// Delivers the frames of one shared-memory ring, as if they were received here.
+//
+// It parses the records and counts those without a valid frame. Each link from which the ring's writer received frames
+// becomes a link here. One owner thread.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +22,7 @@
 
 namespace mavloom::ring {
 
-// Ids of rings and of their links lie above all that Links gives and above those of recordings.
+// Allocates ids for rings and their links. They are larger than all ids from Links and from recordings.
 class RingLinkIds {
 public:
     [[nodiscard]] std::uint32_t next() noexcept { return next_++; }
@@ -29,50 +31,52 @@ private:
     std::uint32_t next_ = 0xC000'0000;
 };
 
-// Records of a ring that were not handed over, by reason.
+// Records of a ring that were not delivered, by reason.
 struct RingLosses {
     std::uint64_t lapped = 0;       // overwritten before they were read
-    std::uint64_t bad_records = 0;  // held no whole valid frame
-    std::uint64_t other_kinds = 0;  // no MAVLink by their kind
-    std::uint64_t copies = 0;       // left out because the ring's router marked them as a copy or an echo
-    std::uint64_t echo = 0;         // what was sent to its inlet from here
+    std::uint64_t bad_records = 0;  // contained no complete valid frame
+    std::uint64_t other_kinds = 0;  // not MAVLink, according to their kind
+    std::uint64_t copies = 0;       // left out because the ring's router marked them as a duplicate or an echo
+    std::uint64_t echo = 0;         // frames that this process had sent to the ring's inlet
 };
 
 class RingSource {
 public:
-    // Answers go out by `links`, by the rules of `dialect` where there is one. It and the others must outlive the object.
+    // Answers are sent through `links`, using the rules of `dialect` if given. `table`, `ids`, `links` and `dialect`
+    // must outlive the object.
     RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
                link::Links& links, Copies copies, const dialect::Dialect* dialect = nullptr);
     RingSource(const RingSource&) = delete;
     RingSource& operator=(const RingSource&) = delete;
     ~RingSource();
 
-    // Opens the ring if it is there. What keeps it from being read is an error only where the endpoint is required.
+    // Opens the ring if it exists. Returns an error only if the ring cannot be opened and the endpoint is required.
     [[nodiscard]] SetupResult<void> open();
-    // Hands over at most `most` frames; returns how many.
+    // Delivers at most `most` frames. Returns how many.
     std::size_t play(link::LinkHandler& handler, std::size_t most);
-    // When to play next: at once while something waits that there was no room for. Asks the writer to wake this process before.
+    // Returns when to call play next: at once if frames are waiting, provided there is room. Asks the writer to wake
+    // this process earlier if it commits a record.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
-    // What is written from now on is left in the ring.
+    // Makes the current end of the ring the end of reading. Later records stay in the ring.
     void end_here() noexcept;
-    // Whether all before that was handed over.
+    // Returns whether everything up to that end was delivered.
     [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
-    // Held: not read, for want of room at who takes the frames.
+    // Paused: the consumer has no room for more frames.
     void hold(bool held) noexcept { held_ = held; }
 
-    // To the inlet; true when it was taken.
+    // Sends a frame to the ring's inlet. Returns true if it was accepted.
     bool send(const wire::FrameView& frame);
-    // Its endpoint, opened at the first call; the first error stands.
+    // Returns the inlet's endpoint; the first call opens it. If that fails, every later call returns the same error.
     [[nodiscard]] SetupResult<link::EndpointId> inlet();
     [[nodiscard]] RingLosses losses() const noexcept;
 
-    // Calls take(link, sources) for each link that was heard in the ring.
+    // Calls take(link, sources) for each link that appeared in the ring.
     template <class Take>
     void each_link(Take take) const {
         for (const auto& [name, link] : by_name_) take(link->id, link->tracker.sources());
     }
-    // Nothing of a link that was not heard.
+    // Returns nothing for a link that has not appeared.
     [[nodiscard]] std::span<const wire::SequenceStats> losses(const std::string& link) const {
         const auto known = by_name_.find(link);
         return known == by_name_.end() ? std::span<const wire::SequenceStats>{} : known->second->tracker.sources();
@@ -90,14 +94,14 @@ private:
         LinkId id;
         wire::DatagramParser parser;
         wire::SequenceTracker tracker;
-        std::uint64_t heard = 0;  // when it spoke last, as others count
-        bool own = false;         // what was sent to the inlet comes back on it
+        std::uint64_t heard = 0;  // value of heard_ at its last frame
+        bool own = false;         // this process's own link, on which frames sent to the inlet come back
     };
     struct Found {
         wire::FrameView frame;
         const wire::MessageInfo* info;
     };
-    // What was last said of it, so that it is said once.
+    // The kind of the last notice, so that each is reported only once.
     enum class Told : std::uint8_t { nothing, absent, unreadable, unwritten, damaged };
 
     [[nodiscard]] bool read(link::LinkHandler& handler);
@@ -106,7 +110,8 @@ private:
     void hand_over(link::LinkHandler& handler, const Found& found);
     void nothing_comes(shm::ReadError why, link::LinkHandler& handler);
     void tell(link::LinkHandler& handler, Told what, std::string_view text);
-    // Others wrote meanwhile, or records were missed: what the links lost cannot be told from the numbers any longer.
+    // Restarts loss counting. After a change of writer or missed records, per-link loss cannot be derived from sequence
+    // numbers.
     void forget_sequences();
     [[nodiscard]] RingLink& link_of(LinkId in_ring, link::LinkHandler& handler);
     [[nodiscard]] RingLink& link_called(const std::string& name, link::LinkHandler& handler);
@@ -125,24 +130,25 @@ private:
     const dialect::Dialect* dialect_;
     shm::RingFollower follower_;
     Told told_ = Told::nothing;
-    MonoTime next_look_{};                    // at a ring that is not open, or that is damaged
-    bool more_ = false;                       // the last turn ended for want of room
-    bool awaited_ = false;                    // the next ring was not there before: all of it is wanted
-    std::uint64_t opened_ = 0, writers_ = 0;  // the ring and its writer, who gives links their numbers
-    std::optional<std::uint64_t> end_;        // where reading stops
+    MonoTime next_look_{};  // when to look again at a ring that is missing or damaged
+    bool more_ = false;     // the last turn ended because it had no more room
+    bool awaited_ = false;  // the ring was absent: records overwritten before the first read count as lost
+    // The ring and writer to which the link numbers belong.
+    std::uint64_t opened_ = 0, writers_ = 0;
+    std::optional<std::uint64_t> end_;  // the position at which reading stops
     bool at_end_ = false, held_ = false;
 
     std::map<std::string, std::unique_ptr<RingLink>> by_name_;
-    std::unordered_map<LinkId, RingLink*> by_number_;  // of the ring
-    std::map<LinkId, std::string> names_;              // of the counter page
+    std::unordered_map<LinkId, RingLink*> by_number_;  // by the number in the ring
+    std::map<LinkId, std::string> names_;              // from the counter page
     bool any_unnamed_ = false;
     MonoTime next_names_{};
     std::uint64_t heard_ = 0;
     LinkId last_number_{};
     RingLink* last_ = nullptr;
 
-    std::vector<std::uint8_t> copy_;  // of a record that a writer could take away
-    std::vector<Found> found_;        // in the record that was read last
+    std::vector<std::uint8_t> copy_;  // of a record that an evicting writer could overwrite
+    std::vector<Found> found_;        // frames of the last record
     std::size_t next_found_ = 0;
     WallTime time_{};
     std::uint8_t verdict_ = 0;

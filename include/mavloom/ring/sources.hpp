@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shared-memory rings of Sources. One owner thread, beside which shm::RingWaiter's sleeps.
+// The set of shared-memory rings that a program reads frames from. One owner thread; the RingWaiter inside runs a
+// helper thread of its own.
 #pragma once
 
 #include <memory>
@@ -21,20 +22,20 @@ public:
     [[nodiscard]] SetupResult<link::EndpointId> add(const endpoint::Endpoint& endpoint,
                                                     const dialect::Dialect* dialect = nullptr);
     void remove(link::EndpointId ring);
-    // Null where there is none.
+    // Returns null if there is no such ring.
     [[nodiscard]] RingSource* find(link::EndpointId ring) const noexcept;
     [[nodiscard]] bool empty() const noexcept { return rings_.empty(); }
 
-    // When to play next, and asks to be woken before when something is written.
+    // Returns when to call play next. Asks to be woken earlier when a record is written.
     [[nodiscard]] MonoTime due(const Room& room);
-    // Hands over what stands there; returns how many frames.
+    // Delivers the waiting frames. Returns how many.
     std::size_t play(link::LinkHandler& handler, const Room& room);
-    // What is written from now on is left in the rings.
+    // Makes the current end of each ring the end of reading. Later records stay in the rings.
     void end_here() noexcept;
-    // Whether all that was written before is handed over.
+    // Returns whether everything up to those ends was delivered.
     [[nodiscard]] bool at_end() const noexcept;
 
-    // To each ring's inlet, which is opened with the first answer. Returns how many took it.
+    // Sends a frame to each ring's inlet, which the first such frame opens. Returns how many inlets accepted it.
     std::size_t send(const wire::FrameView& frame);
     [[nodiscard]] std::span<const std::unique_ptr<RingSource>> rings() const noexcept { return rings_; }
 
@@ -46,7 +47,7 @@ private:
     Copies copies_;
     shm::RingWaiter waiter_;
     std::vector<std::unique_ptr<RingSource>> rings_;
-    std::vector<std::uint64_t> watched_;  // which opening of each ring the waiter sleeps on; 0: none
+    std::vector<std::uint64_t> watched_;  // the opening of each ring that the waiter sleeps on; 0: none
     std::size_t first_ = 0;
     RingLinkIds link_ids_;
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The router's end of a ring: every good frame once, as it was received, with link and verdict; and the ring's counter page. Nobody who reads can
-// hold up or end the routing. One owner thread. Per frame it neither allocates, locks nor makes a system call, but for
-// one a millisecond while a reader sleeps.
+// The writing end of a router's ring: records every good frame once, as received, with its link and verdict. Also
+// maintains the ring's counter page.
+//
+// Readers can neither delay nor stop the routing. One owner thread. Writing a frame neither allocates nor locks. It
+// makes no system call, except a wake-up at most once per millisecond while a reader sleeps.
 #pragma once
 
 #include <functional>
@@ -23,17 +25,19 @@ namespace mavloom::ring {
 
 class RingTap {
 public:
-    // Carries on in a ring whose writer was killed. Errors as of RingWriter::open. `ready` is called by a thread of the tap's when look_after() has
-    // something to do.
+    // Creates the ring, or continues one whose writer was killed. Same errors as RingWriter::open. A thread of the tap
+    // calls `ready` when look_after() has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
         const std::string& name, const shm::RingOptions& options, std::function<void()> ready = [] {});
-    // The last link number of whoever wrote the ring before: readers that lag behind must not find other links under them.
+    // The last link number that the ring's earlier writers used. New links must get higher numbers, so that a slow
+    // reader does not find a different link under an old number.
     [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
-    ~RingTap();  // removes the ring and its page; a router that could not start leaves a ring that was there before
+    // Removes the ring and its page. A router that could not start leaves a ring that existed before.
+    ~RingTap();
 
-    // `verified`: came by an endpoint with verify=.
+    // `verified`: the frame came through an endpoint with verify=.
     void write(const link::RxFrame& rx, route::Verdict verdict, bool verified) noexcept {
         const auto signature = !rx.frame.is_signed() ? FrameSignature::none
                                : verified            ? FrameSignature::good
@@ -52,7 +56,7 @@ public:
         if (page_) page_->link_went(link);
     }
 
-    // Behind each turn: the page is due soon where there is something new.
+    // Call after each turn. If anything changed, the page becomes due soon.
     void note_turn(std::size_t frames, MonoTime now) noexcept {
         ran_ = true;
         const bool is_new = std::exchange(links_changed_, false) || frames != 0;
@@ -61,7 +65,8 @@ public:
     [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
     void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet);
 
-    // About once a second: a ring or page that somebody removed is made anew, the ring on another thread. What is to be said.
+    // Call about once a second. Recreates a removed ring or page; the ring is created on another thread. Returns
+    // notices for the log.
     [[nodiscard]] std::vector<std::string> look_after(const link::Links& links);
 
 private:
@@ -80,14 +85,14 @@ private:
     shm::RingOptions options_;
     std::function<void()> ready_;
     shm::RingWriter writer_;
-    std::future<SetupResult<shm::RingWriter>> making_;  // valid while a ring is made anew
+    std::future<SetupResult<shm::RingWriter>> making_;  // valid while the ring is being recreated
     std::jthread beside_;
     std::optional<RingPage> page_;
-    Counter dropped_;  // frames that are not in the ring
+    Counter dropped_;  // frames that the ring did not take
     MonoTime page_due_{};
     LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
-    bool told_ring_ = false, told_page_ = false;  // that it cannot be made anew
+    bool told_ring_ = false, told_page_ = false;  // whether the failure to recreate it was already reported
 };
 
 }  // namespace mavloom::ring

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Decides where a frame goes: a frame and the link it came on in, a set of links out. Learns which system and component is behind which link,
-// knows groups of redundant links, filters, rate limits, copies and echoes. It opens nothing, sends nothing and reads no clock.
+// The routing engine decides which links a frame is sent to, given the frame and the link on which it arrived.
+// It learns which systems and components are behind each link. It handles groups of redundant links, filters, rate
+// limits, copies and echoes. It opens nothing, sends nothing and reads no clock. Rules: docs/guide/routing.md.
 //
-// One owner thread; the counters' values may be read from any. Allocates when it is made and when links or options change, never for a
-// frame; memory is bounded whatever is sent (the constants of Engine). routing.md section 5, DESIGN.md section 4, docs/guide/routing.md.
+// One thread owns an engine; any thread may read the counters. The engine allocates at construction and when links or
+// options change, never for a frame. Its memory is bounded whatever arrives: see the constants of Engine.
 #pragma once
 
 #include <cstddef>
@@ -25,74 +26,79 @@
 
 namespace mavloom::route {
 
-using GroupId = Id<struct GroupTag, std::uint32_t>;  // 0: no group
+using GroupId = Id<struct GroupTag, std::uint32_t>;  // 0 means no group
 
 struct Options {
-    Nanoseconds dedup{};  // a frame heard again within this time, on whatever link, is dropped; 0: off
-    UnknownComponent unknown_component =
-        UnknownComponent::system;  // the system is known, the component is not: to the system's links
+    Nanoseconds dedup{};  // drops a frame that arrives again on any link within this time; 0 turns this off
+    UnknownComponent unknown_component = UnknownComponent::system;
     UnknownTarget unknown_target = UnknownTarget::drop;
     Nanoseconds route_timeout = std::chrono::seconds{60};
-    std::optional<Source> own{};           // the program's own id: what is targeted at exactly it is for the program
-    std::size_t recent_frames = 1u << 16;  // remembered for copies and echoes; rounded up to a power of two
-    std::uint64_t seed = 0;  // a random number keeps a hostile sender from making frames that look like another's copies
+    std::optional<Source> own{};  // the program's own id; frames targeted at exactly this id are not forwarded
+    // How many frames to remember, to detect copies and echoes. Rounded up to a power of two and limited to 8 MiB.
+    std::size_t recent_frames = 1u << 16;
+    // Seeds the frame hash. With a random seed, a hostile sender cannot forge frames that pass for copies of others.
+    std::uint64_t seed = 0;
 };
 
 struct LinkPolicy {
     Filter in{}, out{};
     GroupId group{};
-    GroupMode group_mode = GroupMode::all;  // the group's first link decides
-    std::uint32_t group_order = 0;          // `primary`: the lowest first; equal ones in the order of adding
-    bool tap = false;                       // gets every good frame, whatever its verdict; contributes nothing
-    bool is_private = false;  // nothing from it is forwarded; gets only what is targeted at exactly a pair heard on it
+    GroupMode group_mode = GroupMode::all;  // the first link of a group sets the mode of the group
+    std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
+    // A tap gets every good frame from the other links, whatever its verdict. Frames from a tap go nowhere.
+    bool tap = false;
+    // Frames from a private link go to taps only. The link gets only frames targeted at exactly a system and
+    // component heard on it.
+    bool is_private = false;
     dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
-    std::optional<Nanoseconds> route_timeout{};  // instead of the router's: for links of high latency
+    std::optional<Nanoseconds> route_timeout{};  // overrides Options::route_timeout, for high-latency links
 };
 
 struct GroupOrder {
     LinkId link;
-    std::uint32_t order = 0;  // as LinkPolicy::group_order
+    std::uint32_t order = 0;  // see LinkPolicy::group_order
 };
 
 enum class Verdict : std::uint8_t {
     forwarded,
-    nowhere,         // there is no other link for it: alone, or its target is where it came from
-    filtered,        // by the input filter, or by the output filters of all links it could go to
-    rate_limited,    // max_rate or max_bytes of all links it could go to
-    duplicate,       // heard before on another link of the group or within `dedup`, or already sent to all
-    echo,            // came back on a link that it was sent to
-    unknown_target,  // targeted at a system or component that is not known
+    nowhere,         // no other link qualifies, for example when the target is on the link it came from
+    filtered,        // dropped by the input filter, or by the output filter of every candidate link
+    rate_limited,    // dropped by max_rate or max_bytes of every candidate link
+    duplicate,       // already received on another link of the group or within `dedup`, or already sent everywhere
+    echo,            // returned on a link that it had been sent to
+    unknown_target,  // targeted at an unknown system or component
     consumed,        // targeted at the program's own id
-    tap,             // came from a tap
-    private_link,    // came from a private link
-    unknown_link,    // the engine does not have the link that it came on
+    tap,             // arrived on a tap
+    private_link,    // arrived on a private link
+    unknown_link,    // arrived on a link that the engine does not have
 };
 [[nodiscard]] std::string_view verdict_name(Verdict verdict) noexcept;
 
 struct Decision {
     Verdict verdict = Verdict::nowhere;
-    // Where to send the frame; valid until the next call. Taps are among them whatever the verdict is.
+    // The links to send the frame to; valid until the next call. It includes taps, except for frames that arrived on a
+    // tap or on an unknown link.
     std::span<const LinkId> links{};
 };
 
-// Why one link gets a frame or not.
+// Why one link did or did not get a frame.
 enum class Reason : std::uint8_t {
     sent,
-    tap,            // gets everything
-    dropped,        // the frame went to nobody, see the verdict
-    ingress,        // it came from there
-    same_group,     // it came from another link of the same group
-    source_here,    // its own sender was heard on this link
-    other_target,   // its target was not heard on this link
-    private_link,   // private, and the frame not for exactly a pair that was heard there
+    tap,            // sent: a tap gets every frame
+    dropped,        // the frame went to no link; the verdict says why
+    ingress,        // the frame arrived on this link
+    same_group,     // the frame arrived on another link of the same group
+    source_here,    // the frame's sender was heard on this link
+    other_target,   // the frame's target was not heard on this link
+    private_link,   // a private link, and the frame is not for exactly a system and component heard on it
     filtered,       // by the link's output filter
-    other_member,   // another link of the group carries it
-    already_sent,   // another link brought the same bytes a moment ago, and they were sent there then
-    rate_limited,   // max_rate
-    bytes_limited,  // max_bytes
+    other_member,   // another link of the group carries the frame
+    already_sent,   // the frame arrived earlier on another link and was already sent to this one
+    rate_limited,   // by the link's max_rate
+    bytes_limited,  // by the link's max_bytes
 };
-// A sentence part for people: "its own sender was heard on this link".
+// A phrase for people, for example "its own sender was heard on this link".
 [[nodiscard]] std::string_view reason_text(Reason reason) noexcept;
 
 struct Explanation {
@@ -100,7 +106,8 @@ struct Explanation {
     Reason reason = Reason::sent;
 };
 
-// Of frames that came in on one link: frames = the sum of the verdicts. The last three are of frames that did not go out on it.
+// Counts of one link. `frames` counts the frames that arrived on it and is the sum of the verdict counters. The three
+// `out_` counters count frames that the link's output filter or limits held back.
 struct LinkCounters {
     Counter frames;
     Counter forwarded, nowhere, filtered, rate_limited, duplicate, echo, unknown_target, consumed, tap, private_link;
@@ -109,22 +116,23 @@ struct LinkCounters {
 
 struct EngineCounters {
     Counter unknown_link;
-    Counter routes_learned;  // new or learned again
+    Counter routes_learned;  // new, or learned again after they were forgotten
     Counter routes_expired;
-    Counter routes_evicted;  // the stalest of a link, or of the busiest link, for a new one: a table was full
-    Counter recent_evicted;  // remembered frames that gave way before their time: an echo of them is not known
-    Counter reboots;         // of a system: note_reboot
-    Counter duplicate_ids;   // sources heard in turn on links that are not of one group
+    Counter routes_evicted;  // the stalest route of a full link, or of the link with most routes if the table is full
+    Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
+    Counter reboots;         // restarts of a system, see note_reboot
+    Counter duplicate_ids;   // sources heard alternately on links that do not share a group
 };
 
 struct RouteInfo {
     LinkId link;
     Source source;
-    Nanoseconds age{};         // since it was last heard
-    std::uint64_t frames = 0;  // that taught it; a reboot does not reset it
+    Nanoseconds age{};         // since the last frame
+    std::uint64_t frames = 0;  // received from the source on this link; a reboot does not reset it
 };
 
-// One system and component heard in turn on two links that are not of one group: two senders of one id, or redundant links without `group`.
+// One system and component that is heard alternately on two links that do not share a group. Either two senders use
+// one id, or the links are redundant and lack `group`.
 struct DuplicateId {
     Source source;
     LinkId first, second;
@@ -139,18 +147,19 @@ class Engine {
 public:
     static constexpr std::size_t max_links = 4096;
     static constexpr std::size_t max_routes = 1u << 16;
-    static constexpr std::size_t max_routes_per_link = 2048;  // 250 systems of 5 components are 1,250
+    static constexpr std::size_t max_routes_per_link = 2048;  // enough for 250 systems of 5 components: 1,250
     static constexpr std::size_t max_duplicate_ids = 256;
-    // How long a frame is remembered where it was sent to, for echoes and for copies within a group (longer if `dedup` is).
+    // How long the engine detects echoes and copies of a frame. It remembers frames longer if `dedup` is longer.
     static constexpr Nanoseconds echo_window = std::chrono::seconds{2};
-    // A link of a group that was not heard for this long is silent: `best` and `primary` choose another.
+    // A group's link is silent after this long without a frame. `best` and `primary` then choose another link.
     static constexpr Nanoseconds member_silence = std::chrono::seconds{3};
-    // `best` leaves its link for another only if that heard so many more HEARTBEATs of the last 128 to 256: 2 % to 4 %.
-    // With few vehicles that is more than are under way at one time on links of unequal delay. With a fleet it need not be: of 20 a second, over
-    // links 0.7 s apart, 14 are, and those may count as lost.
+    // `best` leaves a live link only for one that received this many more of the last 128 to 256 HEARTBEATs, that is
+    // 2 % to 4 %. The margin covers HEARTBEATs still in flight on the slower link. With few vehicles it suffices.
+    // A fleet can exceed it: at 20 HEARTBEATs a second and 0.7 s of difference in delay, 14 are in flight. Those may
+    // count as lost.
     static constexpr std::uint32_t better_by_beats = 5;
-    static constexpr std::uint32_t most_beats = 256;  // then all links of the group go on with half of theirs
-    // A HEARTBEAT that its link brings twice within this time of its first copy is a datagram that was doubled, and counts once.
+    static constexpr std::uint32_t most_beats = 256;  // at this count, all links of the group halve their counts
+    // A HEARTBEAT that arrives again on the same link within this time is a duplicated datagram and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
 
     // `table` must outlive the engine.
@@ -159,48 +168,51 @@ public:
     Engine& operator=(Engine&&) noexcept;
     ~Engine();
 
-    // False when there are max_links, or the id is there already or 0.
+    // Returns false if there are max_links links already, or if the id is 0 or in use.
     bool add_link(LinkId link, const LinkPolicy& policy);
-    // Forgets the link and its routes. Nothing happens for an id that is not there.
+    // Forgets the link and its routes. Ignores an unknown id.
     void remove_link(LinkId link);
     [[nodiscard]] std::size_t links() const noexcept;
-    // Other rules for the same links: routes, counters and what was heard lately stay. `seed` and `recent_frames` are those of the beginning.
+    // Changes the rules. Links, routes, counters and remembered frames stay. `seed` and `recent_frames` are ignored:
+    // they keep the values given to the constructor.
     void set_options(const Options& options);
-    // Instead of the group_order that their policies gave. Nothing happens for an id that is not there.
+    // Replaces the group_order of the policies of these links. Ignores unknown ids.
     void set_group_orders(std::span<const GroupOrder> orders);
 
-    // What `route` knows the frame's bytes by. Who calls this first, and something else before `route`, has their place among the frames of the
-    // last moments fetched from memory meanwhile. The mark holds until links or options change.
+    // Returns the hash of the frame, for `route`. Call it early: it prefetches the entry that `route` needs. The hash
+    // is valid until links or options change.
     [[nodiscard]] std::uint64_t mark_of(const wire::FrameView& frame) const noexcept;
-    // Where the frame goes. `info` is null for an id without definition. `now` never goes back. At most a few tens of nanoseconds.
+    // Decides where the frame goes and learns its route. `info` is null for a message id without definition. `now`
+    // should not go backwards: an earlier time counts as the latest one seen. Takes at most some tens of nanoseconds.
     [[nodiscard]] Decision route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
                                  LinkId ingress, MonoTime now) noexcept;
     [[nodiscard]] Decision route(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress,
                                  MonoTime now) noexcept {
         return route(frame, mark_of(frame), info, ingress, now);
     }
-    // The same with the table's own look-up.
+    // The same, but looks up `info` in the table.
     [[nodiscard]] Decision route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept;
-    // The same, and writes into `why` the reason for every link, by rising id. Allocates.
+    // The same, and fills `why` with the reason for every link, sorted by link id. Allocates.
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
                      std::vector<Explanation>& why);
 
-    // The program itself sent this frame to the link: if it comes back, it is an echo.
+    // Call this when the program itself sent the frame to the link. If the frame comes back, it is an echo.
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
 
-    // A frame of this source, which was routed already, showed that its system has started again (wire::SequenceTracker finds that out): forgets
-    // the system's routes, but for this one. Nothing happens where another link reported a restart of the system in the last 10 s: it is the same one.
+    // Call this after `route` when a frame of `source` shows that its system restarted (see wire::SequenceTracker).
+    // Forgets all routes of the system except the one from `source` to `link`. Does nothing if another link reported a
+    // restart of the system in the last 10 s: that was the same restart.
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
 
-    // Learned routes that are not too old, by system, component and link. Allocates.
+    // The routes that have not timed out, sorted by system, component and link. Allocates.
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
-    // In the order in which they were noticed; `counters().duplicate_ids` tells when there is a new one.
+    // The first max_duplicate_ids duplicate ids, in order of detection. `counters().duplicate_ids` counts all.
     [[nodiscard]] std::span<const DuplicateId> duplicate_ids() const noexcept;
-    // Targets of which frames were dropped as unknown_target, by system and component. Allocates.
+    // The targets of frames dropped as unknown_target, sorted by system and component. Allocates.
     [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;
 
     [[nodiscard]] const EngineCounters& counters() const noexcept;
-    // Null for a link that is not there; stays where it is until the link is removed.
+    // Null for an unknown link. The pointer is valid until the link is removed.
     [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept;
 
 private:

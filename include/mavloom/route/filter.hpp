@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which frames a link takes in or gives out: filter terms as users type them, looked up once against a dialect. A frame must match every kind of term (message, system, component) that the allow list names, and none that the block list names.
-// Immutable values, safe from any thread; compiling allocates, asking does not. docs/guide/routing.md,
-// "Filters and limits".
+// A filter decides which frames a link accepts or sends. It is compiled once from the terms that a user typed and a
+// dialect. A frame must match every kind of term (message, system, component) that the allow list names. It must match
+// no term of the block list. See docs/guide/routing.md, "Filters and limits".
+//
+// Filters are immutable values, safe to use from any thread. Compiling allocates; `admits` does not.
 #pragma once
 
 #include <array>
@@ -20,10 +22,10 @@ class Dialect;
 
 namespace mavloom::route {
 
-// One list of terms. `option` stands in front of an error: "out_allow".
+// One list of terms. `option`, for example "out_allow", prefixes error messages.
 struct FilterTerms {
     std::string_view option{};
-    std::span<const std::string> messages{};  // names, or plain ids for messages without definition too
+    std::span<const std::string> messages{};  // names or numeric ids; an id needs no definition
     std::span<const std::uint8_t> systems{}, components{};
 };
 
@@ -31,7 +33,7 @@ class Filter {
 public:
     // Admits everything.
     Filter() noexcept;
-    // The error is `usage` and names the nearest message.
+    // Fails with `usage` for an unknown message name; the error text suggests the nearest name.
     [[nodiscard]] static SetupResult<Filter> compile(const dialect::Dialect& dialect, const FilterTerms& allow,
                                                      const FilterTerms& block);
 
@@ -42,7 +44,7 @@ public:
     friend bool operator==(const Filter&, const Filter&) = default;
 
 private:
-    static constexpr std::uint32_t near_size = 1024;  // ids that are looked up by bit
+    static constexpr std::uint32_t near_size = 1024;  // smaller ids are looked up in a bit set
     using Bits256 = std::array<std::uint64_t, 4>;
 
     template <std::size_t n>
@@ -56,8 +58,8 @@ private:
 
     Bits256 systems_, components_;
     std::array<std::uint64_t, near_size / 64> near_;
-    bool far_passes_ = true;            // ids beyond that are not among far_
-    std::vector<std::uint32_t> far_{};  // rising; those of which the opposite holds
+    bool far_passes_ = true;            // whether ids from near_size up pass by default
+    std::vector<std::uint32_t> far_{};  // sorted: the exceptions to far_passes_
 };
 
 }  // namespace mavloom::route

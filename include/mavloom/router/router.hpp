@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The router: links, the routing engine, a recording of all that arrives, and the router's own heartbeat, bound together on one thread. Bytes
-// in are bytes out (DESIGN.md rule 1). Endpoints come and go while it runs; those that did not change keep their links and routes.
+// The router forwards frames between links and never changes their bytes. It joins links, the routing engine,
+// recordings, an optional shared-memory ring and the router's own heartbeat on one thread. Endpoints can be added and
+// removed while it runs; unchanged endpoints keep their links and routes. See docs/guide/route.md.
 //
-// Owned and driven by one thread; `wake` and `post` may be called from any. The frame path neither allocates, locks nor logs, unless an
-// Explainer is set. DESIGN.md sections 3 and 4, docs/guide/route.md.
+// One thread owns and drives a router; any thread may call `wake` and `post`. The frame path does not allocate, lock or
+// log, unless an Explainer is set.
 #pragma once
 
 #include <atomic>
@@ -37,9 +38,9 @@ class SilenceWatch;
 
 class Router : public control::Served, private link::LinkHandler {
 public:
-    // What a person should know: links that came and went, odd things. Called on the router's thread.
+    // Log lines for people: links that come and go, and anything unusual. Called on the router's thread.
     using Notice = std::function<void(config::LogLevel, std::string_view)>;
-    // Called for every frame that is good, with the engine's decision and its reasons by link.
+    // Called for every good frame, with the engine's decision and its reason for each link.
     using Explainer =
         std::function<void(const link::RxFrame&, const route::Decision&, std::span<const route::Explanation>)>;
 
@@ -50,36 +51,40 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router() override;
 
-    // The group_mode= that these endpoints name, by group. Two modes for one group are an error.
+    // The modes that these endpoints set by `group_mode=`, by group name. Fails if a group has two modes.
     using GroupModes = std::map<std::string, endpoint::GroupMode>;
     [[nodiscard]] static SetupResult<GroupModes> group_modes_of(std::span<const endpoint::Endpoint> endpoints);
-    // Of all endpoints that will be there, before the first is added: one that names no mode takes that of its group.
+    // Learns the group modes of all endpoints that will be added; call it before the first `add`. An endpoint without
+    // `group_mode=` then gets the mode of its group.
     [[nodiscard]] SetupResult<void> learn_group_modes(std::span<const endpoint::Endpoint> endpoints);
-    // A link endpoint, or tlog://PATH: a recording of every frame that arrives, taken before routing.
+    // Adds a link endpoint or a recording. A recording, tlog://PATH, gets every good frame on arrival, before routing.
     [[nodiscard]] SetupResult<void> add(const endpoint::Endpoint& endpoint);
-    // Every good frame that arrives is written once into a ring, whatever becomes of it, and a counter page tells of the links (docs/formats/ring.md).
-    // Carries on in a ring whose router was killed; errors as of shm::RingWriter::open. At the end ring and page are removed. Once, before the
-    // first turn.
+    // Opens a shared-memory ring and its counter page (docs/formats/ring.md). The router writes every good frame that
+    // arrives into the ring once, whatever its verdict. The page holds the counters of the links. If a killed router
+    // left the ring, this router continues it. `finish` and the destructor remove ring and page. Call once, before the
+    // first turn. Errors as of shm::RingWriter::open.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
-    // The socket by which who reads that ring sends frames: Links::add_inlet.
+    // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
-    // An endpoint or recording by its label (`name=`, else the URL without its query), or a peer or client by its link's name: it is closed, and is
-    // a new link if it speaks again. False when there is none.
+    // Removes an endpoint or recording by its label: `name=`, or else the URL without its query. A link's name closes
+    // the link of one peer or client; if it sends again, it gets a new link. Returns false if nothing has that name.
     bool remove(std::string_view label);
-    // Other [router] values. Links stay, and so does what was learned and counted.
+    // Applies new [router] values. Links, routes and counters stay.
     void configure(const config::RouterConfig& config);
-    // The endpoints become these, which agree on their groups' modes (group_modes_of): those that are the same, and the keys in their files, stay as they are. What could not be opened is told and
-    // left out; one of the same name that was there before is opened again.
+    // Replaces the endpoints and recordings by `endpoints`, for which group_modes_of must succeed. An endpoint stays
+    // untouched if its options, its group's mode and the contents of its key files are unchanged. If an endpoint cannot
+    // be opened, the router reports it and leaves it out, and reopens the former endpoint of the same label, if any.
     void become(const std::vector<endpoint::Endpoint>& endpoints);
 
-    // Says something as the router itself does.
+    // Logs a line through the router's Notice.
     void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
 
     void explain(Explainer explainer) { explainer_ = std::move(explainer); }
 
-    // One turn of the links; then what was posted, and what is due.
+    // Runs one turn of the links, which waits until `deadline` at most. Then runs one posted item and does what is due.
     void turn(MonoTime deadline);
-    // Sends what is queued for at most `limit`, closes the recordings, and removes the ring.
+    // Handles frames that have already arrived, sends queued frames for at most `limit`, closes the recordings and
+    // removes the ring.
     void finish(Nanoseconds limit);
 
     // Async-signal-safe.
@@ -90,7 +95,7 @@ public:
     [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
     [[nodiscard]] control::Later<std::string> metrics() override;
 
-    // For reports, on the router's thread.
+    // For reports; on the router's thread only.
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
@@ -99,18 +104,18 @@ public:
     }
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
-    // Frames that left without our signature on a link with `sign=`, because they came from a link without `verify=`.
+    // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
     [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
     [[nodiscard]] MonoTime started() const noexcept { return started_; }
 
 private:
-    static constexpr std::size_t most_told = 100;  // lines about links of one endpoint in a row
+    static constexpr std::size_t most_told = 100;  // burst limit of log lines about links of one endpoint
     struct OpenedEndpoint {
         link::EndpointId id;
         endpoint::Endpoint endpoint;
         route::LinkPolicy policy;
         bool verifies = false;
-        std::size_t may_tell = most_told, not_told = 0;  // lines about its links
+        std::size_t may_tell = most_told, not_told = 0;  // lines about its links: remaining budget, suppressed
     };
 
     Router(const dialect::Dialect& dialect, const config::RouterConfig& config, Notice notice,
@@ -134,7 +139,8 @@ private:
     void speak_on(LinkId link, link::EndpointId endpoint);
     void forget_link(LinkId link);
     bool close_link(std::string_view name);
-    // Of a crowd of links of an endpoint that come and go a few are told, and how many there were.
+    // Limits the log lines about links that come and go. Spends one line of the endpoint's budget, or returns false and
+    // counts the suppressed line.
     [[nodiscard]] bool may_tell_of_link(link::EndpointId endpoint) noexcept;
     void send(const link::RxFrame& rx, std::span<const LinkId> links);
     void count_loss(const link::RxFrame& rx);
@@ -157,18 +163,18 @@ private:
     std::vector<route::Explanation> why_;
     observe::TrafficTable traffic_;
     std::vector<std::unique_ptr<OpenedEndpoint>> endpoints_;
-    std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null: removed
+    std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null if removed
     std::vector<std::string> groups_;     // by GroupId - 1
     GroupModes group_modes_;
     std::vector<std::unique_ptr<record::Recorder>> recorders_;
     std::vector<std::unique_ptr<record::Recorder>> ending_recorders_;  // removed, and still writing
-    std::vector<endpoint::Endpoint> recordings_;                       // what each recorder was made from
-    std::unique_ptr<OpenedEndpoint> inlet_;                            // null: none
-    std::unique_ptr<ring::RingTap> ring_;                              // null: none
+    std::vector<endpoint::Endpoint> recordings_;                       // the endpoint of each recorder
+    std::unique_ptr<OpenedEndpoint> inlet_;                            // null if there is none
+    std::unique_ptr<ring::RingTap> ring_;                              // null if there is none
     std::unique_ptr<OwnMessages> own_messages_;                        // never null
     std::unique_ptr<SilenceWatch> silence_;                            // never null
     bool any_signs_ = false;
-    bool a_link_went_ = false;  // for good or for a while: its rows in the table may be nobody's
+    bool a_link_went_ = false;  // a link went down or was removed, so traffic_ may hold rows of a link that is gone
     Counter not_signed_;
     std::size_t duplicate_ids_told_ = 0;
     MonoTime started_ = mono_now();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Hands objects from one thread of this process to another: bounded, first in, first out, without locks. moodycamel's circular buffer (Debian's
-// libreaderwriterqueue-dev), whose header stays inside. One thread pushes, one pops; made and destroyed while neither does. Allocates at construction
-// only; the objects are the users'.
+// A bounded, lock-free queue that hands objects from one thread of this process to another, first in, first out.
+//
+// Exactly one thread pushes and exactly one pops. Construct and destroy the queue while neither is active. Memory is
+// allocated only at construction. The queue owns the objects that it holds. It wraps moodycamel's circular buffer
+// (Debian package libreaderwriterqueue-dev), whose header is not exposed here.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +22,7 @@ public:
     ~PointerQueue();
 
     [[nodiscard]] bool try_push(void* pointer) noexcept;
-    [[nodiscard]] void* try_pop() noexcept;  // null: empty
+    [[nodiscard]] void* try_pop() noexcept;  // null if empty
     [[nodiscard]] void* pop(MonoTime deadline) noexcept;
     [[nodiscard]] std::size_t size() const noexcept;
 
@@ -33,27 +35,28 @@ private:
 template <class T>
 class BoundedQueue {
 public:
-    // `capacity` objects, at least one.
+    // Holds up to `capacity` objects, at least one.
     explicit BoundedQueue(std::size_t capacity) : queue_(capacity) {}
     ~BoundedQueue() {
         while (try_pop()) continue;
     }
 
-    // Takes `object` over; false, with `object` as it was, when the queue is full. `object` must not be null.
+    // Takes ownership of `object`. If the queue is full, returns false and leaves `object` unchanged. `object` must not
+    // be null.
     [[nodiscard]] bool try_push(std::unique_ptr<T>& object) noexcept {
         if (!queue_.try_push(object.get())) return false;
         static_cast<void>(object.release());
         return true;
     }
-    // Null when there is nothing.
+    // Returns null if the queue is empty.
     [[nodiscard]] std::unique_ptr<T> try_pop() noexcept {
         return std::unique_ptr<T>(static_cast<T*>(queue_.try_pop()));
     }
-    // Waits for an object until `deadline`.
+    // Waits for an object until `deadline`. Returns null on timeout.
     [[nodiscard]] std::unique_ptr<T> pop(MonoTime deadline) noexcept {
         return std::unique_ptr<T>(static_cast<T*>(queue_.pop(deadline)));
     }
-    // Exact for neither side while the other is at work.
+    // Approximate while the other thread is pushing or popping.
     [[nodiscard]] std::size_t size() const noexcept { return queue_.size(); }
 
 private:

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Counters in a page of shared memory, /dev/shm/mavloom.NAME.stat: typed, labelled, readable at any time by anybody who may open it, without the
-// program that counts noticing. The page also has the names of links, which records of the ring carry as numbers. docs/formats/ring.md has its bytes.
-// CounterPage has one owner thread; each Counter that it gives has one writer. Of fixed size: adding fails when it is full, nothing grows.
+// Typed, labelled counters in a page of shared memory, /dev/shm/mavloom.NAME.stat, which other processes can read at
+// any time.
+//
+// Reading does not affect the program that counts. The page also maps the link ids in the ring's records to link names.
+// docs/formats/ring.md specifies the format. One thread owns a CounterPage; each Counter that it returns has one
+// writer. The page has a fixed size: adding fails when it is full.
 #pragma once
 
 #include <cstdint>
@@ -22,13 +25,13 @@ namespace mavloom::shm {
 class Segment;
 
 enum class CounterType : std::uint32_t {
-    counter = 1,  // only grows
+    counter = 1,  // only increases
     gauge = 2,    // goes up and down
     time_ns = 3,  // Unix time in nanoseconds
 };
 
-inline constexpr std::size_t longest_label = 96;       // bytes; longer ones are cut
-inline constexpr std::size_t longest_link_name = 104;  // likewise
+inline constexpr std::size_t longest_label = 96;       // bytes; longer ones are truncated
+inline constexpr std::size_t longest_link_name = 104;  // bytes; longer ones are truncated
 
 struct CounterPageOptions {
     std::uint32_t counters = 4096;
@@ -38,23 +41,25 @@ struct CounterPageOptions {
 
 class CounterPage {
 public:
-    // Replaces a page whose owner is gone. `in_use` while one lives, with its process; `no_space` before anything is made.
+    // Creates the page, or replaces one whose owner is gone. Errors: `in_use` names the process if the owner is alive;
+    // `no_space` is returned before anything is created.
     [[nodiscard]] static SetupResult<CounterPage> create(std::string_view name, const CounterPageOptions& options = {});
     CounterPage(CounterPage&& other) noexcept;
     CounterPage& operator=(CounterPage&& other) noexcept;
     ~CounterPage();  // removes the page
 
-    // A new word, 0, valid until it is removed or the page goes; null when the page is full.
+    // Adds a counter that starts at 0. The pointer is valid until the counter is removed or the page is destroyed.
+    // Returns null if the page is full.
     [[nodiscard]] Counter* add(std::string_view label, CounterType type = CounterType::counter,
                                std::optional<LinkId> link = {}) noexcept;
-    // Its word may then stand for another. Null, or what is removed already: nothing happens.
+    // Removes a counter. Its memory may be reused for another one. Ignores null and a counter that is already removed.
     void remove(Counter* counter) noexcept;
 
-    // False when the page is full. A link that is there already gets the new name.
+    // Gives a link a name; renames it if it already has one. Returns false if the page is full.
     bool name_link(LinkId link, std::string_view name);
     void forget_link(LinkId link);
 
-    // Whether somebody removed or replaced the page: who looks now does not find it. Two system calls.
+    // Returns whether the page was removed or replaced, so that new readers cannot find it. Makes two system calls.
     [[nodiscard]] bool is_removed() const noexcept;
 
 private:
@@ -62,8 +67,8 @@ private:
     void end() noexcept;
 
     std::unique_ptr<Segment> segment_;
-    std::uint32_t slots_ = 0;  // of counters; what the page says about it is not asked again
-    std::vector<std::uint32_t> free_counters_, free_links_;  // the last one is taken next
+    std::uint32_t slots_ = 0;                                // number of counters; never re-read from the page
+    std::vector<std::uint32_t> free_counters_, free_links_;  // free slots; the last one is used next
     std::map<LinkId, std::uint32_t> links_;
 };
 
@@ -82,7 +87,8 @@ struct CounterSnapshot {
     std::map<LinkId, std::string> links;
 };
 
-// Each value is of some moment during the call. `not_found`, `permission`, `bad_input` as of rings.
+// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `permission`,
+// `bad_input`.
 [[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name);
 
 }  // namespace mavloom::shm

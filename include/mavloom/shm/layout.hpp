@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The bytes of a ring, as docs/formats/ring.md has them. Everything another process may change is an atomic word; `Words` says what a word is, so
-// that tests can put theirs in its place. Nothing here allocates or waits.
+// The binary layout of a ring, as specified in docs/formats/ring.md.
+//
+// Every field that another process may change is an atomic word. The template parameter `Words` supplies the word
+// types, so that tests can substitute their own. Nothing here allocates or blocks.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +18,11 @@ namespace mavloom::shm {
 static_assert(std::endian::native == std::endian::little, "the format counts little-endian");
 
 inline constexpr std::array<char, 8> ring_magic{'M', 'V', 'L', 'R', 'I', 'N', 'G', '\0'};
-inline constexpr std::uint16_t ring_major = 1;  // another one: refused
-inline constexpr std::uint16_t ring_minor = 0;  // a higher one only adds to what is reserved
+inline constexpr std::uint16_t ring_major = 1;  // rings of another major version are rejected
+inline constexpr std::uint16_t ring_minor = 0;  // a higher minor version only uses reserved fields
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 
-inline constexpr std::size_t reader_slots = 64;  // a bit each in 64-bit words
+inline constexpr std::size_t reader_slots = 64;  // one bit each in 64-bit words
 inline constexpr std::size_t mark_count = 64;
 inline constexpr std::size_t slots_offset = 4096;
 inline constexpr std::size_t data_offset = 16384;
@@ -32,23 +34,24 @@ inline constexpr std::uint64_t max_capacity = std::uint64_t{1} << 36;
 inline constexpr std::uint64_t default_capacity = 8 << 20;
 inline constexpr std::size_t max_record_bytes = 64 << 10;
 
-// The longest payload that a ring takes: a record and the padding before it must fit beside what is announced.
+// The longest payload that a ring accepts, in bytes. A record and the padding before it must fit beside the range that
+// is announced for overwriting.
 [[nodiscard]] constexpr std::size_t max_payload(std::uint64_t capacity) noexcept {
     return static_cast<std::size_t>(std::min<std::uint64_t>(max_record_bytes, capacity / 4 - record_header_bytes));
 }
-// What a payload takes in the ring.
+// Bytes that a record with a payload of `length` bytes occupies in the ring.
 [[nodiscard]] constexpr std::uint64_t record_size(std::uint64_t length) noexcept {
     return (record_header_bytes + length + record_alignment - 1) & ~std::uint64_t{record_alignment - 1};
 }
 
-// Written before the ring gets its name, and never again.
+// Written before the ring gets its name, and never changed.
 struct Identity {
     std::array<char, 8> magic = ring_magic;
     std::uint16_t major = ring_major;
     std::uint16_t minor = ring_minor;
     std::uint32_t byte_order = byte_order_mark;
-    std::uint64_t capacity = default_capacity;  // of the data, bytes; a power of two
-    std::uint32_t data_begin = data_offset;     // where the data begin, bytes
+    std::uint64_t capacity = default_capacity;  // size of the record area in bytes, a power of two
+    std::uint32_t data_begin = data_offset;     // offset of the record area in bytes
     std::uint32_t slots = reader_slots;
     std::int64_t created_ns = 0;  // Unix time
     std::uint32_t creator_pid = 0;
@@ -69,35 +72,34 @@ struct MarkWords {
 };
 static_assert(sizeof(MarkWords<SharedWords>) == 16);
 
-// Words that change together share 128 bytes (a pair of cache lines, which processors fetch together); others keep apart.
+// Words that change together share 128 bytes, because processors fetch cache lines in pairs. All others are kept apart.
 template <class Words>
 struct RingControl {
     Identity identity;
     // About the writer, for display.
-    typename Words::Word32 writer_pid;        // 0: closed cleanly
+    typename Words::Word32 writer_pid;        // 0 after a clean close
     typename Words::Word32 when_full;         // WhenFull
     typename Words::Word64 writer_opened_ns;  // Unix time
-    typename Words::Word64 writers;           // how many there have been
-    typename Words::Word64 dropped;           // records that a full ring did not take (drop_newest, a wait that ended)
-    typename Words::Word64 evictions;         // holds that were taken away (evict, dead readers)
+    typename Words::Word64 writers;           // number of writers so far, including the current one
+    typename Words::Word64 dropped;           // records that were not written because the ring was full
+    typename Words::Word64 evictions;         // holds that the writer removed (evict, dead readers)
     std::array<std::uint64_t, 3> reserved_1;
     // Stored at each commit.
-    alignas(128) typename Words::Word64 tail;  // end of the committed records; grows for ever
-    typename Words::Word64 records;            // how many they are
-    // Stored once in a sixty-fourth of the capacity, and when readers come and go.
-    alignas(128)
-        typename Words::Word64 intent;  // what lies `capacity` or more before this may be overwritten at any time
-    typename Words::Word64 holders;     // slots whose position the writer may not pass
-    typename Words::Word64 attached;    // slots in use, or left by a reader that was killed
-    // Read at each commit, stored by who goes to sleep or removes the ring.
-    alignas(128) typename Words::Word64 sleepers;  // slots of readers that sleep
-    typename Words::Word32 wakes;                  // where they sleep; counts wake-ups
-    typename Words::Word32 retired;                // not 0: removed, or replaced by another file
-    // The writer's sleep while the ring is full.
-    alignas(128) typename Words::Word32 room_wanted;  // not 0: it sleeps
-    typename Words::Word32 rooms;                     // where it sleeps; counts wake-ups
+    alignas(128) typename Words::Word64 tail;  // end of the committed records; only increases
+    typename Words::Word64 records;            // number of committed records
+    // Stored once per 1/64 of the capacity, and when readers come and go.
+    alignas(128) typename Words::Word64 intent;  // everything `capacity` or more before this may be overwritten
+    typename Words::Word64 holders;              // slots whose position the writer may not pass
+    typename Words::Word64 attached;             // slots in use, or left behind by a killed reader
+    // Read at each commit. Stored by readers that go to sleep, and when the ring is removed.
+    alignas(128) typename Words::Word64 sleepers;  // slots of sleeping readers
+    typename Words::Word32 wakes;                  // futex that readers sleep on; counts wake-ups
+    typename Words::Word32 retired;                // not 0: the ring was removed or replaced by another file
+    // Used by the writer to sleep while the ring is full.
+    alignas(128) typename Words::Word32 room_wanted;  // not 0 while the writer sleeps
+    typename Words::Word32 rooms;                     // futex that the writer sleeps on; counts wake-ups
     std::array<std::uint64_t, 63> reserved_2;
-    std::array<MarkWords<Words>, mark_count> marks;  // one for each sixty-fourth of the capacity
+    std::array<MarkWords<Words>, mark_count> marks;  // one for each 1/64 of the capacity
 };
 static_assert(offsetof(RingControl<SharedWords>, writer_pid) == 64 &&
               offsetof(RingControl<SharedWords>, when_full) == 68 &&
@@ -112,17 +114,17 @@ static_assert(offsetof(RingControl<SharedWords>, sleepers) == 384 && offsetof(Ri
 static_assert(offsetof(RingControl<SharedWords>, room_wanted) == 512 && offsetof(RingControl<SharedWords>, rooms) == 516);
 static_assert(offsetof(RingControl<SharedWords>, marks) == 1024 && sizeof(RingControl<SharedWords>) == 2048);
 
-// One registered reader. Who holds the lock on the slot's byte owns it.
+// One registered reader. The reader that holds the lock on the slot's byte owns the slot.
 template <class Words>
 struct alignas(128) ReaderSlot {
-    typename Words::Word64 position;  // everything before it is released
-    typename Words::Word64 sequence;  // of the record there
-    typename Words::Word64 missed;    // records that it was lapped by
+    typename Words::Word64 position;  // the reader needs nothing before it
+    typename Words::Word64 sequence;  // sequence number of the record at `position`
+    typename Words::Word64 missed;    // records that this reader missed because the writer lapped it
     std::array<std::uint64_t, 5> reserved_1;
     typename Words::Word32 pid;                     // for display
     typename Words::Word32 lossless;                // 0 or 1
     typename Words::Word64 opened_ns;               // Unix time
-    std::array<typename Words::Word64, 2> program;  // up to 16 bytes of its name, NULs behind
+    std::array<typename Words::Word64, 2> program;  // first 16 bytes of the program's name, padded with NULs
     std::array<std::uint64_t, 4> reserved_2;
 };
 static_assert(sizeof(ReaderSlot<SharedWords>) == 128);
@@ -132,9 +134,11 @@ static_assert(offsetof(ReaderSlot<SharedWords>, position) == 0 && offsetof(Reade
               offsetof(ReaderSlot<SharedWords>, program) == 80);
 static_assert(slots_offset + reader_slots * sizeof(ReaderSlot<SharedWords>) <= data_offset);
 
-// The first word of a record: length at byte 0, kind at 4, verdict at 6, flags at 7.
+// The first word of a record. Offsets: length at byte 0, kind at 4, verdict at 6, flags at 7.
 struct RecordState {
-    std::int32_t length = 0;  // of the payload; -1 - length until it is committed; of a padding record its whole size
+    // Length of the payload. -1 - length until the record is committed. In a padding record, the size of the whole
+    // record.
+    std::int32_t length = 0;
     std::uint16_t kind = 0;
     std::uint8_t verdict = 0;
     std::uint8_t flags = 0;
@@ -146,7 +150,7 @@ inline constexpr std::uint8_t padding_flag = 1;
 [[nodiscard]] constexpr std::uint64_t pack(RecordState state) noexcept { return std::bit_cast<std::uint64_t>(state); }
 [[nodiscard]] constexpr RecordState unpack(std::uint64_t word) noexcept { return std::bit_cast<RecordState>(word); }
 
-// A ring in memory. Does not own it.
+// Pointers into a mapped ring. Does not own the memory.
 template <class Words>
 struct RingMemory {
     RingControl<Words>* control = nullptr;
@@ -158,7 +162,7 @@ struct RingMemory {
         return data + (position & (capacity - 1)) / sizeof(std::uint64_t);
     }
     [[nodiscard]] std::uint64_t mark_distance() const noexcept { return capacity / mark_count; }
-    // From `position` to where the next lap begins.
+    // Bytes from `position` to the end of the current lap.
     [[nodiscard]] std::uint64_t left_in_lap(std::uint64_t position) const noexcept {
         return capacity - (position & (capacity - 1));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What goes into a ring and comes out of it: opaque bytes with a few tags. Values; nothing allocates.
+// The types that ring writers and readers share: a record (opaque bytes with a few tags) and the error codes. Plain
+// values; nothing allocates.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +13,43 @@
 
 namespace mavloom::shm {
 
-// What a writer says about a record. The ring itself looks at none of it.
+// The writer's tags for a record. The ring itself does not interpret them.
 struct RecordInfo {
     WallTime time{};           // when the bytes were received
-    LinkId link{};             // where from; the counter page has its name
+    LinkId link{};             // the source link; the counter page has its name
     std::uint16_t kind = 0;    // what the bytes are
-    std::uint8_t verdict = 0;  // what the writer found out about them
+    std::uint8_t verdict = 0;  // what the writer decided about the bytes
 };
 
 struct RingRecord {
-    ByteView data;  // until the next call of the reader
+    ByteView data;  // valid until the next call to the reader
     RecordInfo info;
-    std::uint64_t position = 0;  // in bytes since the ring was made
-    std::uint64_t sequence = 0;  // in records since then
-    std::uint64_t missed = 0;    // records that this reader was lapped by since the one before
+    std::uint64_t position = 0;  // bytes since the ring was created
+    std::uint64_t sequence = 0;  // records since the ring was created
+    std::uint64_t missed = 0;    // records that this reader missed directly before this one
 };
 
-// What a writer does when lossless readers hold the ring full.
+// What a writer does when lossless readers block the ring.
 enum class WhenFull : std::uint8_t {
-    wait,         // for room, until the caller's deadline
-    drop_newest,  // leave the new record out and count it
-    evict,        // take the hold away from the readers in the way; they are told what they missed
+    wait,         // wait for room, until the caller's deadline
+    drop_newest,  // drop the new record and count it
+    evict,        // remove the holds of the blocking readers; their next record reports how many they missed
 };
 
 enum class WriteError : std::uint8_t {
-    too_long,  // the payload is longer than max_payload(); nothing was written
-    full,      // readers hold the ring (until the deadline); nothing was written, and with drop_newest that was counted
-    removed,   // the ring was removed or replaced: reopen
-    forked,    // opened before fork() by the parent, whose writer it stays
+    too_long,  // the payload exceeds max_payload(); nothing was written
+    // Readers blocked the ring until the deadline. Nothing was written; drop_newest counted the record as dropped.
+    full,
+    removed,  // the ring was removed or replaced; reopen it
+    forked,   // the parent opened the writer before fork(); the child cannot use it
 };
 
 enum class ReadError : std::uint8_t {
-    empty,      // nothing more until the deadline
-    no_writer,  // all is read, and no writer is alive; one may come back
-    retired,    // all is read, and the ring was removed or replaced: open it by its name again
-    damaged,    // what stands there is no record of this format, written by something else; close
-    forked,     // opened before fork() by the parent, whose reader it stays
+    empty,      // no record until the deadline
+    no_writer,  // all records are read and no writer is alive; another may come
+    retired,    // all records are read and the ring was removed or replaced; open it by name again
+    damaged,    // the data is not a record of this format: something else wrote it; close the reader
+    forked,     // the parent opened the reader before fork(); the child cannot use it
 };
 
 [[nodiscard]] std::string_view to_text(WriteError error) noexcept;

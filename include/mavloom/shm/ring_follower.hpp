@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Follows a ring by its name: reads what stands there, waits for a writer that went, drains a ring that was removed or replaced, and opens the name again
-// when it comes back. One owner thread; move-only; opening allocates.
+// Reads a ring by name for as long as the program runs, across restarts of the writer and replacements of the ring.
+//
+// The follower waits for a missing ring or writer, drains a ring that was removed or replaced, then opens the name
+// again. One owner thread; move-only. Opening allocates.
 #pragma once
 
 #include <optional>
@@ -12,34 +14,36 @@ namespace mavloom::shm {
 
 class RingFollower {
 public:
-    // Opens nothing yet; the ring may come later. `options.from` counts for a ring that is there at the first look: later ones are read from their
-    // oldest record.
+    // Opens nothing yet; the ring may be created later. `options.from` applies only to a ring that exists at the first
+    // attempt. Every later ring is read from its oldest record.
     RingFollower(std::string name, const ReaderOptions& options) : name_(std::move(name)), options_(options) {}
 
-    // Opens the ring if it is there. False: it is not, or cannot be read (`error`).
+    // Opens the ring if it exists. Returns false if it does not exist or cannot be read; see `error`.
     [[nodiscard]] bool try_open();
-    // The next record, which lives until the next call; waits until `deadline`. Then `empty`, or `no_writer` where there is no ring or nobody writes to
-    // it. `damaged` as long as a damaged ring bears the name.
+    // Returns the next record, which is valid until the next call. Waits until `deadline`. Then it returns `no_writer`
+    // if there is no ring or no writer, otherwise `empty`. Returns `damaged` as long as a damaged ring has the name.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline);
 
-    // The same without waiting, for a loop that sleeps elsewhere; it polls again when the reader's `arm` says, or after `look_distance` while no ring is open.
+    // Like `read`, but does not wait; for a loop that sleeps elsewhere. The loop polls again after the time that the
+    // reader's `arm` returns, or after `look_distance` while no ring is open.
     [[nodiscard]] ReadResult<RingRecord> poll();
-    // The ring that is open, until the next call; null without one.
+    // The reader of the open ring, valid until the next call. Null if no ring is open.
     [[nodiscard]] RingReader* reader() noexcept { return reader_ ? &*reader_ : nullptr; }
 
-    // Between two looks at a name that leads nowhere, or at a ring that nobody writes to.
+    // Time between two attempts to open a missing ring, or two checks of a ring without a writer.
     static constexpr Nanoseconds look_distance = std::chrono::milliseconds(20);
 
     [[nodiscard]] bool is_open() const noexcept { return reader_.has_value(); }
-    // Why the last try to open failed; null when it did not.
+    // Why the last attempt to open failed. Null if it did not fail.
     [[nodiscard]] const SetupError* error() const noexcept { return error_ ? &*error_ : nullptr; }
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_ + (reader_ ? reader_->missed() : 0); }
-    [[nodiscard]] std::uint64_t opened() const noexcept { return opened_; }  // how many rings so far
+    [[nodiscard]] std::uint64_t opened() const noexcept { return opened_; }  // number of rings opened so far
 
 private:
     void drop();
-    // Whether another ring may stand under the name now, or soon: the one that was open is left.
+    // Closes the current ring if its name no longer leads to it. Returns true if it did, so that the caller tries the
+    // next ring.
     [[nodiscard]] bool moved_on(ReadError error);
 
     std::string name_;
@@ -47,7 +51,7 @@ private:
     std::optional<RingReader> reader_;
     std::optional<SetupError> error_;
     bool looked_ = false;
-    std::uint64_t missed_ = 0;  // of the rings that are gone
+    std::uint64_t missed_ = 0;  // of the rings that are closed
     std::uint64_t opened_ = 0;
 };
 

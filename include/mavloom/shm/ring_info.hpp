@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Looks after rings: which there are, who is attached, how far behind, what was lost. Looking takes no slot and disturbs nobody. Any thread;
-// allocates its results.
+// Lists, inspects and removes rings: their writer, readers, lag and losses.
+//
+// Inspecting a ring takes no reader slot and does not affect its users. Any thread may call these functions. They
+// allocate their results.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +16,20 @@
 
 namespace mavloom::shm {
 
-// Names of the files that look like rings, sorted. Empty where the folder cannot be read.
+// Returns the names of all files that look like rings, sorted. Empty if /dev/shm cannot be read.
 [[nodiscard]] std::vector<std::string> ring_names();
 
 struct ReaderStatus {
     unsigned slot = 0;
-    std::uint32_t pid = 0;  // as the reader wrote it: in another PID namespace it means nothing here
+    std::uint32_t pid = 0;  // as stored by the reader; meaningless across PID namespaces
     std::string program;
     WallTime opened{};
     bool lossless = false;
-    bool holds = false;  // of a lossless one: false between an eviction and its next read
+    bool holds = false;  // false for a lossless reader between an eviction and its next read
     bool asleep = false;
     std::uint64_t behind_bytes = 0;
     std::uint64_t behind_records = 0;
-    std::uint64_t missed = 0;  // records that it was lapped by
+    std::uint64_t missed = 0;  // records that it missed because the writer lapped it
 };
 
 struct RingStatus {
@@ -38,26 +40,29 @@ struct RingStatus {
     std::uint64_t capacity = 0;  // bytes
     WallTime created{};
     bool retired = false;
-    bool damaged = false;  // refused by readers and writers: what stands before its end are no records, and no number below means anything
+    // The data before the end of the ring is not valid records. Readers and writers reject the ring. All fields below
+    // are meaningless.
+    bool damaged = false;
     bool writer_alive = false;
-    std::uint32_t writer_pid = 0;  // of the last writer; 0 when it closed cleanly
+    std::uint32_t writer_pid = 0;  // of the last writer; 0 after a clean close
     WallTime writer_opened{};
-    std::uint64_t writers = 0;  // so far
+    std::uint64_t writers = 0;  // number of writers so far
     WhenFull when_full = WhenFull::wait;
-    std::uint64_t records = 0;  // since the ring was made
-    std::uint64_t bytes = 0;    // likewise, with headers and padding
+    std::uint64_t records = 0;  // since the ring was created
+    std::uint64_t bytes = 0;    // since the ring was created, including headers and padding
     std::uint64_t dropped = 0;
     std::uint64_t evictions = 0;
-    std::vector<ReaderStatus> readers;  // that are alive
+    std::vector<ReaderStatus> readers;  // only those that are alive
 };
 
-// One moment of a ring that may be in use. Errors as of RingReader::open.
+// Reads the state of a ring that may be in use. Same errors as RingReader::open.
 [[nodiscard]] SetupResult<RingStatus> ring_status(std::string_view name);
 
-// Takes a ring's name and its counter page's away. Who reads or writes it keeps what he has mapped and is told (retired, removed); nothing waits.
-// `not_found` when neither is there; `permission` names the owner. What is no ring is removed as well, if the name fits.
+// Removes the names of a ring and of its counter page. Processes that have the ring mapped keep their mapping. Its
+// readers then get `retired`, its writer `removed`. Never waits. A file under that name which is not a ring is removed
+// too. Errors: `not_found` if neither file exists; `permission` names the owner.
 [[nodiscard]] SetupResult<void> remove_ring(std::string_view name);
-// The counter page alone; success when there is none.
+// Removes only the counter page. Succeeds if there is none.
 [[nodiscard]] SetupResult<void> remove_counter_page(std::string_view name);
 
 }  // namespace mavloom::shm

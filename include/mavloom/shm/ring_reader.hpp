@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A reader of a ring (docs/formats/ring.md); up to 64 register, in any processes.
+// Reads records from a shared-memory ring (docs/formats/ring.md). Up to 64 readers, in any processes, can register.
 //
 //     auto reader = shm::RingReader::open("px4");
 //     while (const auto record = reader->read()) use(record->data);
 //
-// A *lossy* reader never holds the writer; it gets copies, and a record's `missed` says by exactly how many records it was lapped before it. A
-// *lossless* one gets views into the ring, and the writer may not pass the record in view (unless it evicts: then `missed` counts too). One owner
-// thread; move-only. After opening nothing is allocated, and nothing but waiting makes a system call.
+// A *lossy* reader gets copies and never blocks the writer. If the writer laps it, `missed` in the next record is the
+// exact number of records lost. A *lossless* reader gets views into the ring, and the writer may not pass the record in
+// view. A writer with the `evict` policy may; then `missed` counts the records lost.
+//
+// One owner thread; move-only. After opening, a reader allocates nothing and makes system calls only to wait.
 #pragma once
 
 #include <atomic>
@@ -26,25 +28,29 @@ class Segment;
 
 struct ReaderOptions {
     bool lossless = false;
-    // `oldest`: all that the ring holds, but for the part (at most a thirty-second) that the writer is about to overwrite.
+    // `oldest` starts at the oldest record in the ring. It skips the part (at most 1/32) that the writer is about to
+    // overwrite.
     enum class From : std::uint8_t { newest, oldest };
     From from = From::newest;
-    // Waits by looking again and again: the last microsecond, for a core of its own.
+    // Busy-waits instead of sleeping. Saves the last microsecond of latency, but needs a CPU core of its own.
     bool spin = false;
-    // Maps the ring read-only and leaves no trace in it: lossy, not listed, and waiting looks every millisecond. So is every lossy reader who may not
-    // write to the ring (mode 0640 and another user) or finds 64 others.
+    // Maps the ring read-only and leaves no trace in it. Such a reader is lossy and unlisted, and waits by polling
+    // every millisecond. A lossy reader falls back to this in two cases: it may not write to the ring (mode 0640 and
+    // another user), or 64 other readers are registered.
     bool read_only = false;
 };
 
 class RingReader {
 public:
-    // `not_found` with the rings that there are; `in_use` for a 65th lossless reader; `permission`; `bad_input` for what is no ring of this version.
+    // Opens a ring for reading. Errors: `not_found` lists the existing rings; `in_use` for a 65th lossless reader;
+    // `permission`; `bad_input` if the file is not a ring of this version.
     [[nodiscard]] static SetupResult<RingReader> open(std::string_view name, const ReaderOptions& options = {});
     RingReader(RingReader&& other) noexcept;
     RingReader& operator=(RingReader&& other) noexcept;
     ~RingReader();
 
-    // The next record if there is one (else `empty`). Releases the one before: its view ends, and the writer may pass it.
+    // Returns the next record, or `empty` if there is none. Releases the previous record: its view becomes invalid, and
+    // the writer may pass it.
     [[nodiscard]] ReadResult<RingRecord> try_read() noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
         if (forked()) return tl::unexpected(ReadError::forked);
@@ -53,9 +59,10 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // Of a lossless reader (else `empty`): as many records as there are, up to `most` and about an eighth of the ring, in place, in one piece of
-    // memory, and all in view until the next call. How many; `empty` when there are none. `visit(const RingRecord&)` gets each; what it throws ends
-    // the program, and of this reader it may ask `holds` alone.
+    // For lossless readers; others get `empty`. Passes up to `most` records, at most about 1/8 of the ring, to
+    // `visit(const RingRecord&)`. Returns how many, or `empty` if there are none. The records are contiguous in memory,
+    // in place, and all stay in view until the next call. An exception from `visit` terminates the program. Inside
+    // `visit`, only `holds` of this reader may be called.
     template <class Visit>
     [[nodiscard]] ReadResult<std::size_t> try_visit(std::size_t most, Visit&& visit) noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
@@ -69,46 +76,50 @@ public:
         if (found == Found::record) return count;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // The same into `out`.
+    // Same as try_visit, but stores the records in `out`.
     [[nodiscard]] ReadResult<std::size_t> try_read_batch(std::span<RingRecord> out) noexcept {
         return try_visit(out.size(), [at = out.begin()](const RingRecord& record) mutable { *at++ = record; });
     }
-    // The next record, waiting until `deadline`; ends before with `no_writer` or `retired` once all is read.
+    // Returns the next record. Waits until `deadline`. Returns `no_writer` or `retired` early, once everything is read.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline = MonoTime::max()) noexcept;
-    // For a loop that sleeps elsewhere (RingWaiter). `poll` is `read` without waiting: a record, or at once why there is none. `arm` asks the writer to
-    // change `wake_word` when there is one, until the next record: how long the loop may sleep before it polls again, 0 when something waits already.
+    // For a loop that sleeps elsewhere (RingWaiter). `poll` is `read` without waiting: it returns a record, or at once
+    // the reason why there is none.
+    //
+    // `arm` asks the writer to change `wake_word` when it commits a record. It returns how long the loop may sleep
+    // before it polls again, or 0 if it should poll at once. The request holds until the next record.
     [[nodiscard]] ReadResult<RingRecord> poll() noexcept;
     [[nodiscard]] Nanoseconds arm() noexcept;
-    // Keeps the mapping for as long as it is held.
+    // The word that the writer changes. The pointer keeps the ring mapped.
     [[nodiscard]] std::shared_ptr<const SharedWords::Word32> wake_word() const;
-    // Ends the view of the last record now, and tells the writer.
+    // Ends the view of the last record now, and reports the position to the writer.
     void release() noexcept;
-    // Gives the slot and every hold back, as the destructor does, but leaves the ring mapped until then: what still points to a view reads old or newer
-    // bytes, and does not crash. Nothing may be read after it.
+    // Gives up the slot and all holds, like the destructor, but keeps the ring mapped until destruction. A pointer into
+    // an old view then reads old or newer bytes, and does not crash. Do not read from the reader afterwards.
     void detach() noexcept;
 
-    // Whether what was read of the view is what was written: false once a writer that evicts took the hold away. Copy (or use), then ask: the answer is
-    // about what was read before the call, and a read-modify-write of a shared word.
+    // Returns whether the bytes read from the current view are valid: false once an evicting writer has removed the
+    // hold. Copy or use the data first, then call this. The answer covers what was read before the call. It costs an
+    // atomic read-modify-write of a shared word.
     [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
     [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
     [[nodiscard]] bool writer_alive() const noexcept;
-    // How many there have been: another number, another writer.
+    // Number of writers so far. A changed number means a new writer.
     [[nodiscard]] std::uint64_t writers() const noexcept;
-    // Whether the name still leads to this ring.
+    // Returns whether the name still leads to this ring.
     [[nodiscard]] bool is_named() const noexcept;
     [[nodiscard]] bool is_retired() const noexcept { return consumer_.retired(); }
 
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::uint64_t position() const noexcept {
         return consumer_.position();
-    }  // of the record in view, or the next
-    // Where what is committed now ends.
+    }  // of the record in view, or of the next one
+    // End of the committed records.
     [[nodiscard]] std::uint64_t end_position() const noexcept;
-    [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // in all
+    [[nodiscard]] std::uint64_t missed() const noexcept { return consumer_.missed(); }  // total
 
 private:
     RingReader(std::string name, const ReaderOptions& options, std::shared_ptr<Segment> segment);
-    // A wait is over: the writer need not wake this reader, and the next wait begins anew.
+    // Ends a wait: the writer need not wake this reader, and the next wait starts afresh.
     void woke() noexcept {
         consumer_.awake();
         waiting_since_ = {};
@@ -123,8 +134,8 @@ private:
 
     std::string name_;
     ReaderOptions options_;
-    std::shared_ptr<Segment> segment_;           // with those who hold a wake word
-    const std::atomic<bool>* forked_ = nullptr;  // of the segment
+    std::shared_ptr<Segment> segment_;           // shared with the holders of a wake word
+    const std::atomic<bool>* forked_ = nullptr;  // the segment's flag
     std::optional<unsigned> slot_;
     detail::Consumer<SharedWords> consumer_;
     MonoTime next_look_at_writer_{}, waiting_since_{}, armed_{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Turns the sleep of ring readers into a call, for loops that wait in epoll or asyncio: one thread sleeps on the words of any number of rings, and calls
-// back when the writer of one of them wakes its readers. The thread begins with the first ring; without one there is none.
+// Lets an event loop (epoll, asyncio) wait for rings: a helper thread sleeps on them and calls back when a writer wakes
+// its readers.
 //
 //     auto waiter = shm::RingWaiter([&] { loop.wake(); });
 //     waiter.watch({{reader.wake_word()}});          // when the reader is opened
@@ -8,7 +8,8 @@
 //     const auto nap = reader.arm();                 // then the reader
 //     sleep_in_epoll(nap);
 //
-// One owner thread, or one lock; not movable. Linux 5.16 or newer sleeps on all rings at once (futex_waitv); an older one looks at several each millisecond.
+// Use it from one thread, or under one lock. Not movable. The thread starts with the first ring. Linux 5.16 or newer
+// sleeps on all rings at once (futex_waitv). On older kernels the thread polls several rings every millisecond.
 #pragma once
 
 #include <functional>
@@ -22,19 +23,21 @@ namespace mavloom::shm {
 class RingWaiter {
 public:
     using WakeWord = std::shared_ptr<const SharedWords::Word32>;
-    static constexpr std::size_t most_rings =
-        127;  // of more only the first are slept on; the others are seen when they are polled
+    // Beyond this number, the thread sleeps on the first rings only. The caller sees changes of the others when it
+    // polls.
+    static constexpr std::size_t most_rings = 127;
 
-    // `wake` is called on the waiter's thread, once after each arm(); it must not throw, and may call arm().
+    // The helper thread calls `wake` once after each arm(). `wake` must not throw, and may call arm().
     explicit RingWaiter(std::function<void()> wake);
     RingWaiter(const RingWaiter&) = delete;
     RingWaiter& operator=(const RingWaiter&) = delete;
-    ~RingWaiter();  // ends the thread
+    ~RingWaiter();  // stops the thread
 
-    // The rings from now on, in the place of those before. A change between this call and arm() is not overlooked.
+    // Replaces the watched rings. Changes between this call and arm() are not missed.
     void watch(std::vector<WakeWord> rings);
-    // The next change is told, once. One that came since the last call may be told too. With `longest`, as RingReader::arm() gives it, the end of that
-    // time is told as a change is; of several calls the earliest counts.
+    // Requests one call of `wake` at the next change of any ring. A change since the last call of `wake` may trigger it
+    // at once. With `longest`, as returned by RingReader::arm(), `wake` is also called when that time is over. Of
+    // several such calls, the earliest time counts.
     void arm() noexcept;
     void arm(Nanoseconds longest) noexcept;
     void disarm() noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the frames of one datagram: any number of them, and never one that begins in one datagram and ends in another. One parser per peer
-// (it remembers the learned CRC_EXTRA of ids without definition). One owner thread; allocates nothing after construction.
+// Finds the MAVLink frames in one datagram at a time. A frame never continues in the next datagram.
+// Use one parser per peer, because it learns the CRC_EXTRA of message ids that have no definition.
+// One owner thread; allocates nothing after construction.
 #pragma once
 
 #include "mavloom/wire/detail/scanner.hpp"
@@ -12,7 +13,7 @@ public:
     // `table` must outlive the parser.
     explicit DatagramParser(const MessageTable& table) : scanner_(table) {}
 
-    // Calls sink(const ParseEvent&) for all that the datagram holds, in order; the views point into `datagram`.
+    // Calls sink(const ParseEvent&) for everything in the datagram, in order. The views point into `datagram`.
     template <class Sink>
     void parse(ByteView datagram, Sink&& sink) {
         scanner_.scan(datagram, detail::End::closed, sink);

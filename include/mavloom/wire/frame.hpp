@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One MAVLink frame, version 1 or 2, as a view of the bytes that arrived. A FrameView owns nothing and lives as long as those bytes.
-// Only the parsers make frame views from outside data, after they have bounded every length; accessors then trust the bytes.
+// A read-only view of one MAVLink frame, version 1 or 2, in the bytes that arrived.
+// A FrameView owns nothing and is valid as long as those bytes. The accessors do no bounds checks.
+// For received data, only the parsers create views, and they check every length first.
 // Source: MAVLink guide, "Packet Serialization".
 #pragma once
 
@@ -29,7 +30,8 @@ enum class Version : std::uint8_t { v1 = 1, v2 = 2 };
 
 [[nodiscard]] constexpr bool is_start(std::uint8_t byte) noexcept { return byte == stx_v1 || byte == stx_v2; }
 
-// The whole length of the frame whose first bytes these are, whether or not it is here; 0 where they begin no frame or do not yet tell it.
+// Returns the length that the frame starting with `bytes` claims; the frame may extend beyond `bytes`.
+// Returns 0 if `bytes` does not begin with a start byte or has fewer than three bytes.
 [[nodiscard]] constexpr std::size_t frame_length(ByteView bytes) noexcept {
     if (bytes.size() < 3 || !is_start(bytes[0])) return 0;
     if (bytes[0] == stx_v1) return min_frame_length + bytes[1];
@@ -41,7 +43,7 @@ class FrameView {
 public:
     constexpr FrameView() noexcept = default;
 
-    // The caller promises that `bytes` is one whole frame: it begins with a start byte and has the length that its header says.
+    // `bytes` must be exactly one frame: it begins with a start byte and has the length that its header gives.
     [[nodiscard]] static FrameView unchecked(ByteView bytes) noexcept {
         assert(bytes.size() >= min_frame_length && bytes.size() <= max_frame_length);
         return FrameView(bytes.data(), bytes.size());
@@ -70,7 +72,7 @@ public:
     [[nodiscard]] std::uint16_t checksum() const noexcept {
         return load_le<std::uint16_t>(data_ + header_length() + payload_length());
     }
-    // The 13 bytes of the signature; empty for an unsigned frame.
+    // The 13 signature bytes, or empty if the frame is not signed.
     [[nodiscard]] ByteView signature() const noexcept {
         return is_signed() ? ByteView{data_ + size_ - signature_length, signature_length} : ByteView{};
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Writes whole frames: header, payload as the version wants it, checksum, and where asked a signature. A pure function into the caller's bytes.
-// MAVLink 2 drops trailing zero bytes but the first; MAVLink 1 sends no extension fields and always the full rest.
+// Writes a complete frame: header, payload, checksum and, optionally, a signature.
+// MAVLink 2 payloads lose their trailing zero bytes, but at least one byte stays. MAVLink 1 payloads have full length
+// but no extension fields. Writes into the caller's buffer and allocates nothing. Apart from the Signer, which advances
+// its time, there is no state.
 // Source: MAVLink guide, "Packet Serialization".
 #pragma once
 
@@ -18,10 +20,10 @@ struct FrameHeader {
     Version version = Version::v2;
     std::uint8_t sequence = 0;
     Source source;
-    std::uint8_t compat_flags = 0;  // MAVLink 2
+    std::uint8_t compat_flags = 0;  // MAVLink 2 only
 };
 
-// How a frame gets signed.
+// The signer to use, and the current time for its timestamp.
 struct Signing {
     Signer* signer = nullptr;  // null: unsigned
     SigningTime now;
@@ -29,11 +31,11 @@ struct Signing {
 
 using FrameBuffer = std::array<std::uint8_t, max_frame_length>;
 
-// True for an id that MAVLink 1 can carry.
+// True if MAVLink 1 can carry the message id (at most 255).
 [[nodiscard]] constexpr bool fits_v1(const MessageInfo& info) noexcept { return info.id.value <= 0xff; }
 
-// Writes one frame into `out` and returns the view of it. `payload` is the full payload, `info.max_length` bytes (shorter ones are taken as
-// zero-extended). MAVLink 1 needs fits_v1(info) and ignores `signing`.
+// Writes one frame into `out` and returns a view of it. `payload` is the full payload of `info.max_length` bytes; a
+// shorter one is extended with zeros. For MAVLink 1, `fits_v1(info)` must be true and `signing` is ignored.
 [[nodiscard]] FrameView write_frame(std::span<std::uint8_t, max_frame_length> out, const FrameHeader& header,
                                     const MessageInfo& info, ByteView payload, Signing signing = {}) noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the wire layer knows of a message: its id, checksum seed, lengths, and where its target or its sender's clock lies. Names and fields are module dialect's.
-// A MessageTable is immutable after construction: any number of threads and parsers may share one. It allocates only when built.
+// The facts about each message that parsing and routing need: id, CRC_EXTRA, lengths, and the offsets of target and
+// clock fields. Names and fields are in mavloom/dialect. A MessageTable allocates only when constructed and is
+// immutable afterwards, so threads and parsers can share one.
 // Source: MAVLink guide, "Serialization" (CRC_EXTRA, extension fields) and "Routing" (target fields).
 #pragma once
 
@@ -19,20 +20,23 @@ struct MessageInfo {
 
     MessageId id;
     std::uint8_t crc_extra = 0;
-    std::uint8_t min_length = 0;  // payload bytes without extension fields: the length of the message in MAVLink 1
+    std::uint8_t min_length = 0;  // payload bytes without extension fields: the payload length in MAVLink 1
     std::uint8_t max_length = 0;  // payload bytes with all extension fields
-    std::uint8_t target_system_offset = no_target;  // in the payload; MANUAL_CONTROL's `target` counts (DESIGN.md section 4)
+    // Offsets in the payload. The field `target` of MANUAL_CONTROL counts as a target system.
+    std::uint8_t target_system_offset = no_target;
     std::uint8_t target_component_offset = no_target;
-    std::uint8_t boot_time_offset = no_boot_time;  // of `time_boot_ms` (uint32), in messages without a target system
+    // Offset of `time_boot_ms` (uint32), only for messages without a target system.
+    std::uint8_t boot_time_offset = no_boot_time;
     friend constexpr bool operator==(const MessageInfo&, const MessageInfo&) = default;
 };
 
 class MessageTable {
 public:
-    // Of two entries with one id the first stands.
+    // If two entries have the same id, the first is used.
     explicit MessageTable(std::span<const MessageInfo> messages);
 
-    // Constant time, no allocation. Null for an id that is not in the table. The pointer lives as long as the table.
+    // Returns null for an id that is not in the table. Constant time, no allocation. The pointer is valid as long as
+    // the table.
     [[nodiscard]] const MessageInfo* find(MessageId id) const noexcept {
         if (id.value < direct_size) [[likely]] {
             const auto index = direct_[id.value];
@@ -44,7 +48,7 @@ public:
     [[nodiscard]] std::span<const MessageInfo> messages() const noexcept { return infos_; }
 
 private:
-    static constexpr std::uint32_t direct_size = 1024;  // PX4's and ArduPilot's telemetry have ids below
+    static constexpr std::uint32_t direct_size = 1024;  // covers the telemetry of PX4 and ArduPilot
 
     [[nodiscard]] const MessageInfo* find_hashed(MessageId id) const noexcept;
     [[nodiscard]] std::uint32_t slot_of(std::uint32_t id) const noexcept { return (id * 0x9e3779b1u) >> hash_shift_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parsers report. Bad bytes are events and counters, never errors (DESIGN.md rule 5). Every byte that goes in is counted once:
-// bytes in = frame_bytes + flagged_bytes + junk_bytes + what is still pending.
+// The events and counters of the parsers. Invalid input is reported as events and counted; it is never an error.
+// Every input byte is counted once: bytes in = frame_bytes + flagged_bytes + junk_bytes + bytes still pending.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,29 @@ namespace mavloom::wire {
 
 struct ParseEvent {
     enum class Kind : std::uint8_t {
-        frame,  // good: `frame`, `info` (null for an id without definition)
-        bad_checksum,  // something that began and was as long as a frame: `frame`; its bytes are scanned again and end as frames or junk
-        junk,  // `bytes` bytes that belong to no frame; a run is reported when it ends, or each 4,096 bytes of it
-        unknown_flags,  // a whole frame with a good checksum and an incompatibility flag that is not defined: must not be handled
+        frame,  // a valid frame; `info` is null for an id without definition
+        // A candidate in `frame` whose checksum is wrong. Its bytes are scanned again and end up in frames or junk.
+        bad_checksum,
+        // `bytes` bytes that belong to no frame. Reported when the run of junk ends, and after every 4,096 bytes of it.
+        junk,
+        // A frame with a valid checksum and an unknown incompatibility flag. The specification forbids handling it.
+        unknown_flags,
     };
     Kind kind = Kind::junk;
-    FrameView frame;  // valid during the call
+    FrameView frame;  // valid only during the call
     const MessageInfo* info = nullptr;
-    std::size_t bytes = 0;  // of junk
+    std::size_t bytes = 0;  // for `junk` only
 };
 
 struct ParseCounters {
     Counter frames, frame_bytes;
-    Counter unknown_ids;    // of `frames`: without definition
+    Counter unknown_ids;    // those of `frames` whose id has no definition
     Counter crc_error;      // bad_checksum events
     Counter unknown_flags;  // unknown_flags events
-    Counter flagged_bytes;  // their bytes
+    Counter flagged_bytes;  // bytes in unknown_flags events
     Counter junk_bytes;
-    Counter implausible_unknown;  // ids without definition refused for their surroundings (routing.md 5.4)
+    // Candidates without definition that were rejected because of the bytes around them (see unknown_ids.hpp).
+    Counter implausible_unknown;
 };
 
 }  // namespace mavloom::wire

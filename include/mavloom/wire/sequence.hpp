@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A link's own loss, from sequence numbers: per (system, component) of one link, so that several sources, redundant copies and reordering are
-// not taken for loss. And the restarts of its vehicles, whose sequence numbers begin anew. Feed it every well-framed frame of the link, those of
-// unknown id and those that are filtered later included, but no echoes.
-// One owner thread. Allocates when a new source is heard (at most `max_sources`), never for a known one.
+// Computes the frame loss of one link from sequence numbers, and detects restarts of its vehicles.
+// Sequences are tracked per source (system, component), so several sources, redundant copies and reordering do not
+// count as loss. Feed it every well-formed frame of the link, including those with unknown ids and those that are
+// filtered later, but no echoes. One owner thread. Allocates when it sees a new source (at most `max_sources`), never
+// for a known one.
 //
-// With d = the signed 8-bit distance to the expected number: 0 is good; 1 to 100 a gap of d lost frames; -30 to -1 a duplicate (the same bytes
-// were heard) or a late frame (one fewer lost); anything else a resync, which counts no loss.
+// Let d be the signed 8-bit difference between the received and the expected sequence number:
+// - 0: the frame is in order.
+// - 1 to 100: a gap; d frames are lost.
+// - -30 to -1: a duplicate if the same bytes were received before or d is -1, otherwise a late frame, which reduces the
+//   loss by one.
+// - any other value: a resync, which counts no loss.
 //
-// A restart shows by `time_boot_ms` that falls by more than `boot_tolerance_ms`, within one message of one source: SYSTEM_TIME of any source at
-// once, other messages of autopilots (component 1) when the next frame of that message confirms it. 0 means that the sender has no clock yet.
-// docs/guide/routing.md.
+// A restart is detected when `time_boot_ms` falls by more than `boot_tolerance_ms` between two frames of the same
+// message and source. For SYSTEM_TIME, one such frame is enough, from any component. Other messages count only from
+// autopilots (component 1), and the next frame of that message must confirm the fall.
+// A `time_boot_ms` of 0 means that the sender's clock does not run yet. See docs/guide/routing.md, "The rules".
 #pragma once
 
 #include <array>
@@ -27,11 +33,11 @@ namespace mavloom::wire {
 struct SequenceStats {
     Source source;
     std::uint64_t received = 0;
-    std::uint64_t lost = 0;  // after late frames were taken back
+    std::uint64_t lost = 0;  // late frames are already subtracted
     std::uint64_t late = 0;
     std::uint64_t duplicate = 0;
-    std::uint64_t resync = 0;  // jumps that are no loss: a restart, another sender with the same id
-    bool no_sequence = false;  // the sender does not count: always the same number
+    std::uint64_t resync = 0;  // jumps that are not loss: a restart, or another sender with the same id
+    bool no_sequence = false;  // the sender repeats the same sequence number in every frame
 };
 
 class SequenceTracker {
@@ -39,46 +45,51 @@ public:
     static constexpr std::size_t max_sources = 4096;
 
     enum class Verdict : std::uint8_t { first, good, gap, late, duplicate, resync, reboot, no_sequence, untracked };
-    // How one frame changed the sums. A gap raises `lost`, a late frame takes one back, a reboot all that its jump was taken for.
+    // How one frame changed the totals. A gap raises `lost`, and a late frame lowers it by one.
+    // A reboot reverts what its jump in the sequence had counted.
     struct Update {
         Verdict verdict = Verdict::good;
         std::int32_t lost = 0, late = 0, duplicate = 0, resync = 0;
     };
-    // A clock that fell by less is two frames that overtook each other.
+    // A smaller fall is taken for two frames that arrived out of order.
     static constexpr std::uint32_t boot_tolerance_ms = 1000;
 
     SequenceTracker();
 
     // `info` is null for an id without definition.
     Update update(const FrameView& frame, const MessageInfo* info = nullptr);
-    // The next frame of each source is taken for its first: what came before has no bearing on it. The sums stay.
+    // Forgets the expected sequence numbers: the next frame of each source is treated as its first. The totals stay.
     void restart() noexcept;
 
-    // All sources heard, in the order they were first heard. `lost` of a source never falls below zero.
+    // All sources, in the order in which they were first heard. `lost` is never negative.
     [[nodiscard]] std::span<const SequenceStats> sources() const noexcept { return stats_; }
     [[nodiscard]] SequenceStats total() const noexcept;
-    // Frames of sources beyond `max_sources`.
+    // The number of frames from sources beyond `max_sources`.
     [[nodiscard]] std::uint64_t untracked() const noexcept { return untracked_; }
 
 private:
-    static constexpr std::size_t window = 32;  // recent frames remembered per source, to tell a duplicate from a late one
-    static constexpr std::uint8_t constant_after = 8;  // equal numbers in a row that mark a sender without sequence
+    // Recent frames remembered per source, to distinguish duplicates from late frames.
+    static constexpr std::size_t window = 32;
+    // So many equal sequence numbers in a row mark a sender that does not count.
+    static constexpr std::uint8_t constant_after = 8;
 
     struct Clock {  // time_boot_ms of one message
         std::uint32_t id;
         std::uint32_t newest_ms;
-        bool fell;  // the last frame's was lower
+        bool fell;  // the last frame's value was lower than newest_ms
     };
     enum class ClockVerdict : std::uint8_t { says_nothing, runs, restarted };
 
     struct State {
-        std::array<std::uint32_t, window> recent{};  // fingerprint of the frame with sequence number s at [s % window]; 0: none
+        // The frame with sequence number s has its fingerprint at [s % window]; 0: none.
+        std::array<std::uint32_t, window> recent{};
         std::uint8_t expected = 0;
         std::uint8_t repeats = 0;
-        bool fresh = true;  // nothing is expected yet
+        bool fresh = true;  // no sequence number is expected yet
         std::uint8_t clock_count = 0;
-        std::array<Clock, 4> clocks{};  // of the first messages that had one
-        Update since_clock_ran{};       // how the sums changed since: what a restart takes back
+        std::array<Clock, 4> clocks{};  // the first messages that have a clock
+        // Changes of the totals since the clock last advanced; a restart reverts them.
+        Update since_clock_ran{};
     };
 
     [[nodiscard]] std::size_t find_or_add(Source source);
@@ -87,7 +98,8 @@ private:
                             Update& update) noexcept;
     [[nodiscard]] static ClockVerdict read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept;
 
-    std::vector<std::uint16_t> index_of_;  // per 256 * system + component: index plus one, 0 unheard; pages allocated per system
+    // Index into stats_ plus one, or 0 for an unheard source. One page of 256 components per system that was heard.
+    std::vector<std::uint16_t> index_of_;
     std::array<std::uint16_t, 256> page_of_{};
     std::vector<SequenceStats> stats_;
     std::vector<State> states_;

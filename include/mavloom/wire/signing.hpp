@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MAVLink 2 message signing: a 48-bit SHA-256 over key and frame, with a timestamp that only grows per (link id, system, component).
-// Single owner thread each; time is a parameter. Nothing allocates per frame. A SigningKey wipes itself.
-// Source: MAVLink guide, "Message Signing"; the timestamps are 10 µs ticks since 2015-01-01 00:00 UTC.
+// MAVLink 2 message signing: keys, signing outgoing frames, and verifying received ones.
+// A signature is a 48-bit SHA-256 over key and frame, with a timestamp that must rise per (link id, system, component).
+// Signer and Verifier have a single owner thread each and take the time as a parameter. Nothing allocates per frame.
+// A SigningKey wipes its memory when destroyed.
+// Source: MAVLink guide, "Message Signing". Timestamps count 10 µs ticks since 2015-01-01 00:00 UTC.
 #pragma once
 
 #include <array>
@@ -19,7 +21,7 @@
 
 namespace mavloom::wire {
 
-// A clock of its own: 10 µs ticks since 2015-01-01, 48 bits on the wire.
+// A signature timestamp: 10 µs ticks since 2015-01-01 00:00 UTC; 48 bits on the wire.
 struct SigningTime {
     std::uint64_t ticks = 0;
     friend constexpr auto operator<=>(SigningTime, SigningTime) = default;
@@ -42,37 +44,38 @@ public:
     SigningKey& operator=(const SigningKey&) = default;
     ~SigningKey();
 
-    // A file of 64 hexadecimal digits (white space around them is fine), mode 0600 or stricter; a regular file.
+    // Reads a regular file of 64 hexadecimal digits, with optional white space around them. Its mode must be 0600 or
+    // stricter. Errors are `bad_input`.
     [[nodiscard]] static SetupResult<SigningKey> load(const std::filesystem::path& file);
 
-    // From the system's random numbers.
+    // Creates a key from the system's random number generator.
     [[nodiscard]] static SetupResult<SigningKey> random();
-    // Writes a new file of mode 0600 in the form that `load` reads. An existing file is never replaced: `in_use`.
+    // Writes a new file of mode 0600 in the form that `load` reads. Never replaces an existing file: that is the error
+    // `in_use`.
     [[nodiscard]] SetupResult<void> create_file(const std::filesystem::path& file) const;
 
     friend bool operator==(const SigningKey&, const SigningKey&) = default;
 
     [[nodiscard]] const std::array<std::uint8_t, length>& bytes() const noexcept { return bytes_; }
-    // Tells keys apart without telling the key: the first 64 bits of a SHA-256.
+    // The first 64 bits of a SHA-256. Identifies a key without revealing it.
     [[nodiscard]] std::uint64_t fingerprint() const noexcept;
 
 private:
     std::array<std::uint8_t, length> bytes_;
 };
 
-// Signs frames on the way out with one link id. Its time follows the clock given and never repeats.
+// Signs outgoing frames with one link id. Timestamps follow the time given to `sign` and never repeat or go back.
 class Signer {
 public:
     Signer(const SigningKey& key, std::uint8_t link_id, SigningTime start = {}) noexcept
         : key_(key), link_id_(link_id), last_(start) {}
 
-    // `frame` is a whole MAVLink 2 frame whose flag incompat_signed is set and whose checksum is in place; the 13 bytes behind `size` are
-    // written. Returns the new size.
+    // `frame` holds a complete MAVLink 2 frame of `size` bytes, with incompat_signed set and a valid checksum.
+    // Writes the signature into the 13 bytes after it and returns the new size.
     std::size_t sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept;
 
-    [[nodiscard]] SigningTime last() const noexcept {
-        return last_;
-    }  // to be stored, so that a restart does not go back
+    // The last timestamp used. Store it and pass it as `start` after a restart, so that timestamps do not go back.
+    [[nodiscard]] SigningTime last() const noexcept { return last_; }
 
 private:
     SigningKey key_;
@@ -83,40 +86,40 @@ private:
 class Verifier {
 public:
     static constexpr std::size_t max_streams = 1024;
-    // A stream heard for the first time may be this much behind our clock.
+    // A new stream may be at most this much behind the current time, or behind the newest accepted timestamp.
     static constexpr std::uint64_t first_tolerance_ticks = 60 * 100'000;
 
     enum class Verdict : std::uint8_t {
         good,
-        unsigned_frame,    // no signature (or MAVLink 1): the caller's policy decides
-        bad_signature,     // the hash does not agree: another key, or damaged
-        replay,            // not newer than the last of this (link id, system, component)
-        too_old,           // a new stream more than a minute behind
-        too_many_streams,  // the table is full; nothing was changed
+        unsigned_frame,    // no signature, or MAVLink 1; the caller's policy decides
+        bad_signature,     // the hash differs: another key, or a damaged frame
+        replay,            // not newer than the last accepted frame of this (link id, system, component)
+        too_old,           // a new stream whose timestamp is more than a minute behind
+        too_many_streams,  // the table of streams is full
     };
 
-    // One sender that was heard, and the last time that was taken from it.
+    // A sender, and the timestamp of its last accepted frame.
     struct Stream {
         std::uint32_t key;  // link id, system, component: 8 bits each, from the top
         SigningTime last;
     };
 
-    // `newest` is the last time known from an earlier run.
+    // `newest` is the newest timestamp accepted in an earlier run.
     explicit Verifier(const SigningKey& key, SigningTime newest = {});
 
-    // State changes only when the answer is `good`: a frame that nobody with the key made changes nothing, whatever time it claims.
+    // Changes state only if it returns `good`. A frame forged without the key has no effect, whatever timestamp it has.
     [[nodiscard]] Verdict verify(const FrameView& frame, SigningTime now) noexcept;
 
     [[nodiscard]] SigningTime newest() const noexcept { return newest_; }
 
-    // Who signed it, and when: of a signed frame.
+    // The stream and the timestamp of a signed frame. The signature is not verified.
     [[nodiscard]] static Stream stream_of(const FrameView& frame) noexcept;
-    // The last time that was taken from a sender; 0: none.
+    // The timestamp of the sender's last accepted frame; 0 if there is none. `key` is as in Stream.
     [[nodiscard]] SigningTime last(std::uint32_t key) const noexcept;
 
-    // To be stored, so that what was taken before a restart is a replay after it. Sorted by key.
+    // All streams, sorted by key. Store them and call `restore` after a restart, so that old frames count as replays.
     [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }
-    // A stream of an earlier run. Never goes back; a stream too many is left out.
+    // Restores a stream of an earlier run. A timestamp never goes back. If the table is full, the stream is ignored.
     void restore(const Stream& stream) noexcept;
 
 private:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Finds the frames of a byte stream (TCP, serial) that arrives in chunks of any size; how it is chunked does not change what is found. Short
-// chunks are copied behind what is kept; of long ones only a frame that spans two, the others are reported in place. One owner thread;
-// allocates nothing after construction.
+// Finds the MAVLink frames in a byte stream (TCP, serial) that arrives in chunks of any size.
+// The result does not depend on how the stream is split into chunks. Short chunks are copied into a buffer.
+// Long chunks are parsed in place; only a frame that spans two chunks is copied.
+// One owner thread; allocates nothing after construction.
 //
-// A false start (a start byte in noise) may claim up to 280 bytes and so hold back real frames behind it at the end of a stream that fell
-// silent. After `hold` of silence `tick` gives such a start up, but only if an intact frame lies behind it: a true frame whose sender merely
-// paused is still completed.
+// A start byte in noise may claim a frame of up to 280 bytes.
+// If the stream then falls silent, that false start holds back the real frames behind it.
+// After `hold` of silence, `tick` drops a false start if an intact frame follows it.
+// A real frame whose sender merely paused is still completed.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +28,8 @@ public:
     // `table` must outlive the parser.
     explicit StreamParser(const MessageTable& table, Nanoseconds hold = default_hold) : scanner_(table), hold_(hold) {}
 
-    // Calls sink(const ParseEvent&) for all that is decided by now, in order. Views live until the call returns.
+    // Calls sink(const ParseEvent&) for everything that can be decided so far, in order. Views are valid until the call
+    // returns.
     template <class Sink>
     void feed(ByteView chunk, MonoTime now, Sink&& sink) {
         if (chunk.empty()) return;
@@ -41,7 +44,7 @@ public:
         if (used != chunk.size()) keep(chunk.subspan(used));
     }
 
-    // To be called when `deadline` has passed without new bytes.
+    // Call it when `deadline` has passed without new bytes.
     template <class Sink>
     void tick(MonoTime now, Sink&& sink) {
         if (begin_ == end_ || now < last_byte_ + hold_) return;
@@ -55,14 +58,15 @@ public:
         settled_ = true;
     }
 
-    // The stream has ended (closed, end of file): what is left becomes frames or junk. The parser may be fed again afterwards.
+    // Call it when the stream has ended (closed, end of file). The remaining bytes become frames or junk. The parser
+    // can be fed again afterwards.
     template <class Sink>
     void finish(Sink&& sink) {
         begin_ += scanner_.scan(pending(), detail::End::closed, sink);
         scanner_.end_junk(sink);
     }
 
-    // When `tick` has something to do; empty while nothing is held back.
+    // When to call `tick`; empty while no bytes are held back.
     [[nodiscard]] std::optional<MonoTime> deadline() const noexcept {
         if (begin_ == end_ || settled_) return std::nullopt;
         return last_byte_ + hold_;
@@ -72,17 +76,19 @@ public:
     [[nodiscard]] const ParseCounters& counters() const noexcept { return scanner_.counters(); }
 
 private:
-    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead. A start within it that is decided
-    // next needs as many again.
+    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead.
+    // If a start byte within it is decided next, that needs as many bytes again.
     static constexpr std::size_t most_kept = max_frame_length + 1;
     static constexpr std::size_t short_chunk = 128;
-    static constexpr std::size_t buffer_length = 1024;  // several short chunks: what is kept seldom moves
+    // Holds several short chunks, so that the kept bytes are seldom moved.
+    static constexpr std::size_t buffer_length = 1024;
     static constexpr std::size_t slack = detail::Scanner::enough_slack;
     static_assert(most_kept + std::max(most_kept, short_chunk) <= buffer_length);
 
     [[nodiscard]] ByteView pending() const noexcept { return {buffer_.data() + begin_, end_ - begin_}; }
 
-    // Decides every start that lies in the kept bytes, with as little of the chunk as that takes; returns the rest, to be scanned in place.
+    // Decides every start byte in the kept bytes, borrowing as little of the chunk as possible.
+    // Returns the rest of the chunk, to be parsed in place.
     template <class Sink>
     ByteView feed_pending(ByteView chunk, Sink&& sink) {
         for (std::size_t old = end_ - begin_; old != 0;) {
@@ -99,7 +105,7 @@ private:
         return {chunk.data() - unused, chunk.size() + unused};
     }
 
-    // How many more bytes the first start needs: to tell its length, then to be whole, and one of look-ahead for an unknown id.
+    // How many more bytes the first candidate needs: 3 to know its length, then its length plus one byte of look-ahead.
     [[nodiscard]] std::size_t wanted() const noexcept {
         const std::size_t length = frame_length(pending());
         const std::size_t all = length == 0 ? std::size_t{3} : length + 1;
@@ -121,8 +127,8 @@ private:
     Nanoseconds hold_;
     MonoTime last_byte_{};
     std::array<std::uint8_t, buffer_length + slack> buffer_{};
-    std::size_t begin_ = 0, end_ = 0;  // what is kept
-    bool settled_ = false;             // `tick` has looked at these pending bytes
+    std::size_t begin_ = 0, end_ = 0;  // the kept bytes
+    bool settled_ = false;             // `tick` has already examined the pending bytes
 };
 
 }  // namespace mavloom::wire

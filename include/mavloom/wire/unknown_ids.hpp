@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Frames whose id has no definition, and so no CRC_EXTRA, can still be told from noise: only 256 of the 65,536 possible checksums are reachable
-// by some CRC_EXTRA, and one source always uses the same. This class learns that byte per (system, component, id) of one link and from then on
-// checks it like a known one. One owner thread; at most 256 entries, all allocated at construction.
-// Source: routing.md section 5.4, DESIGN.md section 4.
+// Checks frames whose message id has no definition, and so no known CRC_EXTRA.
+// Only 256 of the 65,536 possible checksums can result from some CRC_EXTRA, and one source always uses the same one.
+// This class learns that byte per (system, component, id) of one link and then checks frames as if the id were known.
+// One owner thread; at most 256 entries, all allocated at construction.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +17,22 @@ namespace mavloom::wire {
 class UnknownIds {
 public:
     static constexpr std::size_t capacity = 256;
-    static constexpr std::uint8_t confirmations = 3;  // agreeing frames that make a byte the learned one, or replace it
+    // So many agreeing frames confirm a byte, or replace a confirmed one.
+    static constexpr std::uint8_t confirmations = 3;
 
     enum class Verdict : std::uint8_t {
-        impossible,  // no CRC_EXTRA gives this checksum, or not the learned one: damaged
-        possible,    // fits, but nothing is learned yet: needs the plausibility of its surroundings
-        confirmed,   // fits the learned byte
+        impossible,  // no CRC_EXTRA gives this checksum, or not the confirmed one: the frame is damaged
+        possible,    // some CRC_EXTRA fits, but none is confirmed yet: check the surrounding bytes
+        confirmed,   // the confirmed byte fits
     };
 
     UnknownIds() { entries_.reserve(capacity); }
 
-    // Looks only; learns nothing.
+    // Judges the frame; learns nothing.
     [[nodiscard]] Verdict judge(const FrameView& frame) const noexcept;
-    // The frame was accepted, or was refused only because it does not agree with the learned byte: updates the memory. Returns false in the
-    // second case, until as many others agree with each other as it takes to relearn.
+    // Learns from a frame that was accepted, or that was rejected only because it disagrees with the confirmed byte.
+    // Returns true if the caller should accept the frame. Returns false if no CRC_EXTRA fits or it disagrees with the
+    // confirmed byte. After `confirmations` frames that agree on another byte, that byte becomes the confirmed one.
     bool learn(const FrameView& frame) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
@@ -38,11 +40,11 @@ public:
 private:
     struct Entry {
         std::uint64_t key = 0;
-        std::uint8_t extra = 0, agreed = 0;        // the byte in use and how many frames agreed (up to `confirmations`)
-        std::uint8_t rival = 0, rival_agreed = 0;  // a different byte seen since
+        std::uint8_t extra = 0, agreed = 0;  // the byte in use, and how many frames agreed (up to `confirmations`)
+        std::uint8_t rival = 0, rival_agreed = 0;  // a different byte seen since, and how often
     };
 
-    // entries_.size() where the key is not there.
+    // Returns entries_.size() if the key is not there.
     [[nodiscard]] std::size_t index_of(std::uint64_t key) const noexcept;
 
     std::vector<Entry> entries_;

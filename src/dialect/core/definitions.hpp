@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What one XML file says, before includes are merged: with the place of each statement, so that conflicts can name both.
-// The strings live in the Records that the reader was given.
+// The definitions of one XML file before includes are merged. Each has its file and line, so that errors can show both
+// sides of a conflict. The Records passed to the reader own the strings.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Place {
 };
 
 struct FieldDefinition {
-    Field field;  // offset and enumeration not yet known
+    Field field;  // offset and enumeration are not set yet
     std::string_view enum_name;
     Place place;
 };
@@ -36,7 +36,7 @@ struct MessageDefinition {
 struct EntryDefinition {
     std::string_view name;
     std::uint64_t value = 0;
-    bool value_is_given = true;  // false: the next free one, and it may move when files are merged
+    bool value_is_given = true;  // false: assigned the next free value, which may change when files are merged
     std::vector<CommandParam> params;
     Deprecation deprecated;
     Place place;
@@ -52,7 +52,7 @@ struct EnumDefinition {
 };
 
 struct IncludeDefinition {
-    std::string_view path;  // relative to the file that includes
+    std::string_view path;  // relative to the including file
     Place place;
 };
 

@@ -50,7 +50,7 @@ const Field* Message::find(std::string_view field_name) const noexcept {
     return found != fields.end() ? &*found : nullptr;
 }
 
-// The wire table keeps its entries in the order of `messages`, so that an entry's place is the message's place.
+// The entries of the wire table have the same order as `messages`, so an index into one is valid for the other.
 struct Dialect::Index {
     wire::MessageTable table;
     std::unordered_map<std::string_view, const Message*> by_name;
@@ -129,7 +129,7 @@ void merge_enums(Records& records, std::span<const Enum> base, std::span<const E
     for (const auto& [name, e] : by_name) records.enums.push_back(e);
 }
 
-// A copy whose fields point to the merged enums.
+// Returns a copy whose fields point to the merged enums.
 Message rebound(Records& records, Message message) {
     std::vector<Field> fields(message.fields.begin(), message.fields.end());
     for (auto& field : fields) {
@@ -144,7 +144,7 @@ Message rebound(Records& records, Message message) {
 }  // namespace
 
 SetupResult<Dialect> Dialect::with(const Dialect& other) const {
-    constexpr std::size_t most_messages = 60'000;  // the wire table counts in 16 bits
+    constexpr std::size_t most_messages = 60'000;  // the wire table uses 16-bit indexes
     auto storage = std::make_shared<Storage>();
     storage->kept_alive = {storage_, other.storage_};
     merge_enums(*storage, enums_, other.enums_);

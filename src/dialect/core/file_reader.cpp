@@ -17,14 +17,14 @@ namespace {
 constexpr std::size_t max_fields = 64;  // MAVLink's limit for one message
 constexpr std::uint64_t highest_id = 0xff'ffff;
 
-// What the file holds, fit for a line on a terminal.
+// Makes text from the file safe to print in an error message.
 std::string_view shown(std::string_view text) {
     constexpr std::size_t longest = 100;
     if (!is_printable(text)) return "(unprintable)";
     return text.size() > longest ? "(too long)" : text;
 }
 
-// Each read_… gives false after it has noted the first error.
+// Every read_… function returns false after it has stored the first error.
 class FileReader {
 public:
     FileReader(const SourceFile& file, Records& records)
@@ -156,7 +156,7 @@ bool FileReader::read_entry(Node node, EnumDefinition& owner) {
     return true;
 }
 
-// An entry without a value gets the one after the highest so far, at least 1.
+// The value for an entry without one: the highest value so far plus 1, so at least 1. Empty if there is none left.
 std::optional<std::uint64_t> next_value(const EnumDefinition& owner) {
     if (owner.highest == UINT64_MAX) return std::nullopt;
     return owner.highest + 1;

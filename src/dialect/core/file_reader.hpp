@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Turns one XML file into definitions. Strict: an element that it does not know where layout depends on elements, a missing attribute or a
-// value of the wrong form is an error with its line. Attributes that it has no use for are passed over, as are all descriptions.
-// Source: MAVLink's XSD (mavschema.xsd) and its generator's reading of it (pymavlink, mavparse.py).
+// Reads the definitions from one parsed XML file.
+// An unknown element, a missing attribute or an invalid value is an error (`bad_input`) with file and line.
+// Ignores unknown attributes, descriptions, and elements inside <field> and <param>.
+// Source: MAVLink's XSD (mavschema.xsd) and pymavlink's reading of it (mavparse.py).
 #pragma once
 
 #include "definitions.hpp"

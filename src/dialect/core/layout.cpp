@@ -11,7 +11,8 @@
 namespace mavloom::dialect {
 namespace {
 
-// Base fields by falling size of their type, fields of one size as they were written; then the extension fields as they were written.
+// Orders base fields by descending type size, keeping definition order among equal sizes. Extension fields follow in
+// definition order.
 std::vector<Field*> wire_order(std::span<Field> fields) {
     std::vector<Field*> order;
     order.reserve(fields.size());
@@ -57,7 +58,7 @@ void note_target(wire::MessageInfo& info, std::string_view message_name, const F
             info.*target.offset = field.offset;
 }
 
-// Messages with a target are sent by others, so their time is not the vehicle's clock.
+// Skips messages with a target: other systems send them, so their time is not the vehicle's clock.
 void note_boot_time(wire::MessageInfo& info, std::span<const Field> fields) noexcept {
     if (info.target_system_offset != wire::MessageInfo::no_target) return;
     const auto found = std::ranges::find(fields, std::string_view("time_boot_ms"), &Field::name);

@@ -35,11 +35,11 @@ public:
 private:
     struct Step {
         fs::path path;
-        Place from;  // the <include>; no file for the top
+        Place from;  // the <include> element; empty for the top file
     };
 
     void enqueue(fs::path path, Place from) {
-        std::error_code ignored;  // a path that cannot be resolved fails when it is read
+        std::error_code ignored;  // reading an unresolvable path will fail later
         auto resolved = fs::weakly_canonical(path, ignored);
         if (seen_.insert(ignored ? path : resolved).second) queue_.push_back({std::move(path), from});
     }
@@ -62,7 +62,7 @@ private:
         return {};
     }
 
-    // A missing file that another includes is a fault of the latter; a malformed one names its own line.
+    // Attributes a missing include to the including file. A malformed file keeps its own error, with its own line.
     static SetupResult<void> unreadable(const Step& step, SetupError error) {
         if (step.from.file.empty() || error.code == SetupCode::bad_input) return tl::unexpected(std::move(error));
         return setup_error(SetupCode::bad_input,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Follows includes from a top file, breadth first, each file once (so that circles and diamonds are harmless), and merges what the files say
-// into one set of records. Bounded in files and bytes. Merging follows pymavlink's mavgen: enums of one name become one; an entry whose value was not
-// given moves out of the way of one whose value was.
+// Reads an XML file with all its includes, and merges the definitions into one set of records.
+// Includes are followed breadth first and each file is read once, so circular and repeated includes are harmless.
+// The number of files and their total size are limited.
+// Merging follows pymavlink's mavgen: enums with the same name are merged. If values of two files overlap, entries
+// without an explicit value are renumbered.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +17,10 @@ inline constexpr std::size_t max_files = 200;
 inline constexpr std::size_t max_total_bytes = 32u << 20;
 inline constexpr std::size_t max_messages = 20'000;
 
-// Everything from the top file and its includes, in the order of the files.
+// Returns all definitions of the top file and its includes, in the order in which the files were read.
 [[nodiscard]] SetupResult<FileDefinitions> read_with_includes(const std::filesystem::path& top, Records& records);
 
-// Fills `records.enums` and `records.messages`.
+// Fills `records.enums` and `records.messages`. Conflicting definitions are `bad_input`.
 [[nodiscard]] SetupResult<void> merge(FileDefinitions definitions, Records& records);
 
 }  // namespace mavloom::dialect

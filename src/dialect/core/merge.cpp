@@ -22,7 +22,7 @@ bool same(const CommandParam& a, const CommandParam& b) {
            a.increment == b.increment && a.reserved == b.reserved;
 }
 
-// A repeated entry may leave out the parameters.
+// Compares two definitions of an entry. A repeated one may omit the parameters.
 bool agree(const EntryDefinition& a, const EntryDefinition& b) {
     return a.name == b.name && a.value == b.value &&
            (a.params.empty() || b.params.empty() || std::ranges::equal(a.params, b.params, same));
@@ -41,7 +41,8 @@ bool same(const MessageDefinition& a, const MessageDefinition& b) {
            std::ranges::equal(a.fields, b.fields, [](const auto& x, const auto& y) { return same(x, y); });
 }
 
-// As mavgen does it: where the ranges of values overlap, entries of the earlier file without a value of their own go behind the later one's.
+// Merges like mavgen: if the value ranges overlap, renumbers entries of the earlier file that have no explicit value.
+// Those up to the later file's highest value get new values above it.
 void merge_into(EnumDefinition& earlier, EnumDefinition& later) {
     const bool overlap = !earlier.entries.empty() && !later.entries.empty() && earlier.lowest <= later.highest &&
                          earlier.highest >= later.lowest;

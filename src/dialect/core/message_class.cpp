@@ -15,7 +15,7 @@ struct Essential {
     Use use;
 };
 
-// By rising id.
+// By ascending id.
 constexpr Essential essentials[] = {
     {0, Use::presence},       // HEARTBEAT
     {5, Use::control},        // CHANGE_OPERATOR_CONTROL
@@ -60,7 +60,7 @@ struct Meaning {
 
 using enum FrameMeaning;
 
-// By rising id; every other message is `latest`.
+// By ascending id. Messages that are not listed are `latest`.
 constexpr Meaning meanings[] = {
     {34, one_of_kind},     // RC_CHANNELS_SCALED
     {35, one_of_kind},     // RC_CHANNELS_RAW

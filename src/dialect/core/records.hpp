@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memory behind a dialect that was read from XML or merged: strings and records at addresses that never change while it lives.
-// Filled by one thread, then shared immutable.
+// Owns the strings and records of a dialect that was loaded from XML or merged.
+// Their addresses never change. One thread fills it; afterwards it is immutable and shared.
 #pragma once
 
 #include <deque>
@@ -19,9 +19,9 @@ struct Records {
     std::deque<std::vector<Field>> fields;
     std::deque<std::vector<EnumEntry>> entries;
     std::deque<std::vector<CommandParam>> params;
-    std::vector<Message> messages;                        // by rising id
+    std::vector<Message> messages;                        // by ascending id
     std::vector<Enum> enums;                              // by name
-    std::vector<std::shared_ptr<const void>> kept_alive;  // of a merged dialect: what its views point into
+    std::vector<std::shared_ptr<const void>> kept_alive;  // for a merged dialect: owners of what its views point into
 
     std::string_view intern(std::string_view text) { return *strings.emplace(text).first; }
 
@@ -33,7 +33,7 @@ struct Records {
 
 struct Dialect::Storage : Records {};
 
-// The record of this name in a range sorted by name, or null.
+// Finds an enum in a range that is sorted by name; null if there is none.
 [[nodiscard]] const Enum* find_enum_in(std::span<const Enum> sorted, std::string_view name) noexcept;
 
 }  // namespace mavloom::dialect

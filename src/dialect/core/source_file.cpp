@@ -29,7 +29,7 @@ SetupResult<std::string> read_whole(const std::filesystem::path& path) {
     if (!file) return system_error(path.string(), errno);
     const auto size = std::min<std::uintmax_t>(std::filesystem::file_size(path, failure), SourceFile::max_bytes);
     if (failure) return system_error(path.string(), failure.value());
-    std::string text(size + 1, '\0');  // one byte more than allowed tells a file that is too long
+    std::string text(size + 1, '\0');  // one extra byte detects a file that is too long
     text.resize(std::fread(text.data(), 1, text.size(), file.get()));
     if (std::ferror(file.get()) != 0) return system_error(path.string(), errno);
     return text;

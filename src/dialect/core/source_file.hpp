@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One XML file in memory, parsed, with the line of each element. Not a validator: what the elements mean is the reader's business.
-// Bounded: files beyond max_bytes are refused; pugixml expands no entities but XML's own five and parses without recursion.
+// One parsed XML file in memory, with the line number of each element. It does not interpret the elements.
+// Rejects files larger than max_bytes. pugixml expands only the five predefined XML entities and parses without
+// recursion.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +19,11 @@ class SourceFile {
 public:
     static constexpr std::size_t max_bytes = 8u << 20;  // MAVLink's largest is under 1 MiB
 
-    // `not_found` where there is none, `bad_input` where it is no well-formed XML.
+    // Errors: `not_found` if the file does not exist, `bad_input` if it is not a regular file, too long or not
+    // well-formed XML. Failed system calls give their own codes.
     [[nodiscard]] static SetupResult<SourceFile> read(const std::filesystem::path& path);
 
-    [[nodiscard]] const std::string& shown() const noexcept { return shown_; }  // the path as errors name it
+    [[nodiscard]] const std::string& shown() const noexcept { return shown_; }  // the path, as shown in errors
     [[nodiscard]] std::size_t size_bytes() const noexcept { return size_bytes_; }
     [[nodiscard]] pugi::xml_node root() const noexcept { return document_->document_element(); }
     [[nodiscard]] std::size_t line_of(pugi::xml_node node) const noexcept { return line_at(node.offset_debug()); }

@@ -28,7 +28,7 @@ std::optional<FieldType> parse_scalar(std::string_view text) noexcept {
     return std::nullopt;
 }
 
-// Bytes of the UTF-8 sequence that `lead` begins; 0 for none (RFC 3629).
+// The length of the UTF-8 sequence that starts with `lead`; 0 if none does (RFC 3629).
 std::size_t sequence_length(unsigned char lead) noexcept {
     if (lead < 0x80) return 1;
     if (lead >= 0xc2 && lead < 0xe0) return 2;
@@ -38,7 +38,7 @@ std::size_t sequence_length(unsigned char lead) noexcept {
 
 bool is_control(unsigned char c) noexcept { return c < 0x20 || c == 0x7f; }
 
-// RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF; and none of the C1 control characters.
+// Rejects overlong forms, surrogates, code points beyond U+10FFFF (RFC 3629) and C1 control characters.
 bool is_allowed_pair(unsigned char lead, unsigned char second) noexcept {
     switch (lead) {
         case 0xc2: return second >= 0xa0;

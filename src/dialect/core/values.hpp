@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts that XML attributes may hold, as values. Pure functions; nothing for a text that is none of them.
+// Parses the attribute values of MAVLink XML. Pure functions that return empty for invalid text; nothing allocates.
 // Source: MAVLink's XSD (mavschema.xsd): attributes name, value, type, multiplier.
 #pragma once
 
@@ -13,19 +13,19 @@ namespace mavloom::dialect {
 
 struct TypeText {
     FieldType type = FieldType::u8;
-    std::size_t array_length = 0;  // 0: a scalar; not yet bounded
+    std::size_t array_length = 0;  // 0: a scalar; the maximum is not checked
 };
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
-// Letters, digits and underscores, at most 100: safe in C++ and in file names.
+// True for 1 to 100 letters, digits and underscores, which are safe in C++ and in file names.
 [[nodiscard]] bool is_word(std::string_view text) noexcept;
-// Valid UTF-8 without control characters.
+// True for valid UTF-8 without control characters.
 [[nodiscard]] bool is_printable(std::string_view text) noexcept;
-// "42", "0x2a", "0b101010", "2**5".
+// Accepts "42", "0x2a", "0b101010" and "2**5".
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view text) noexcept;
-// "1.5", "-1", "1E-2", "360/255"; finite.
+// Accepts "1.5", "-1", "1E-2" and "360/255"; the result is finite.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text) noexcept;
-// "float", "uint8_t[20]", "uint8_t_mavlink_version".
+// Accepts "float", "uint8_t[20]" and "uint8_t_mavlink_version".
 [[nodiscard]] std::optional<TypeText> parse_type(std::string_view text) noexcept;
 [[nodiscard]] std::optional<bool> parse_bool(std::string_view text) noexcept;
 

@@ -28,9 +28,9 @@ struct Sender final : Link {
     }
     void schedule() override {}
 
-    std::string address;  // empty: of all that are not bound
+    std::string address;  // empty: shared by all unbound senders
     wire::DatagramParser parser;
-    MonoTime last_heard{};  // a good frame
+    MonoTime last_heard{};  // time of the last good frame
     std::uint64_t datagrams = 0;
 };
 
@@ -39,7 +39,7 @@ struct HashText {
     std::size_t operator()(std::string_view text) const noexcept { return std::hash<std::string_view>{}(text); }
 };
 
-// What is bound there: the socket's own descriptor does not say.
+// Identifies the file at the socket's path. The socket's own descriptor does not reveal it.
 struct Place {
     dev_t device = 0;
     ino_t number = 0;
@@ -83,15 +83,15 @@ private:
     std::filesystem::path path_;
     unsigned mode_ = 0;
     Place place_;
-    bool told_ = false;  // that it cannot be made anew
+    bool told_ = false;  // that the socket cannot be recreated
     wire::DatagramParser stranger_;
     std::vector<std::unique_ptr<Sender>> senders_;
     std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
-    Sender* last_ = nullptr;  // datagrams come in runs
+    Sender* last_ = nullptr;  // datagrams arrive in runs
     net::TimerId timer_;
 };
 
-// ---- the socket ------------------------------------------------------------------------------------------------------
+// ---- the socket -----------------------------------------------------------------------------------------------------
 
 SetupResult<void> take_over(const std::filesystem::path& path) {
     const auto probe = net::LocalSender::connect(path);
@@ -137,7 +137,7 @@ Inlet::~Inlet() {
     if (place_ != Place{} && place_ == Place::of(path_)) ::unlink(path_.c_str());
 }
 
-// Somebody may have removed the socket, or the folder.
+// Another program may have removed the socket or its folder.
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
     const auto anew = bind();
@@ -153,9 +153,9 @@ void Inlet::on_io(net::IoEvents) {
     for (std::size_t i = 0; i < *count; ++i) take((*socket_)[i]);
 }
 
-// ---- senders ---------------------------------------------------------------------------------------------------------
+// ---- senders --------------------------------------------------------------------------------------------------------
 
-// "/run/app.sock", "@abstract", "unbound".
+// Examples: "/run/app.sock", "@abstract", "unbound".
 std::string name_of(std::string_view address) {
     if (address.empty()) return "unbound";
     return address.front() == '\0' ? fmt::format("@{}", printable(address.substr(1))) : printable(address);
@@ -200,7 +200,7 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
     return senders_.back().get();
 }
 
-// The checksum of a defined message vouches for the sender; an id without definition alone does not.
+// The checksum of a defined message proves a MAVLink sender. An id without definition does not.
 bool Inlet::holds_frame(ByteView datagram) {
     bool found = false;
     stranger_.parse(datagram, [&](const wire::ParseEvent& event) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The way back from programs of this machine that read the ring: a Unix datagram socket, each sender a link. Private to module link; one owner
-// thread.
+// Receives frames from local programs that read the ring: a Unix datagram socket on which each sender is a link.
+// Private to module link; single owner thread.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,10 @@
 
 namespace mavloom::link::detail {
 
-// Takes over a socket whose router is gone. The socket is removed with the endpoint, if it is still this one.
-inline constexpr std::string_view inlet_suffix = "in";  // of the socket's name in the run folder
+inline constexpr std::string_view inlet_suffix = "in";  // suffix of the socket's name in the run folder
 
+// Opens the inlet and replaces a socket whose router is gone. Closing the endpoint removes the socket, if the path
+// still leads to it.
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_inlet(Opening opening, const std::filesystem::path& path,
                                                                     unsigned mode);
 

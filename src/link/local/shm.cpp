@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The inlet is the Unix datagram socket RUN/NAME.in: whole frames, one a datagram. It comes and goes with its router, and what is queued for it outlives
-// that as long as its frames are young enough.
+// shm:// as a destination: sends frames to the inlet RUN/NAME.in, a Unix datagram socket that takes one whole frame
+// per datagram. The inlet comes and goes with its router. Queued frames survive its absence until they are too old.
 #include "link/local/shm.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +17,9 @@ namespace mavloom::link::detail {
 
 namespace {
 
-constexpr std::size_t one_frame = 1;  // a datagram has room for no second one
-// What a frame can lie in: the queue's memory is one piece.
+// One byte, so that `gather` never adds a second frame to a datagram.
+constexpr std::size_t one_frame = 1;
+// Room for one frame: the queue stores each frame contiguously, so one piece is enough and the other is spare.
 constexpr std::size_t most_pieces = 2;
 
 class InletSender final : public OpenEndpoint, public Outlet, public net::IoHandler, public net::TimerHandler {
@@ -87,7 +88,8 @@ SetupResult<void> InletSender::connect() {
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (std::exchange(told_no_way_, false))
         core_.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
-    peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());  // as its router calls it
+    // The same name that the ring's router gives this link.
+    peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());
     core_.set_up(peer_);
     if (!peer_.queue.empty()) core_.schedule(*this);
     return {};
@@ -98,7 +100,7 @@ bool ring_exists(const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-// The writer of a ring that is there may never serve an inlet: that is said once, as what it is.
+// The writer of an existing ring may never serve an inlet. That case is reported once, with its own text.
 void InletSender::connect_or_retry() {
     auto done = connect();
     if (done) return;
@@ -112,7 +114,7 @@ void InletSender::connect_or_retry() {
     retry_.fail_silently(done.error());
 }
 
-// The far side went: its router ended. Another may have come long before this was noticed, by the first frame for it.
+// The far side's router has ended. This only shows when a frame is sent, so a new router may already be running.
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
@@ -148,7 +150,7 @@ bool InletSender::fill(net::SendBatch& batch) {
     return batch.size() != 0;
 }
 
-// False when no more can go now.
+// Returns false if no more can be sent now.
 bool InletSender::submit(net::SendBatch& batch) {
     const auto sent = socket_.send(batch, 0);
     if (sent) {
@@ -177,7 +179,7 @@ void InletSender::took(std::size_t frames) {
     peer_.queue.pop(position);
 }
 
-// The kernel refuses this one.
+// Drops a frame that the kernel rejects.
 void InletSender::skip_one() {
     std::array<iovec, most_pieces> pieces;
     auto position = peer_.queue.front();

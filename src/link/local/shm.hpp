@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shm:// where it is sent to: the inlet of the router that writes the ring. Private to module link; one owner thread.
+// shm:// as a destination: sends to the inlet of the router that writes the ring. Private to module link; single
+// owner thread.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// serial: opens the port, and opens it again, for ever, when it was unplugged; finds the baud rate where asked. One link whose queue outlives
-// a lost port as long as its frames are young enough.
+// serial: opens the port and reopens it indefinitely after it was unplugged. With baud=auto it also finds the baud
+// rate. The endpoint is one link, and its queued frames survive a lost port until they are too old.
 #include <fmt/format.h>
 
 #include <array>
@@ -12,16 +12,15 @@ namespace mavloom::link::detail {
 
 namespace {
 
-// A port that was open for this long was a good one: the next failure is a new story.
-// In /dev things come in bursts: names, permissions, links.
+// Changes in /dev come in bursts (names, permissions, links). Wait this long before reopening.
 constexpr std::chrono::milliseconds settle{20};
 
-// baud=auto: the usual rates of telemetry radios and autopilots first.
+// Rates that baud=auto tries, most common on telemetry radios and autopilots first.
 constexpr std::array<std::uint32_t, 11> auto_bauds{57600,  115200,  921600,  460800,  230400, 38400,
                                                    500000, 1500000, 1000000, 2000000, 19200};
-// Heartbeats come once a second.
+// How long to try a rate. Heartbeats come once a second.
 constexpr std::chrono::seconds auto_window{2};
-// One good frame may be chance; the second has to come within this time, or the search goes on.
+// A single good frame may be chance. A second one must follow within this time, or the search continues.
 constexpr std::chrono::seconds auto_confirm{10};
 
 class Serial final : public OpenEndpoint, public SerialOwner, public net::IoHandler, public net::TimerHandler {
@@ -71,16 +70,16 @@ private:
     net::SerialDevice device_;
     bool searching_;
     std::size_t auto_index_ = 0;
-    std::uint32_t good_frames_ = 0;  // at this rate; counts to two
+    std::uint32_t good_frames_ = 0;  // at this rate; stops at 2
     SerialPeer peer_;
-    net::FolderWatch folders_;  // while there is no port
+    net::FolderWatch folders_;  // watched while there is no port
     net::WatchId folders_watch_;
-    Retry retry_;  // no port: try again; searching: next rate
+    Retry retry_;  // without a port: reopen; searching: next rate
     MonoTime up_since_{};
     bool was_up_ = false;
 };
 
-// The folders are watched first, so that no device slips in between.
+// Watches the folders before trying to open, so that a device that appears in between is not missed.
 SetupResult<void> Serial::open() {
     watch_folders(true);
     SetupError last{SetupCode::not_found, 0, fmt::format("{} is new and has no link yet", device_.path())};
@@ -118,7 +117,8 @@ void Serial::tell_settings() {
     const auto& options = info.endpoint.options;
     const auto got = peer_.port().baud();
     const auto apart = got > baud() ? got - baud() : baud() - got;
-    constexpr std::uint32_t tolerance_percent = 3;  // what a receiver of ten bits bears
+    // The error that a receiver of ten-bit characters tolerates.
+    constexpr std::uint32_t tolerance_percent = 3;
     if (apart > std::uint64_t{baud()} * tolerance_percent / 100)
         core_.notice(info.id,
                      fmt::format("{}: asked for {} baud, the driver took {}", info.endpoint.label(), baud(), got));
@@ -136,7 +136,7 @@ void Serial::on_gone(std::string_view why) {
     watch_folders(true);
 }
 
-// The first names the rate, the second confirms it.
+// The first good frame reports the rate; the second confirms it.
 void Serial::count_good_frame() {
     ++good_frames_;
     if (!std::exchange(searching_, false)) return;
@@ -179,7 +179,7 @@ void Serial::watch_folders(bool on) {
     }
     if (!folders_) {
         auto made = net::FolderWatch::create();
-        if (!made) return;  // the back-off finds the device too
+        if (!made) return;  // the retry timer also finds the device
         auto watch = core_.loop().watch(made->fd(), true, false, *this);
         if (!watch) return;
         folders_ = std::move(*made);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How many bytes may wait in a serial driver: 50 ms of what the line carries, so that the rest waits where it can age and give way. The line's
-// speed is at least the baud rate's; where the driver empties sooner (USB has no baud rate, a pseudo-terminal tells nothing) it is learnt.
-// Private to module link; values.
+// Limits how many bytes wait in a serial driver: as many as the line carries in 50 ms. The rest waits in the queue,
+// where frames can age and be dropped. The assumed speed is at least the baud rate. If the driver drains faster, the
+// pacer learns it: USB ignores the baud rate, and pseudo-terminals do not report one. Private to module link; plain
+// values.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +17,13 @@ class SerialPacer {
 public:
     explicit SerialPacer(std::uint32_t baud) noexcept : slowest_(std::max(baud / bits_per_byte, 1u)) {}
 
-    // How many more bytes the driver may be given while it holds `unsent`.
+    // How many more bytes to give the driver while it holds `unsent` bytes.
     [[nodiscard]] std::size_t room(std::size_t unsent) const noexcept {
         return unsent < budget() ? budget() - unsent : 0;
     }
-    // When half of what it may hold has left.
+    // The time in which half of the allowed bytes leave the driver.
     [[nodiscard]] static constexpr Nanoseconds interval() noexcept { return depth / 2; }
-    // To be told what the driver still holds an interval after it was filled.
+    // Call it one interval after filling the driver, with the bytes that it still holds.
     void learn(std::size_t unsent) noexcept {
         if (unsent == 0) {
             bytes_per_s_ = std::min(std::max(bytes_per_s_, slowest_) * 2, fastest);
@@ -32,10 +33,10 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t bits_per_byte = 10;  // start, eight of data, stop
+    static constexpr std::uint32_t bits_per_byte = 10;  // start bit, eight data bits, stop bit
     static constexpr std::chrono::milliseconds depth{50};
-    static constexpr std::uint32_t fastest = 8'000'000;  // beyond USB's high speed as serial drivers use it
-    static constexpr std::size_t least = 64;             // a driver's own pieces
+    static constexpr std::uint32_t fastest = 8'000'000;  // more than serial drivers reach over high-speed USB
+    static constexpr std::size_t least = 64;             // a typical driver's block size
 
     [[nodiscard]] std::size_t budget() const noexcept {
         const std::uint64_t speed = std::max(bytes_per_s_, slowest_);

@@ -13,7 +13,8 @@ SetupResult<void> SerialPeer::attach(net::SerialPort port) {
     pacer_ = SerialPacer(port.baud());
     port_ = std::move(port);
     watch_ = *watch;
-    counters.queue_age.add(queue.expire(core_.now()));  // nobody looked while there was no port
+    // Nothing expired while there was no port.
+    counters.queue_age.add(queue.expire(core_.now()));
     if (queued) core_.schedule(*this);
     return {};
 }
@@ -49,7 +50,7 @@ void SerialPeer::on_io(net::IoEvents events) {
     if (events.readable || events.failed) read();
 }
 
-// Also a hang-up is told by read: by no bytes, or by an error.
+// A hang-up also shows as a read of no bytes or a read error.
 void SerialPeer::read() {
     const auto count = port_.read(core_.stream_buffer());
     if (!count) {

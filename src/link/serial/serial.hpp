@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// serial: a port as a link. Private to module link; one owner thread.
+// serial: a serial port as a link. Private to module link; single owner thread.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@ namespace mavloom::link::detail {
 class SerialOwner {
 public:
     virtual ~SerialOwner() = default;
-    // A frame of a defined message with a good checksum: the rate is right. Called ahead of the frame's handler.
+    // A frame of a defined message with a good checksum: the baud rate is right. Called before the frame's handler.
     virtual void on_good_frame() = 0;
-    // The port is gone; the peer is detached.
+    // The port is gone; the peer is already detached.
     virtual void on_gone(std::string_view why) = 0;
 };
 
-// Reads once a turn and gives the driver what 50 ms of the line carry; the rest waits in the queue, where it ages.
+// Reads once per turn. Keeps at most 50 ms of data in the driver; the rest waits in the queue, where it can expire.
 class SerialPeer final : public Link, public Outlet, public net::IoHandler, public net::TimerHandler, public Core::Ticker {
 public:
     SerialPeer(Core& core, SerialOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
@@ -30,11 +30,11 @@ public:
     ~SerialPeer() override { detach(); }
 
     [[nodiscard]] SetupResult<void> attach(net::SerialPort port);
-    // Lets the port go. A frame of which a part was sent will be sent again, from its start.
+    // Releases the port. A partly sent frame will be sent again from its start.
     void detach() noexcept;
     void close(std::string_view why);
     [[nodiscard]] const net::SerialPort& port() const noexcept { return port_; }
-    // False: the port is gone.
+    // Returns false if the port is gone.
     [[nodiscard]] bool set_baud(std::uint32_t baud);
 
     void schedule() override { core_.schedule(*this); }
@@ -54,7 +54,7 @@ private:
         return [this, time](const wire::ParseEvent& event) {
             const bool is_frame = event.kind == wire::ParseEvent::Kind::frame;
             if (is_frame && event.info != nullptr) owner_.on_good_frame();
-            if (is_frame && !up) return;  // its baud rate is still searched for
+            if (is_frame && !up) return;  // still searching for the baud rate
             core_.on_event(*this, event, time);
         };
     }

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Of signed frames that come by several links of a group: which are late, and which are replays. A late one is taken if its time is newer than the
-// newest that any link had brought `least` to `oldest` ago; so it was not taken before that, and a copy of it is still known by its bytes
-// (the router sees to that: Links::longest_late; as far as a flood of other frames leaves room there, which the router's `recent_evicted` tells). Judged by arrival: the clocks
-// of signers need not run with ours. Private to module link; one owner thread; allocates for a new sender only.
+// Separates late frames from replays among signed frames that arrive over several links of a group.
+//
+// A late frame is accepted if its timestamp is newer than the newest timestamp that the group had received some time
+// ago. "Some time ago" is between `least` and `oldest` before now. An earlier copy of such a frame can only have been
+// accepted since then, and the router still recognises that copy by its bytes. Links::longest_late is the bound that
+// the router relies on. Under a flood of other frames the router may forget copies early; its counter
+// `recent_evicted` shows that.
+//
+// Only arrival times count, because signers' clocks need not match ours. Private to module link; single owner thread;
+// allocates only for a new sender.
 #pragma once
 
 #include <chrono>
@@ -20,7 +26,8 @@ public:
     static constexpr Nanoseconds least = std::chrono::milliseconds{600}, most = 2 * least, oldest = most + least;
     static_assert(oldest <= link::Links::longest_late);
 
-    // Whether a sender's frame of `time` is too late at `now`, when its newest before this frame was of `newest`. To be asked of every frame.
+    // True if a frame with timestamp `time` is too late. `newest`: the sender's newest timestamp before this frame.
+    // Call it for every frame.
     [[nodiscard]] bool is_too_late(std::uint32_t sender, wire::SigningTime time, wire::SigningTime newest, MonoTime now) {
         auto [at, is_new] = marks_.try_emplace(sender, Marks{newest, newest, now});
         Marks& marks = at->second;
@@ -30,7 +37,7 @@ public:
     }
 
 private:
-    // The newest time at two moments, `recent` at `since` and `old` `least` to `most` before.
+    // The newest timestamp at two moments: `recent` at `since`, `old` earlier by `least` to `most`.
     struct Marks {
         wire::SigningTime old, recent;
         MonoTime since;

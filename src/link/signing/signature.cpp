@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// sign= and verify= of an endpoint: what comes in unsigned or wrongly signed is dropped, what goes out is signed anew.
+// sign= and verify= of an endpoint: drops incoming frames that are unsigned or wrongly signed, and signs outgoing
+// frames.
 #include <algorithm>
 
 #include "link/core.hpp"
@@ -33,8 +34,9 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
     return OpenKey{path, *key, states_.open(path, *key, notices)};
 }
 
-// What one endpoint took is a replay at the others with its key. In a group the same frame comes by several links, and late by one of them: there each
-// judges for itself, and together they tell what is too late.
+// Endpoints with the same key share one verifier, so a frame that one of them accepted is a replay at the others. In
+// a group the same frame arrives over several links, sometimes late. There each endpoint has its own verifier, and
+// the shared state only rejects frames that are too late.
 void Signature::judge(const OpenKey& with, bool in_group) {
     judge_ = states_.judge_of(with.key);
     if (!in_group) return;
@@ -69,7 +71,7 @@ bool Signature::has_other_keys() const {
     return other;
 }
 
-// Another endpoint may have been opened meanwhile with another key from the same file.
+// The file's state may belong to another key by now: an endpoint opened later may have loaded a new key from it.
 void Signature::keep_times() const {
     if (judge_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(judge_->verifier.streams()))
         verify_with_->times->changed = true;
@@ -94,7 +96,7 @@ bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {
     return true;
 }
 
-// The byte that makes this frame's checksum right: the dialect knows it, else it can be found from the checksum. -1: there is none.
+// The CRC_EXTRA byte of this frame: from the dialect, else derived from the checksum. -1: none fits.
 static int crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
                         const wire::MessageTable& table) noexcept {
     if (const wire::MessageInfo* info = table.find(frame.id())) return info->crc_extra;

@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::string_view heading = "mavloom signing times 1";
 constexpr std::uint64_t time_limit = std::uint64_t{1} << 48;
-constexpr std::size_t longest_file = 256 * 1024;  // max_streams lines and to spare
+// Room for max_streams lines and more.
+constexpr std::size_t longest_file = 256 * 1024;
 constexpr std::uint64_t clock_tolerance_ticks = 60 * 100'000;
 
 std::string_view take_until(std::string_view& text, char end) noexcept {
@@ -66,7 +67,8 @@ bool read_line(std::string_view line, KeyState& state) {
 }
 
 SetupResult<std::string> read_file(const std::filesystem::path& path) {
-    const net::Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));  // waits for no pipe's writer
+    // O_NONBLOCK: if the path is a pipe, do not wait for its writer.
+    const net::Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (!file && errno == ENOENT) return std::string();
     struct stat status {};
     if (file && (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)))
@@ -94,7 +96,7 @@ int replace_file(const std::filesystem::path& path, std::string_view text) noexc
 
 }  // namespace
 
-// ---- what is kept ----------------------------------------------------------------------------------------------------
+// ---- state and its file ---------------------------------------------------------------------------------------------
 
 bool KeyState::belong_to(const wire::SigningKey& now) {
     const std::uint64_t before = std::exchange(key, now.fingerprint());
@@ -164,7 +166,7 @@ SetupResult<void> KeyFile::write(KeyState wanted) {
     return {};
 }
 
-// ---- when ------------------------------------------------------------------------------------------------------------
+// ---- saving ---------------------------------------------------------------------------------------------------------
 
 static KeyState with_reserve(KeyState state) {
     if (state.last_signed.ticks != 0)
@@ -172,7 +174,8 @@ static KeyState with_reserve(KeyState state) {
     return state;
 }
 
-// Seconds, where a time is more than a minute ahead of the clock: then or now the clock is wrong.
+// By how many seconds the latest stored timestamp is ahead of the clock; 0 up to one minute. Ahead means that the
+// clock was wrong then or is wrong now.
 static std::uint64_t seconds_ahead(const KeyState& state, wire::SigningTime now) {
     std::uint64_t latest = state.last_signed.ticks;
     for (const auto& stream : state.heard) latest = std::max(latest, stream.last.ticks);
@@ -225,7 +228,7 @@ std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
 
 void KeyStates::begin_signing(KeyFile& file) {
     file.state.last_signed = std::max(file.state.last_signed, wire::SigningTime::from(wall_now()));
-    (void)file.write(with_reserve(file.state));  // `open` has told what there is to tell
+    (void)file.write(with_reserve(file.state));  // `open` has already reported any error
 }
 
 void KeyStates::save(MonoTime now, std::vector<std::string>& notices) {
@@ -238,7 +241,7 @@ void KeyStates::save(MonoTime now, std::vector<std::string>& notices) {
     notices_.clear();
 }
 
-// A job of the same file that still waits is replaced.
+// Replaces a job for the same file that is still waiting.
 void KeyStates::hand_over(const std::shared_ptr<KeyFile>& file) {
     {
         const std::lock_guard lock(mutex_);
@@ -261,7 +264,7 @@ void KeyStates::run() {
     }
 }
 
-// Said once when it fails.
+// Reports a failure once, until a write succeeds.
 void KeyStates::do_job(const Job& job) {
     const auto written = job.file->write(job.state);
     if (!written && !failing_) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What must outlive a program that uses a signing key: the last time that it signed with, and the last that it took from each sender. Kept in
-// KEYFILE.state (mode 0600, replaced as a whole), read when an endpoint with the key is opened, written every two seconds while there is
-// something new, by a thread of its own, and at the end. Private to module link; one owner thread; nothing happens per frame.
-// Source: MAVLink guide, "Message Signing": the timestamp has to be stored, and must never go back.
+// Stores the signing timestamps that must survive a restart: the last one signed with each key, and the last one
+// accepted from each sender.
+//
+// They are kept in KEYFILE.state (mode 0600, replaced atomically). The file is read when the first endpoint with the
+// key opens. A writer thread saves changes every two seconds, and the destructor saves the final state. No work is
+// done per frame. Private to module link; single owner thread apart from the writer. Source: MAVLink guide, "Message
+// Signing": the timestamp must be stored and must never go back.
 #pragma once
 
 #include <chrono>
@@ -28,34 +31,36 @@ namespace mavloom::link::detail {
 class Signature;
 
 struct KeyState {
-    std::uint64_t key = 0;  // its fingerprint; 0: not known
+    std::uint64_t key = 0;  // the key's fingerprint; 0: unknown
     wire::SigningTime last_signed;
     std::vector<wire::Verifier::Stream> heard;  // sorted by key, at most Verifier::max_streams
 
-    // Of another key than before nothing was heard: its frames are no replays under this one. True when the key is another.
+    // Assigns the state to the key `now` and returns true if that changes `key`. Clears `heard` if it belonged to
+    // another key: its timestamps say nothing about replays under this one.
     bool belong_to(const wire::SigningKey& key);
-    // The later of each. True when something of this state changed.
+    // Keeps the later timestamp of each stream. Returns true if something changed.
     bool merge_heard(std::span<const wire::Verifier::Stream> streams);
 };
 
 [[nodiscard]] std::string text_of(const KeyState& state);
-// Empty where the text is none of ours.
+// Empty if the text is not a state file of this format.
 [[nodiscard]] std::optional<KeyState> parse_key_state(std::string_view text);
 
-// One key file's state. `load` and `state` belong to the owner of KeyStates; `write` may be called by any thread.
+// The state of one key file. Only the owner thread of KeyStates may use `load` and `state`; any thread may call
+// `write`.
 class KeyFile {
 public:
-    // However the key file is written, and by whatever link: it is one.
+    // All spellings of a path, and links to it, lead to the same state file.
     explicit KeyFile(const std::filesystem::path& key);
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    // Nothing there is a new state; what cannot be read or understood is an error.
+    // A missing or empty file is a new state. An unreadable or malformed one is an error.
     [[nodiscard]] SetupResult<void> load();
-    // A file that another program has renewed meanwhile is taken into account.
+    // Merges what another program has written to the file in the meantime.
     [[nodiscard]] SetupResult<void> write(KeyState wanted);
 
     KeyState state;
-    bool changed = false;  // since it was given to the writer
+    bool changed = false;  // since it was last handed to the writer
 
 private:
     std::filesystem::path path_;
@@ -63,7 +68,7 @@ private:
     wire::SigningTime written_;  // guarded by mutex_
 };
 
-// What the endpoints with one key know together, whichever files they have it from.
+// Verification state that all endpoints with one key share, whichever file each loaded the key from.
 struct KeyJudge {
     wire::Verifier verifier;
     LateFrames late;
@@ -71,28 +76,31 @@ struct KeyJudge {
 
 class KeyStates {
 public:
-    // While a program runs its file is ahead by this much, so that one that is killed does not go back when it is started again.
+    // The signing time in the file runs ahead of the one in use by this much (10 s). A killed program therefore never
+    // reuses timestamps after a restart.
     static constexpr std::uint64_t reserve_ticks = 10 * 100'000;
     static constexpr std::chrono::seconds save_interval{2};
 
     KeyStates() = default;
     KeyStates(const KeyStates&) = delete;
     KeyStates& operator=(const KeyStates&) = delete;
-    // Writes what is there, to the tick.
+    // Saves the final state, without the reserve.
     ~KeyStates();
 
-    // The state of the key in file `path`; the first time it is read from its file, and written, and `notices` gets what a person should know of it.
+    // Returns the state of the key file `path`. The first call for a file reads and rewrites its state; `notices`
+    // receives problems that a person should know about.
     [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& path, const wire::SigningKey& key,
                                                 std::vector<std::string>& notices);
+    // The shared verification state of a key.
     [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
-    // To be called before the first frame is signed with the key.
+    // Call it before signing the first frame with the key.
     static void begin_signing(KeyFile& file);
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 
-    // When `save` has something to look at; far away where no key is used.
+    // When to call `save` next; MonoTime::max() if no key is in use.
     [[nodiscard]] MonoTime due() const noexcept { return due_; }
-    // Gives what is new to the writer, and tells what the writer met.
+    // Hands changes to the writer thread, and collects the errors that it met.
     void save(MonoTime now, std::vector<std::string>& notices);
 
 private:
@@ -106,7 +114,7 @@ private:
     void do_job(const Job& job);
 
     std::vector<std::shared_ptr<KeyFile>> files_;
-    std::map<std::uint64_t, std::weak_ptr<KeyJudge>> judges_;  // by the keys' fingerprints
+    std::map<std::uint64_t, std::weak_ptr<KeyJudge>> judges_;  // by key fingerprint
     std::vector<const Signature*> signatures_;
     MonoTime due_ = MonoTime::max();
 
@@ -115,7 +123,7 @@ private:
     std::vector<Job> jobs_;             // guarded by mutex_
     std::vector<std::string> notices_;  // guarded by mutex_
     bool over_ = false;                 // guarded by mutex_
-    bool failing_ = false;              // the writer's
+    bool failing_ = false;              // used by the writer only
     std::thread writer_;
 };
 

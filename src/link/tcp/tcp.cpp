@@ -14,7 +14,8 @@ SetupResult<void> TcpPeer::attach(net::TcpStream stream) {
     watch_ = *watch;
     blocked_ = false;
     last_heard = core_.now();
-    counters.queue_age.add(queue.expire(core_.now()));  // nobody looked while there was no stream
+    // Nothing expired while there was no stream.
+    counters.queue_age.add(queue.expire(core_.now()));
     if (queued) core_.schedule(*this);
     return {};
 }

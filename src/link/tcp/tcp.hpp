@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tcpin and tcpout: a stream as a link. Private to module link; one owner thread.
+// tcpin and tcpout: a TCP stream as a link. Private to module link; single owner thread.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,12 @@ class TcpPeer;
 class TcpOwner {
 public:
     virtual ~TcpOwner() = default;
-    // The stream has ended; the peer is detached and may be buried.
+    // The stream has ended. The peer is detached and may be buried.
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
 };
 
-// Reads once a turn and writes what is queued with one call a turn. What the kernel will not take waits in the queue: a slow far side is
-// never disconnected for being slow.
+// Reads once per turn, and writes what is queued with one call per turn. What the kernel does not accept stays in the
+// queue. A slow far side is never disconnected for being slow.
 class TcpPeer final : public Link, public Outlet, public net::IoHandler, public Core::Ticker {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
@@ -29,10 +29,11 @@ public:
     ~TcpPeer() override { detach(); }
 
     [[nodiscard]] SetupResult<void> attach(net::TcpStream stream);
-    // Ends the stream. A frame of which a part was sent will be sent again, from its start, on the next one.
+    // Closes the stream. A partly sent frame will be sent again, from its start, on the next stream.
     void detach() noexcept;
+    // Delivers what the parser still holds back, then closes the stream and calls on_closed.
     void close(std::string_view why);
-    // The same for an owner that closes it between two turns: what the parser held back is not handed over.
+    // Like `close`, for an owner that calls it between turns: discards what the parser holds back.
     void drop(std::string_view why);
     [[nodiscard]] const net::TcpStream& stream() const noexcept { return stream_; }
 

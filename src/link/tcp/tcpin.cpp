@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tcpin: every client is a link of its own.
+// tcpin: each client is a link of its own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace mavloom::link::detail {
 namespace {
 
 constexpr int accepts_per_turn = 64;
-// Without descriptors a waiting client cannot be taken, and would keep the loop awake.
+// Without free descriptors, accept fails and the waiting client keeps waking the loop. Listening pauses for this
+// long.
 constexpr std::chrono::milliseconds accept_pause{100};
 
 class TcpIn;
@@ -98,7 +99,7 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
     return {};
 }
 
-// Only when the look-up took longer than `add` waits.
+// Called only if the look-up took longer than `add` waits.
 void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
     auto done = answer ? open(*answer) : tl::unexpected(answer.error());
     if (done) return;
@@ -113,8 +114,8 @@ void TcpIn::accept_from(net::TcpListener& listener) {
             admit(std::move(*stream));
         } else {
             if (stream.error() == net::IoError::no_descriptors || stream.error() == net::IoError::no_buffers) pause();
-            if (stream.error() != net::IoError::closed)
-                return;  // one that gave up while it waited says nothing about the next
+            // `closed`: that client gave up while it waited. The next one may be fine.
+            if (stream.error() != net::IoError::closed) return;
         }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tcpout: connects, and connects again, for ever; one link whose queue outlives a lost connection as long as its frames are young enough.
+// tcpout: connects and reconnects indefinitely. The endpoint is one link, and its queued frames survive a lost
+// connection until they are too old.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"
@@ -10,10 +11,9 @@ namespace mavloom::link::detail {
 
 namespace {
 
-// A black hole never answers: the next address gets its turn.
+// An address that never answers is given up after this time, and the next one is tried.
 constexpr std::chrono::seconds connect_limit{5};
 constexpr std::chrono::seconds required_limit{5};
-// A connection that lasted this long was a good one: the next failure is a new story.
 
 class TcpOut final : public OpenEndpoint, public TcpOwner, public net::IoHandler, public net::TimerHandler {
 public:
@@ -33,12 +33,12 @@ public:
         core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
-    // Resolves and connects in the background.
+    // Resolves the host and connects, in the background.
     void begin() {
         if (auto answer = core_.resolve_now(info.endpoint.address, std::chrono::milliseconds(250), *this))
             on_resolved(std::move(*answer));
     }
-    // The same, but waits for the outcome.
+    // Resolves the host and connects, and waits for the result.
     SetupResult<void> begin_and_wait();
 
     std::size_t send(const wire::FrameView& frame) override { return peer_.up && core_.send(peer_, frame) ? 1 : 0; }
@@ -57,10 +57,10 @@ private:
     Core& core_;
     std::optional<net::Address> local_;
     TcpPeer peer_;
-    std::vector<net::Address> addresses_;  // still to be tried, the next one last
+    std::vector<net::Address> addresses_;  // not yet tried; the next one is last
     net::TcpStream connecting_;
     net::WatchId connecting_watch_;
-    Retry retry_;  // connecting: give up; down: try again; up: look whether the far side is idle
+    Retry retry_;  // connecting: give up; down: retry; up: check for idle
     MonoTime up_since_{};
     bool was_up_ = false;
 };
@@ -105,7 +105,7 @@ SetupResult<void> TcpOut::finish() {
     return {};
 }
 
-// The next address at once, else all again after a pause; a name is looked up anew.
+// Tries the next address at once. After the last one it waits, then starts over; a name is resolved again.
 void TcpOut::fail(const SetupError& error) {
     retry_.tell(error.text, "trying again");
     while (!addresses_.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Peers of one socket by their address: a hash table with open addressing that also remembers the last one found, since datagrams come in
-// runs. Look-ups allocate nothing. Private to module link; one owner thread.
+// Finds a socket's peer by its address: a hash table with open addressing. It also remembers the last peer found,
+// because datagrams arrive in runs. Look-ups do not allocate. Private to module link; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ public:
         return slot.peer;
     }
 
-    // The address must not be there yet.
+    // The address must not be in the table yet.
     void add(const net::Address& address, Peer& peer) {
         if ((size_ + 1) * 2 > slots_.size()) grow();
         slots_[place_of(address)] = {address, &peer};
         ++size_;
     }
 
-    // Closes the gap, so that every address stays reachable from its own place.
+    // Closes the gap, so that probing from its home slot still finds every address.
     void remove(const net::Address& address) noexcept {
         std::size_t gap = place_of(address);
         if (slots_[gap].peer == nullptr) return;
@@ -57,7 +57,7 @@ private:
 
     [[nodiscard]] std::size_t next(std::size_t i) const noexcept { return (i + 1) & (slots_.size() - 1); }
 
-    // Where the address is, or would be put.
+    // The slot that holds the address, or that it would go to.
     [[nodiscard]] std::size_t place_of(const net::Address& address) const noexcept {
         std::size_t i = address.hash() & (slots_.size() - 1);
         while (slots_[i].peer != nullptr && !(slots_[i].address == address)) i = next(i);
@@ -71,7 +71,7 @@ private:
             if (slot.peer != nullptr) slots_[place_of(slot.address)] = slot;
     }
 
-    std::vector<Slot> slots_;  // a power of two, at most half taken
+    std::vector<Slot> slots_;  // size: a power of two; at most half used
     std::size_t size_ = 0;
     Slot last_;
 };

@@ -34,8 +34,8 @@ std::size_t UdpPeers::queued_bytes() const {
     return sum;
 }
 
-// With verify= a good signature vouches for the sender; without, the checksum of a defined message does: an id without definition alone does
-// not. Frames with a wrong signature are counted as those of a peer that went at once.
+// With verify= a good signature vouches for the sender. Without it, a good checksum of a defined message does; an id
+// without definition is not enough. Wrongly signed frames count in the endpoint's `gone` sums.
 bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
@@ -95,7 +95,7 @@ void UdpPeers::drop(std::size_t index, std::string_view why) {
     peers_.pop_back();
 }
 
-// Runs when the longest idle peer may have been silent for too long, and then again when the next one may.
+// Runs when the longest idle peer may have expired, and then when the next one may.
 void UdpPeers::on_timer(MonoTime now) {
     MonoTime oldest = now;
     for (std::size_t i = peers_.size(); i-- > 0;) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The peers of an endpoint that anybody may join: who sends a valid frame is one, a link of its own, until it is silent for `idle`; at most
-// max_peers of them. Private to module link; one owner thread.
+// The peers of an endpoint that any sender may join. A sender of a valid frame becomes a peer with its own link,
+// until it is silent for `idle`. There are at most max_peers. Private to module link; single owner thread.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,10 @@ namespace mavloom::link::detail {
 
 class UdpPeers final : public net::TimerHandler {
 public:
-    // Their endpoint, which has the sockets.
+    // The endpoint that owns the sockets.
     class Owner : public UdpOwner {
     public:
-        // The first is about to come; its link is not up yet.
+        // The first peer is about to be added; its link is not up yet.
         virtual void on_first_peer(const net::Address&) {}
         virtual void on_last_peer_gone() {}
     };
@@ -30,7 +30,8 @@ public:
           stranger_(core.table(endpoint.info.id)) {}
     ~UdpPeers() override;
 
-    // Whose datagram this is, a newcomer's also; null: a stranger's without a valid frame, or there is no room.
+    // The peer that sent the datagram. A new sender of a valid frame becomes a peer. Null for a new sender without a
+    // valid frame, or if there is no room.
     [[nodiscard]] UdpPeer* of(UdpPort& port, const net::Datagram& datagram) {
         if (endpoint_.signature) endpoint_.signature->forget_vouched();
         if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;

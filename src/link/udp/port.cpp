@@ -6,10 +6,11 @@
 
 namespace mavloom::link::detail {
 
-// A datagram needs few pieces, for frames lie one behind the other; one of very many would be cut short here and is complete again after a
-// submit.
+// Start a datagram only with room for this many pieces. Frames are contiguous in the queue, so few are needed. A
+// datagram that would need more is cut short here.
 static constexpr std::size_t fewest_pieces = 64;
-// ICMP errors of earlier datagrams make a send fail without having been tried; one more of them may come in between.
+// An ICMP error of an earlier datagram makes the next send fail without being tried. More errors may arrive between
+// attempts, so a send is tried up to this many times.
 static constexpr int most_refusals = 3;
 static constexpr std::chrono::milliseconds retry_after{1};
 
@@ -81,7 +82,8 @@ void UdpPort::forget(UdpPeer& peer) noexcept {
 void UdpPort::refresh_kernel_drops() noexcept {
     if (!socket_) return;
     const std::uint32_t drops = socket_.kernel_drops();
-    counters_.kernel_drop.add(drops - last_drops_);  // the kernel's counter wraps at 2^32, and so does the difference
+    // The kernel's counter wraps at 2^32; unsigned subtraction stays correct.
+    counters_.kernel_drop.add(drops - last_drops_);
     last_drops_ = drops;
 }
 
@@ -105,7 +107,7 @@ void UdpPort::take_failures() {
     }
 }
 
-// A refusal of what was sent in one turn is read in the next.
+// Refusals of datagrams sent in one turn are read in the next.
 void UdpPort::settle_sent() noexcept {
     for (UdpPeer* const peer : unsettled_) peer->settle();
     unsettled_.clear();
@@ -127,7 +129,8 @@ void UdpPort::on_timer(MonoTime) {
 void UdpPort::receive() {
     net::ReceiveBatch& batch = core_.receive_batch();
     const auto count = socket_.receive(batch);
-    if (!count) return;  // would_block, or an ICMP error that `failed` reports as well
+    // would_block, or an ICMP error. on_io also receives that error as `failed`.
+    if (!count) return;
     if (*count == net::ReceiveBatch::slots) core_.note_more_waits();
     for (std::size_t i = 0; i < *count; ++i) {
         const net::Datagram datagram = batch[i];
@@ -171,7 +174,7 @@ void UdpPort::flush() {
     });
 }
 
-// Sends the batch; false when the kernel will take no more for now. What was not sent is still queued.
+// Sends the batch. Returns false if the kernel accepts no more for now. What was not sent stays queued.
 bool UdpPort::submit() {
     net::SendBatch& batch = core_.send_batch();
     int refusals = 0;
@@ -201,7 +204,7 @@ void UdpPort::account(const Part& part) noexcept {
     if (was_settled && !peer.is_settled()) unsettled_.push_back(&peer);
 }
 
-// Leaves in `index` the datagram to go on with.
+// Leaves `index` at the datagram to continue with.
 void UdpPort::recover(std::size_t& index, net::IoError error, int& refusals) {
     if (error == net::IoError::would_block) return block();
     if (error == net::IoError::no_buffers) return hold(index);
@@ -222,8 +225,9 @@ void UdpPort::block() {
     core_.loop().change(watch_, true, true);
 }
 
-// ENOBUFS comes from a full device queue, and no event tells when it has room again. Other peers may be reached through another device; a
-// peer's datagrams stand together, and the rest of them keep their order by waiting too.
+// ENOBUFS means that a device queue is full, and no event reports when it has room again. Other peers may be
+// reachable through another device, so only this peer waits. All its datagrams, which are adjacent in the batch, wait
+// with it, to keep their order.
 void UdpPort::hold(std::size_t& index) {
     UdpPeer* const peer = parts_[index].peer;
     if (peer != nullptr) peer->held = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// udpin, udpout, udpbcast and udpmcast: a socket with its peers, each peer a link. Private to module link; one owner thread.
+// udpin, udpout, udpbcast and udpmcast: a socket and its peers, each of them a link. Private to module link; single
+// owner thread.
 #pragma once
 
 #include <memory>
@@ -24,19 +25,21 @@ struct UdpPeer final : Link {
     UdpPort* port;
     net::Address address;
     wire::DatagramParser parser;
-    // Datagrams with a good frame count; those of junk do not keep a peer.
+    // Both count only datagrams with a good frame. Junk does not keep a peer alive.
     MonoTime last_heard{};
     std::uint64_t datagrams = 0;
-    bool held = false;  // the device's queue had no room for it: waits for its port's retry
+    // The device queue was full; the peer waits for its port's retry.
+    bool held = false;
 
     void note_heard(MonoTime now) noexcept;
-    // The far side's port is closed. Not every datagram that meets it is reported: what is sent in the next second counts as refused.
+    // The far side's port is closed. ICMP does not report every datagram that meets it, so what is sent in the next
+    // second also counts as refused.
     void note_refusal(MonoTime now) noexcept;
-    // The far side is somewhere else now: what the old address refused says nothing of it.
+    // The far side has a new address. Refusals by the old one no longer apply.
     void move_to(const net::Address& where) noexcept;
-    // Frames to a peer that has not been heard since its last refusal, or never, are counted by `settle`.
+    // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
     void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
-    // No refusal has come of what was sent: it counts as sent.
+    // Counts what was sent and not refused as sent.
     void settle() noexcept;
     [[nodiscard]] bool is_settled() const noexcept { return unsettled_frames_ == 0; }
 
@@ -47,24 +50,25 @@ private:
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
 
-// The kernel's time stamp; where it gave none, now.
+// The kernel's time stamp, or the current time if there is none.
 [[nodiscard]] inline WallTime receive_time(const net::Datagram& datagram) {
     return datagram.time == WallTime{} ? wall_now() : datagram.time;
 }
 
-// What an endpoint decides about its sockets' datagrams.
+// Decides, for an endpoint, which peer a datagram belongs to.
 class UdpOwner {
 public:
     virtual ~UdpOwner() = default;
-    // Whose datagram this is; null: nobody's, and it is counted.
+    // The peer that sent the datagram. Null: drop the datagram. The endpoint has counted it, unless it is its own and
+    // looped back.
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
-    // The peer at this address; null where there is none.
+    // The peer at this address; null if there is none.
     [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
-    // The kernel or the network refused a datagram.
+    // The kernel or the network rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;
 };
 
-// One socket: reads a batch a turn, and sends what its peers queued with one sendmmsg a turn.
+// One socket. Reads one batch per turn, and sends what its peers queued with sendmmsg at the end of the turn.
 class UdpPort final : public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
     UdpPort(Core& core, UdpOwner& owner, EndpointCounters& counters, std::uint32_t mtu_bytes)
@@ -79,10 +83,10 @@ public:
         waiting_.push_back(&peer);
         core_.schedule(*this);
     }
-    // The peer is about to go.
+    // The peer is about to be destroyed.
     void forget(UdpPeer& peer) noexcept;
     void refresh_kernel_drops() noexcept;
-    // Counts what was sent, after a look at the refusals that have come until now.
+    // Reads the refusals that have arrived, then counts what was sent.
     void settle();
 
     void on_io(net::IoEvents events) override;
@@ -92,7 +96,7 @@ public:
     void expire(MonoTime now) override;
 
 private:
-    struct Part {  // of the batch being built: one datagram
+    struct Part {  // one datagram of the batch being built
         UdpPeer* peer;
         net::BlockQueue::Position until;
         std::uint32_t frames, bytes;
@@ -113,20 +117,20 @@ private:
     std::uint32_t mtu_bytes_;
     net::UdpSocket socket_;
     net::WatchId watch_;
-    net::TimerId retry_;  // for peers that are held
+    net::TimerId retry_;  // for held peers
     PeerTable<UdpPeer> peers_;
-    std::vector<UdpPeer*> waiting_;  // with something queued
+    std::vector<UdpPeer*> waiting_;  // have something queued
     std::vector<Part> parts_;
-    bool blocked_ = false;  // the socket's own buffer is full
+    bool blocked_ = false;  // the socket's send buffer is full
     std::vector<UdpPeer*> unsettled_;
-    std::uint64_t unsettled_turn_ = 0;  // Core::turns() when they were sent to
+    std::uint64_t unsettled_turn_ = 0;  // Core::turns() when `unsettled_` were sent to
     std::uint32_t last_drops_ = 0;
 };
 
-// What the options of an endpoint ask of its sockets.
+// The socket options that an endpoint's options require.
 [[nodiscard]] net::UdpOptions udp_options(const endpoint::EndpointOptions& endpoint);
 
-// They make the endpoint at once or say why not.
+// Each creates the endpoint or returns an error.
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening);
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening);
 [[nodiscard]] SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// udpbcast: one link that is everybody, until somebody answers; who answers is then fed alone, each a link of its own, until the last of
-// them has been silent for `idle`. With fixed=true the one link stays, sends to everybody and hears everybody.
+// udpbcast: broadcasts until a peer answers. Then only the peers that answered receive frames, each over its own
+// link, until the last of them is silent for `idle`. With fixed=true a single link broadcasts to, and hears,
+// everyone.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"
@@ -91,14 +92,14 @@ void UdpBroadcast::on_timer(MonoTime) {
     }
 }
 
-// A socket on the port that is broadcast to hears itself.
+// A socket bound to the broadcast port hears its own datagrams.
 UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
     if (datagram.from->port() == info.local_port && own_.contains(*datagram.from, core_.now())) return nullptr;
     return info.endpoint.options.fixed ? &everybody_ : peers_.of(port, datagram);
 }
 
 void UdpBroadcast::on_send_error(net::IoError error) {
-    if (error == net::IoError::refused) return;  // a peer's port that was closed
+    if (error == net::IoError::refused) return;  // a peer's port was closed
     if (std::exchange(told_unreachable_, true)) return;
     core_.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
                                       everybody_.address.text()));

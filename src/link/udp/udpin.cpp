@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// udpin: every peer that sends valid MAVLink is a link of its own.
+// udpin: each peer that sends valid MAVLink is a link of its own.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"
@@ -44,7 +44,8 @@ private:
 
 SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     net::UdpOptions options = udp_options(info.endpoint.options);
-    // One socket on :: serves both families; where each family has a socket of its own they must not meet.
+    // A single socket on :: serves both families. If each family has its own socket, the IPv6 one must not also take
+    // IPv4.
     options.v6_only = addresses.size() > 1;
     for (const net::Address& address : addresses) {
         auto port = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);
@@ -63,7 +64,7 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     return {};
 }
 
-// Only when the look-up took longer than `add` waits.
+// Called only if the look-up took longer than `add` waits.
 void UdpIn::on_resolved(net::Resolver::Answer&& answer) {
     auto done = answer ? open(*answer) : tl::unexpected(answer.error());
     if (done) return;

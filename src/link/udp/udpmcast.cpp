@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// udpmcast: a group is one link, for whoever is in it hears all that is sent to it. One socket hears the group on its port, which other
-// programs of this machine may share; another sends, from a port of its own, so that own datagrams are known by their source when they loop
-// back, and hears those who answer to that source.
+// udpmcast: the whole group is one link, because every member hears all that is sent to it.
+//
+// The endpoint has two sockets. One hears the group on its port, which other local programs may share. The other
+// sends from a port of its own, so that the endpoint recognises its looped-back datagrams by their source. It also
+// hears members that answer to that source.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"
@@ -90,7 +92,8 @@ void UdpMulticast::on_send_error(net::IoError error) {
     fail({SetupCode::unreachable, 0, "no network reaches the group now"});
 }
 
-// A membership ends with its interface, and the route to a group may lead elsewhere by now: neither is told.
+// Rejoins the group unless it was heard lately. The membership ends with its interface, and the route to the group
+// may change; the kernel reports neither.
 void UdpMulticast::on_timer(MonoTime now) {
     const bool heard = group_.last_heard != MonoTime{} && now - group_.last_heard < idle_;
     if (heard && !failing_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// udpout: one far side, one link. The socket is not connected, so that datagrams from elsewhere can be counted; closed ports are learnt of
-// by ICMP.
+// udpout: one far side, one link. The socket is not connected, so that datagrams from other addresses can be counted.
+// ICMP reports closed ports.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ SetupResult<void> UdpOut::open_port(const net::Address& address) {
     return {};
 }
 
-// The link stays the same whatever address the far side has.
+// The link stays the same when the far side's address changes.
 SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     if (auto done = open_port(address); !done) return done;
     if (!peer_) {
@@ -130,7 +130,8 @@ void UdpOut::on_send_error(net::IoError error) {
     if (choice && !retry_.within(Retry::longest)) retry_.later();
 }
 
-// After a failure the next address, and behind the last one a new look-up; without failure a new look-up when nothing was heard for `idle`.
+// After a failure: tries the next address, and after the last one a new look-up. Without a failure: a new look-up if
+// nothing was heard for `idle`.
 void UdpOut::on_timer(MonoTime now) {
     retry_.fired(now);
     const bool heard = peer_ && peer_->last_heard != MonoTime{} && now - peer_->last_heard < idle_;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A reader's side of the algorithm, over memory that is there already: slots, locks and liveness are RingReader's. One thread; allocates at
-// construction.
+// The reader's side of the ring algorithm, over memory that is already mapped. RingReader handles slots, locks and
+// liveness. One thread; allocates only at construction.
 //
-// A lossy reader copies a record and then looks whether the writer may have begun to overwrite it (`intent`): if so, the copy is thrown away, and the
-// reader goes on at a mark, which says how many records lie before it. A lossless one keeps its bit in `holders` set while it looks at a record in
-// place; the writer clears that bit before it overwrites anything that is held.
+// A lossy reader copies a record, then checks whether the writer has announced (`intent`) that it may overwrite the
+// record. If so, the reader discards the copy and continues at a mark. The mark's sequence number gives the exact
+// number of records missed.
+//
+// A lossless reader keeps its bit in `holders` set while it looks at a record in place. The writer clears that bit
+// before it overwrites anything that the reader holds.
 #pragma once
 
 #include <optional>
@@ -21,7 +24,8 @@ template <class Words>
 class Consumer {
 public:
     Consumer() = default;
-    // `slot`: of this reader, already its own; none: it leaves no trace in the ring (a mapping that is only readable). Lossless readers need one.
+    // `slot` is the reader's slot, which it already owns. A reader without a slot leaves no trace in the ring
+    // (read-only mapping). Lossless readers need a slot.
     Consumer(const RingMemory<Words>& ring, std::optional<unsigned> slot, bool lossless)
         : ring_(ring),
           slot_(slot),
@@ -29,14 +33,16 @@ public:
           copy_(lossless ? 0 : max_payload(ring.capacity) / sizeof(std::uint64_t) + 1) {}
 
     enum class Start : std::uint8_t { newest, oldest };
-    // To the next record that will be written, or to the oldest one that is there. False: the ring is damaged. A lossless reader holds from here on.
+    // Moves to the next record that will be written, or to the oldest one in the ring. A lossless reader holds from
+    // here on. Returns false if the ring is damaged.
     [[nodiscard]] bool start(Start where) noexcept {
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             const std::uint64_t intent = ring_.control->intent.load(std::memory_order_acquire);
             const std::uint64_t tail = ring_.control->tail.load(std::memory_order_acquire);  // pairs with commit()
             auto at = where == Start::oldest ? find_mark(ring_, 0) : newest_mark(ring_);
             if (at && where == Start::newest) at = walk(ring_, *at, tail);
-            if (!at) {  // overtaken, or damaged: the latter where the writer did not move on, or after so many attempts
+            // Overtaken or damaged. It is damage if the writer has not moved, or if all attempts fail.
+            if (!at) {
                 if (ring_.control->intent.load(std::memory_order_acquire) == intent) return false;
                 continue;
             }
@@ -50,7 +56,7 @@ public:
     }
 
     enum class Found : std::uint8_t { record, empty, damaged };
-    // The next record. Releases the one before, whose view ends.
+    // Gets the next record. Releases the previous one, whose view becomes invalid.
     [[nodiscard]] Found next(RingRecord& out) noexcept {
         release();
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -86,15 +92,16 @@ public:
         return Found::damaged;
     }
 
-    // Of a lossless reader: gives up to `most` records (at least one is wanted) and about an eighth of the ring to `visit`, in one piece of memory
-    // and all in view until the next call. `record` unless there is none to give. What follows the first is given as far as it is plain to see:
-    // next() tells what else stands there.
+    // For lossless readers. Passes up to `most` records (at least 1), but at most about 1/8 of the ring, to `visit`.
+    // The records are contiguous in memory, and all stay in view until the next call. Returns `record`, or the reason
+    // why there is none. After the first record, it stops at anything but a plain valid record, and leaves that to
+    // next().
     template <class Visit>
     [[nodiscard]] Found visit(std::size_t most, Visit&& visit) noexcept {
         RingRecord record;
         const Found found = next(record);
         if (found != Found::record) return found;
-        // Local, for `visit` could change a member, for all that the compiler knows.
+        // Local copies: the compiler must assume that `visit` could change members.
         std::uint64_t position = position_, after = after_, sequence = sequence_;
         const std::uint64_t end = std::min(
             {tail_, position + ring_.left_in_lap(position), position + ring_.capacity / 8});
@@ -112,7 +119,8 @@ public:
         return found;
     }
 
-    // Ends the view of the last record. The writer may learn of it later, at the latest when all is read.
+    // Ends the view of the last record. May delay the report to the writer, but reports at the latest when everything
+    // is read.
     void release() noexcept {
         if (!in_hand_) return;
         in_hand_ = false;
@@ -121,14 +129,15 @@ public:
         if (position_ - published_ >= ring_.capacity / publish_parts) publish();
     }
 
-    // Tells the writer at once.
+    // Reports the position to the writer now.
     void publish() noexcept {
         if (!slot_) return;
         auto& slot = ring_.slots[*slot_];
         published_ = position_;
         slot.sequence.store(sequence_, std::memory_order_relaxed);
         slot.missed.store(missed_, std::memory_order_relaxed);
-        // Sequentially consistent with Producer::sleep_for_room(), and a release for the acquire in Producer::for_each_holder().
+        // Sequentially consistent with Producer::sleep_for_room(). Also the release for the acquire in
+        // Producer::for_each_holder().
         slot.position.store(position_, std::memory_order_seq_cst);
         auto& control = *ring_.control;
         if (!lossless_ || control.room_wanted.load(std::memory_order_seq_cst) == 0) return;
@@ -137,11 +146,18 @@ public:
         Words::wake(control.rooms);
     }
 
-    // Sleeps until something is committed, the writer goes, or `longest` is over; a reader without a slot for all of it.
+    // Sleeps until a commit, until the writer closes, or until `longest` is over. A reader without a slot may sleep for
+    // all of `longest`, because the writer does not know about it.
     //
-    // The first sleep behind a record is a nap of `wake_distance` at most that the writer is not asked to end: while records come thick, he neither looks
-    // at the clock nor makes a system call. He may overlook a bit that was just set (commit() looks at `sleepers` before others see its `tail`,
-    // Producer::wake_readers() wakes nobody twice in a while), so that the second is short, too. The bit stays set until awake().
+    // The first sleep after a record is a nap of at most `wake_distance`, without asking the writer for a wake-up. So
+    // while records arrive continuously, the writer neither reads the clock nor makes a system call.
+    //
+    // The second sleep sets this reader's bit in `sleepers`, but is just as short, because the writer may overlook a
+    // bit that was just set:
+    // - commit() reads `sleepers` before its store of `tail` is visible to others.
+    // - Producer::wake_readers() does nothing if it already ran within `wake_distance`.
+    //
+    // The bit stays set until awake().
     void sleep(Nanoseconds longest) noexcept {
         auto& control = *ring_.control;
         const std::uint32_t seen = control.wakes.load(
@@ -153,31 +169,34 @@ public:
             rest_ = rest_ == Rest::nap ? Rest::asked : Rest::known;
     }
 
-    // For a sleep elsewhere on `wakes`, until awake(): sets this reader's bit. Whether it was set before.
+    // Sets this reader's bit, for a sleep on `wakes` elsewhere. The bit stays set until awake(). Returns whether it was
+    // already set.
     [[nodiscard]] bool fall_asleep() noexcept {
         asleep_ = true;
         return (ring_.control->sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) != 0;
     }
-    // Whether something waits that next() has not looked at. Behind fall_asleep(): a later commit sees the bit, but for one that the writer makes within
-    // `wake_distance` (see sleep()).
+    // Returns whether there is something that next() has not looked at. Call it after fall_asleep(): later commits then
+    // see the bit. The exception is a commit within `wake_distance` (see sleep()).
     [[nodiscard]] bool more_waits() const noexcept {
         return ring_.control->tail.load(std::memory_order_seq_cst) != tail_ || retired();
     }
 
-    // After the last sleep() of a wait: the writer need not wake this reader.
+    // Call after the last sleep() of a wait. The writer then no longer needs to wake this reader.
     void awake() noexcept {
         rest_ = Rest::nap;
         if (std::exchange(asleep_, false)) ring_.control->sleepers.fetch_and(~bit(), std::memory_order_relaxed);
     }
 
-    // Whether what was read of the view of the last record is what was written: false once a writer that evicts has taken this reader's hold.
+    // Returns whether the bytes read from the current view are valid. False once an evicting writer has removed this
+    // reader's hold.
     [[nodiscard]] bool holds() const noexcept {
-        // A read-modify-write, whose release keeps the caller's plain loads before it: a load could be ahead of them, on ARM.
+        // A read-modify-write, because its release keeps the caller's earlier plain loads before it. On ARM, a plain
+        // load could overtake them.
         return (ring_.control->holders.fetch_or(0, std::memory_order_acq_rel) & bit()) != 0;
     }
 
     [[nodiscard]] bool retired() const noexcept { return ring_.control->retired.load(std::memory_order_acquire) != 0; }
-    // Whether all that was committed is read.
+    // Returns whether all committed records are read.
     [[nodiscard]] bool drained() const noexcept {
         return (in_hand_ ? after_ : position_) == ring_.control->tail.load(std::memory_order_acquire);
     }
@@ -188,11 +207,12 @@ public:
 
 private:
     enum class Rest : std::uint8_t {
-        nap,    // unasked
-        asked,  // the bit is set, and may be overlooked
-        known,  // the writer sees it: has been set for `wake_distance`
+        nap,    // no wake-up requested
+        asked,  // the bit is set, but the writer may overlook it
+        known,  // the writer sees the bit: it has been set for `wake_distance`
     };
-    static constexpr int most_attempts = 10'000;  // a writer is not faster so many times running; damage is
+    // No writer overtakes a reader this many times in a row, so failing this often means damage.
+    static constexpr int most_attempts = 10'000;
     static constexpr std::uint64_t publish_parts = 16;
 
     [[nodiscard]] std::uint64_t bit() const noexcept { return std::uint64_t{1} << *slot_; }
@@ -211,7 +231,8 @@ private:
         return false;
     }
 
-    // Sequentially consistent with Producer::extend(): either the writer sees this hold, or its announcement is seen here.
+    // Sequentially consistent with Producer::extend(): either the writer sees this hold, or this reader sees its
+    // announcement.
     [[nodiscard]] bool hold() noexcept {
         auto& control = *ring_.control;
         publish();
@@ -221,21 +242,23 @@ private:
         return false;
     }
 
-    // Enough behind loads that acquire. Acquire: pairs with Producer::drop_holds(). Bytes of a later lap are seen only by who sees the bit gone.
+    // An acquire load is enough, because the caller's earlier loads acquire too. It pairs with Producer::drop_holds().
+    // A reader that sees bytes of a later lap therefore also sees that its bit is gone.
     [[nodiscard]] bool has_hold() const noexcept {
         return (ring_.control->holders.load(std::memory_order_acquire) & bit()) != 0;
     }
 
-    // After all that was read of the record: its loads acquired, so that this one is not ahead of them.
+    // Call after all reads of the record. Those loads acquire, so this load cannot move before them.
     [[nodiscard]] bool overtaken() const noexcept {
         if (lossless_) return !has_hold();
         return ring_.control->intent.load(std::memory_order_acquire) > position_ + ring_.capacity;
     }
 
-    // Lapped. Goes on a quarter of the ring before the writer, so as not to be lapped at once again.
+    // Handles being lapped. Continues at a mark at least 1/4 of the ring away from being overwritten, so as not to be
+    // lapped again at once.
     [[nodiscard]] bool skip_ahead() noexcept {
         const auto mark = find_mark(ring_, ring_.capacity / 4);
-        if (!mark) return true;  // overtaken meanwhile, or damaged: next() tries so many times
+        if (!mark) return true;  // overtaken again, or damaged; next() limits the attempts
         if (mark->position < position_ || mark->sequence < sequence_) return false;
         missed_now_ += mark->sequence - sequence_;
         missed_ += mark->sequence - sequence_;
@@ -246,7 +269,7 @@ private:
     void copy_payload(std::size_t length) noexcept {
         const auto* word = ring_.word(position_) + record_header_bytes / sizeof(std::uint64_t);
         const std::size_t words = (length + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
-        // Acquire: pairs with the release of the same word in Producer::store_payload().
+        // Acquire: pairs with the release store of the same word in Producer::store_payload().
         for (std::size_t i = 0; i < words; ++i) copy_[i] = word[i].load(std::memory_order_acquire);
     }
 
@@ -265,15 +288,15 @@ private:
     bool lossless_ = false;
     bool asleep_ = false;  // its bit in `sleepers` may be set
     Rest rest_ = Rest::nap;
-    bool in_hand_ = false;         // the record at position_ was given out
-    std::uint64_t position_ = 0;   // of the record in hand, or of the next
-    std::uint64_t after_ = 0;      // behind the record in hand
+    bool in_hand_ = false;         // the record at position_ was returned to the caller
+    std::uint64_t position_ = 0;   // of the record in hand, or of the next one
+    std::uint64_t after_ = 0;      // end of the record in hand
     std::uint64_t sequence_ = 0;   // of the record at position_
-    std::uint64_t tail_ = 0;       // of the ring, as last seen
-    std::uint64_t published_ = 0;  // position_ as the writer knows it
+    std::uint64_t tail_ = 0;       // the ring's tail, as last read
+    std::uint64_t published_ = 0;  // the position_ that the writer knows
     std::uint64_t missed_ = 0;
-    std::uint64_t missed_now_ = 0;     // since the last record that was given out
-    std::vector<std::uint64_t> copy_;  // of the record in hand, where it is not held in place
+    std::uint64_t missed_now_ = 0;     // since the last record that was returned
+    std::vector<std::uint64_t> copy_;  // of the record in hand, for lossy readers
 };
 
 }  // namespace mavloom::shm::detail

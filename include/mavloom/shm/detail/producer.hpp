@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The writer's side of the algorithm, over memory that is there already: locks, policies and sleeping are RingWriter's. One thread; allocates
-// nothing.
+// The writer's side of the ring algorithm, over memory that is already mapped. RingWriter handles locks, policies and
+// waiting. One thread; allocates nothing.
 //
-//   claim   announce what will be overwritten (`intent`), see that no reader holds it (`holders`), mark the record as being written
-//   commit  length, marks, `tail`; wake who sleeps
+//   claim   announces what will be overwritten (`intent`), checks that no reader holds it (`holders`), and marks the
+//           record as being written
+//   commit  stores the length, the marks and `tail`, then wakes sleeping readers
 //
-// Killed anywhere in between, it leaves `tail` where it was: everything before it is whole, everything behind it is nothing.
+// A writer that is killed at any point leaves `tail` unchanged. Every record before `tail` is complete; nothing behind
+// it counts.
 #pragma once
 
 #include <bit>
@@ -24,7 +26,8 @@ public:
     Producer() = default;
     explicit Producer(const RingMemory<Words>& ring) noexcept : ring_(ring) {}
 
-    // Finds where the last writer stopped, whatever it was doing. False: the ring is damaged. Requires that no other writer is alive.
+    // Finds where the last writer stopped, whatever it was doing. Returns false if the ring is damaged. Requires that
+    // no other writer is alive.
     [[nodiscard]] bool recover() noexcept {
         auto& control = *ring_.control;
         tail_ = control.tail.load(std::memory_order_acquire);  // pairs with commit() of the last writer
@@ -42,7 +45,8 @@ public:
 
     enum class Room : std::uint8_t { there, held, removed };
 
-    // Room for a record of `length` bytes of payload (at most max_payload()); of an earlier claim nothing remains. `payload` is valid then.
+    // Makes room for a record with `length` bytes of payload (at most max_payload()). Discards an earlier claim. On
+    // success, `payload` is valid.
     [[nodiscard]] Room claim(std::size_t length) noexcept {
         const std::uint64_t size = record_size(length);
         if (ring_.control->retired.load(std::memory_order_relaxed) != 0) return Room::removed;
@@ -54,13 +58,14 @@ public:
         return Room::there;
     }
 
-    // Where the claimed payload goes. Filled by plain stores: a lossy reader that is being lapped at that moment may copy a mixture, which it then
-    // throws away (see extend()).
+    // Where the caller writes the claimed payload with plain stores. A lossy reader that is lapped at that moment may
+    // copy a mixture. It then discards the copy (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
         return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }
 
-    // The same by atomic words, release each: pairs with the acquires in Consumer::copy_payload().
+    // Fills the payload through atomic words instead. Each store releases and pairs with the acquire in
+    // Consumer::copy_payload().
     void store_payload(ByteView bytes) noexcept {
         auto* word = record_ + header_words;
         const std::uint8_t* from = bytes.data();
@@ -76,7 +81,7 @@ public:
         if (from != end) word->store(load_rest(bytes, static_cast<std::size_t>(end - from)), std::memory_order_release);
     }
 
-    // Publishes the first `length` bytes of the claim (no more than were claimed).
+    // Publishes the first `length` bytes of the claim. `length` must not exceed the claimed length.
     void commit(const RecordInfo& info, std::size_t length) noexcept {
         auto& control = *ring_.control;
         store_header(info, length);
@@ -85,7 +90,7 @@ public:
         control.records.store(sequence, std::memory_order_relaxed);
         tail_ = end;
         control.tail.store(
-            end, std::memory_order_release);  // pairs with the acquires of `tail` in Consumer and ring_scan.hpp
+            end, std::memory_order_release);  // pairs with the acquire loads of `tail` in Consumer and ring_scan.hpp
         if (control.sleepers.load(std::memory_order_relaxed) != 0) wake_readers();
     }
 
@@ -93,7 +98,7 @@ public:
     [[nodiscard]] std::uint64_t tail() const noexcept { return tail_; }
     [[nodiscard]] std::uint64_t records() const noexcept { return sequence_; }
 
-    // Slots whose readers stand in the way of a record of `length` bytes.
+    // Returns the slots whose readers block a record of `length` bytes.
     [[nodiscard]] std::uint64_t blockers(std::size_t length) const noexcept {
         const std::uint64_t size = record_size(length);
         const std::uint64_t left = ring_.left_in_lap(tail_);
@@ -105,23 +110,26 @@ public:
         return found;
     }
 
-    // Takes the hold away from the readers of these slots. They find out before they read on.
+    // Removes the holds of these slots' readers. The readers notice before they read on.
     void drop_holds(std::uint64_t slots) noexcept {
         ring_.control->holders.fetch_and(~slots, std::memory_order_seq_cst);
     }
 
-    // Sleeps until a reader releases something, or `longest` is over.
+    // Sleeps until a reader releases something, or until `longest` is over.
     void sleep_for_room(std::size_t length, Nanoseconds longest) noexcept {
         auto& control = *ring_.control;
         const std::uint32_t seen = control.rooms.load(std::memory_order_acquire);
-        // Sequentially consistent with Consumer::publish(): either it sees that room is wanted, or blockers() sees what it released.
+        // Sequentially consistent with Consumer::publish(): either the reader sees that room is wanted, or blockers()
+        // sees the position that it released.
         control.room_wanted.store(1, std::memory_order_seq_cst);
         if (blockers(length) != 0) Words::sleep(control.rooms, seen, longest);
         control.room_wanted.store(0, std::memory_order_relaxed);
     }
 
-    // Wakes all who sleep, at most once in `wake_distance`: whose bit is set now has set it since the last time, and sleeps no longer than that at first
-    // (Consumer::sleep()). Nor need commit() order its load of `sleepers` behind its store of `tail`: who is overlooked looks again himself.
+    // Wakes all sleeping readers, at most once per `wake_distance`. A reader that the writer skips set its bit after
+    // the last wake-up. Its first sleep with the bit set is no longer than `wake_distance` (Consumer::sleep()). For the
+    // same reason, commit() need not order its load of `sleepers` behind its store of `tail`: an overlooked reader
+    // looks again by itself.
     [[gnu::noinline]] void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;
@@ -138,7 +146,7 @@ public:
 private:
     static constexpr std::size_t header_words = record_header_bytes / sizeof(std::uint64_t);
 
-    // A claim at the end of a lap, or of what is known of the holds.
+    // The slow path of claim(): at the end of a lap, or where the known limit of the holds is reached.
     [[nodiscard, gnu::noinline]] bool claim_farther(std::uint64_t size) noexcept {
         const std::uint64_t left = ring_.left_in_lap(tail_);
         const std::uint64_t padding = size <= left ? 0 : left;
@@ -150,7 +158,7 @@ private:
         return true;
     }
 
-    // The last `count` bytes, fewer than a word, with zeros behind.
+    // Loads the last `count` bytes (fewer than a word), padded with zeros.
     [[nodiscard]] static std::uint64_t load_rest(ByteView bytes, std::size_t count) noexcept {
         if (bytes.size() >= sizeof(std::uint64_t))
             return load_le<std::uint64_t>(bytes.data() + bytes.size() - sizeof(std::uint64_t)) >>
@@ -167,32 +175,34 @@ private:
     void store_header(const RecordInfo& info, std::size_t length) noexcept {
         auto* const record = record_;
         record[1].store(info.link.value | sequence_ << 32,
-                        std::memory_order_release);  // pairs with load_header(), all three
+                        std::memory_order_release);  // all three pair with load_header()
         record[2].store(static_cast<std::uint64_t>(info.time.time_since_epoch().count()), std::memory_order_release);
         record[0].store(pack({static_cast<std::int32_t>(length), info.kind, info.verdict, 0}),
                         std::memory_order_release);
     }
 
-    // The commit goes from tail_ to `end`, with padding up to start_ in between, and sequence_ counts it already.
+    // The current commit spans tail_ to `end`, with padding up to start_. sequence_ already counts it.
     [[gnu::noinline]] void set_marks(std::uint64_t end) noexcept {
         for (; next_mark_ <= end; next_mark_ += ring_.mark_distance()) {
             const bool in_padding = next_mark_ <= start_;
             auto& mark = ring_.control->marks[next_mark_ / ring_.mark_distance() % mark_count];
-            mark.position.store(in_padding ? start_ : end, std::memory_order_release);  // pairs with load_mark(), both
+            mark.position.store(in_padding ? start_ : end, std::memory_order_release);  // both pair with load_mark()
             mark.sequence.store(in_padding ? sequence_ - 1 : sequence_, std::memory_order_release);
         }
     }
 
-    // What holds allow is known up to limit_; looks again, and announces the sixty-fourth that `end` lies in. False: readers hold the ring.
+    // Extends limit_, up to which the writer may write. Checks the readers' holds again, then announces (`intent`) up
+    // to the end of the 1/64 part that contains `end`. Returns false if readers block the way.
     [[nodiscard]] bool extend(std::uint64_t end) noexcept {
         const std::uint64_t distance = ring_.mark_distance();
         std::uint64_t wanted = std::min((end + distance - 1) / distance * distance, held_limit());
         if (wanted < end) return false;
         if (wanted > intent_) {
             intent_ = wanted;
-            // Sequentially consistent with Consumer::hold(): either it sees this intent, or held_limit() sees its hold. The load of `holders` in
-            // there also keeps the plain stores of payload() behind this store, on x86 and on ARM alike: no processor passes a sequentially
-            // consistent store by a sequentially consistent load, nor stores ahead of that load.
+            // Sequentially consistent with Consumer::hold(): either the reader sees this intent, or held_limit() sees
+            // its hold. The load of `holders` in held_limit() also keeps the plain stores of payload() behind this
+            // store, on x86 and ARM alike. No processor moves a sequentially consistent load before a sequentially
+            // consistent store, or a later store before that load.
             ring_.control->intent.store(intent_, std::memory_order_seq_cst);
             wanted = std::min(wanted, held_limit());
         }
@@ -211,21 +221,21 @@ private:
         std::uint64_t holders = ring_.control->holders.load(std::memory_order_seq_cst);
         for (; holders != 0; holders &= holders - 1) {
             const auto slot = static_cast<unsigned>(std::countr_zero(holders));
-            // Acquire: pairs with Consumer::publish(); what the reader did with the bytes before is over.
+            // Acquire: pairs with Consumer::publish(). The reader has finished with all bytes before this position.
             const std::uint64_t position = ring_.slots[slot].position.load(std::memory_order_acquire);
-            // A position that no reader can have holds nothing: it is damaged, or about to be given up in Consumer::hold().
+            // Ignores a position that no reader can have. It is damaged, or Consumer::hold() is about to give it up.
             if (tail_ - position <= ring_.capacity) visit(slot, position + ring_.capacity);
         }
     }
 
     RingMemory<Words> ring_;
     std::uint64_t tail_ = 0;
-    std::uint64_t limit_ = 0;  // may be written up to here without another look
-    std::uint64_t plain_ = 0;  // likewise, in the lap of tail_
+    std::uint64_t limit_ = 0;  // the writer may write up to here without checking the holds
+    std::uint64_t plain_ = 0;  // the same, but within the lap of tail_
     std::uint64_t next_mark_ = 0;
     std::uint64_t sequence_ = 0;
-    std::uint64_t start_ = 0;                   // of the claimed record
-    typename Words::Word64* record_ = nullptr;  // where that stands
+    std::uint64_t start_ = 0;                   // position of the claimed record
+    typename Words::Word64* record_ = nullptr;  // its address
     std::size_t claimed_ = 0;
     std::uint64_t intent_ = 0;
     MonoTime next_wake_{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What writer and reader both do with a ring that they did not write: read a record's header, find a mark, count records. Everything read is taken
-// for damage until it has been checked. Any thread; allocates nothing.
+// Functions that readers and writers use to scan a ring: load record headers, find marks, count records.
+//
+// Another process wrote the data, so everything that is read counts as damage until it has been checked. Any thread;
+// allocates nothing.
 #pragma once
 
 #include <optional>
@@ -9,20 +11,20 @@
 
 namespace mavloom::shm::detail {
 
-// The writer wakes readers at most once in this time.
+// Minimum time between two wake-ups of the readers by the writer.
 inline constexpr Nanoseconds wake_distance = std::chrono::milliseconds(1);
 
 struct Header {
     RecordState state;
     std::uint32_t link = 0;
-    std::uint32_t sequence = 0;  // its low 32 bits
+    std::uint32_t sequence = 0;  // only the low 32 bits
     std::int64_t time_ns = 0;
 
     [[nodiscard]] bool is_padding() const noexcept { return state.flags == padding_flag; }
 };
 
-// Each load acquires: pairs with the release of the same word in Producer::store_header(). Whoever sees a word of a later lap so sees the
-// `intent` that was announced before it.
+// Each load acquires and pairs with the release store of the same word in Producer::store_header(). So a reader that
+// sees a word of a later lap also sees the `intent` announced before it.
 template <class Word>
 void load_tags(const Word* word, Header& header) noexcept {
     const std::uint64_t tags = word[1].load(std::memory_order_acquire);
@@ -36,13 +38,14 @@ template <class Words>
     const auto* word = ring.word(position);
     Header header;
     header.state = unpack(word[0].load(std::memory_order_acquire));
-    if (header.is_padding()) return header;  // which may be all that is left of the lap
+    if (header.is_padding()) return header;  // the first word may be all that is left of the lap
     if (ring.left_in_lap(position) < record_header_bytes) return header;
     load_tags(word, header);
     return header;
 }
 
-// How far it is to the next record, or 0 where no record of this format stands. `available`: bytes from there to the tail.
+// Returns the distance to the next record, or 0 if there is no valid record here. `available`: bytes from `position` to
+// the tail.
 template <class Words>
 [[nodiscard]] std::uint64_t size_of(const RingMemory<Words>& ring, std::uint64_t position, const Header& header,
                                     std::uint64_t available) noexcept {
@@ -55,7 +58,8 @@ template <class Words>
     return size <= left && size <= available ? size : 0;
 }
 
-// The header of a record that ends before `end`, in the same lap and an eighth of the ring from here at most, and its size; 0 where anything else stands.
+// Loads the header of a record that ends before `end` and returns the record's size. Returns 0 for anything else. `end`
+// must be in the same lap, at most 1/8 of the ring ahead.
 template <class Words>
 [[nodiscard, gnu::always_inline]] inline std::uint64_t load_record(const RingMemory<Words>& ring, std::uint64_t position,
                                                                    std::uint64_t end, Header& header) noexcept {
@@ -74,22 +78,24 @@ struct Mark {
     std::uint64_t sequence = 0;
 };
 
-// The mark of the `number`th sixty-fourth since the ring was made: the first record that begins there or behind. Empty when the writer was faster.
+// Loads mark `number`: the first record that begins at or after position number * capacity / 64. Returns nothing if the
+// writer has overtaken the mark.
 template <class Words>
 [[nodiscard]] std::optional<Mark> load_mark(const RingMemory<Words>& ring, std::uint64_t number,
                                             std::uint64_t tail) noexcept {
     const auto& words = ring.control->marks[number % mark_count];
-    // Acquire: pairs with the releases in Producer::set_marks().
+    // Both acquire and pair with the release stores in Producer::set_marks().
     const Mark mark{words.position.load(std::memory_order_acquire), words.sequence.load(std::memory_order_acquire)};
     const std::uint64_t begin = number * ring.mark_distance();
-    // Before a mark is replaced, intent lies at or behind the begin of its successor one lap on.
+    // Before the writer replaces a mark, `intent` reaches the start of the mark that replaces it, one lap later.
     const std::uint64_t intent = ring.control->intent.load(std::memory_order_acquire);
     if (intent >= begin + ring.capacity || mark.position < begin || mark.position > tail) return std::nullopt;
     if (mark.position % record_alignment != 0) return std::nullopt;
     return mark;
 }
 
-// The oldest mark that lies `margin` bytes or more before what may be overwritten; the newest where there is none that old.
+// Returns the oldest mark that is at least `margin` bytes away from being overwritten. Returns the newest mark if none
+// is that far away.
 template <class Words>
 [[nodiscard]] std::optional<Mark> find_mark(const RingMemory<Words>& ring, std::uint64_t margin) noexcept {
     const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
@@ -101,14 +107,14 @@ template <class Words>
     return std::nullopt;
 }
 
-// The newest mark; the writer alone may be sure that there is one.
+// Returns the newest mark. Only the writer can rely on getting one.
 template <class Words>
 [[nodiscard]] std::optional<Mark> newest_mark(const RingMemory<Words>& ring) noexcept {
     const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()
     return load_mark(ring, tail / ring.mark_distance(), tail);
 }
 
-// Goes from record to record up to `tail`. Empty where it meets something else, or was overtaken by the writer.
+// Walks from record to record up to `tail`. Returns nothing if it meets an invalid record or the writer overtakes it.
 template <class Words>
 [[nodiscard]] std::optional<Mark> walk(const RingMemory<Words>& ring, Mark at, std::uint64_t tail) noexcept {
     while (at.position < tail) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The atomic words of a shared mapping, and sleeping on one of them. The ring's algorithms are templates over this, so that tests can step them
-// through chosen schedules.
+// Atomic words in shared memory, and futex sleep and wake on one of them. The ring's algorithms are templates over this
+// type, so that tests can step them through chosen schedules.
 #pragma once
 
 #include <atomic>
@@ -16,9 +16,9 @@ struct SharedWords {
     static_assert(Word32::is_always_lock_free && Word64::is_always_lock_free, "a lock would not be shared");
     static_assert(sizeof(Word32) == 4 && sizeof(Word64) == 8);
 
-    // Sleeps while `word` is `expected`, at most `longest`; may return early. Whether that time is over.
+    // Sleeps while `word` equals `expected`, for at most `longest`; may return early. Returns true if the time is over.
     static bool sleep(const Word32& word, std::uint32_t expected, Nanoseconds longest) noexcept;
-    // Wakes everybody who sleeps on `word`.
+    // Wakes all threads that sleep on `word`.
     static void wake(Word32& word) noexcept;
     [[nodiscard]] static MonoTime now() noexcept { return mono_now(); }
 };

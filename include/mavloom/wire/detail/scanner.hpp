@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The frame finder that both parsers share: walks over bytes from frame to frame by their lengths, checks each, and after anything that is
-// not a good frame goes on at the next byte, so that every intact frame which overlaps no damaged byte is found.
-// One owner thread; allocates nothing after construction.
+// Finds frames in bytes; both parsers use it. It steps from frame to frame by their lengths and checks each one.
+// After anything that is not a good frame it continues at the next byte, so it finds every intact frame that
+// overlaps no damaged byte. One owner thread; allocates nothing after construction.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace mavloom::wire::detail {
 
-// What may follow the bytes at hand.
+// What may follow the bytes that were passed.
 enum class End : std::uint8_t {
-    open,    // more bytes of the stream: an incomplete frame waits for them
-    idle,    // nothing for now: an incomplete frame still waits, a whole frame of unknown id counts as ended
+    open,    // more bytes of the stream: an incomplete frame waits
+    idle,    // nothing for now: an incomplete frame still waits, a whole frame of unknown id is complete
     closed,  // nothing (a datagram's end): an incomplete frame is junk
 };
 
@@ -26,8 +26,9 @@ public:
 
     explicit Scanner(const MessageTable& table) : table_(&table) {}
 
-    // Consumes what can be decided, tells the sink, and returns how many bytes that was. The sink is called as sink(const ParseEvent&).
-    // `slack` bytes behind `bytes` may be read too, whatever they hold: with `enough_slack` the checksums at the end are as fast as the others.
+    // Consumes the bytes that can be decided, calls sink(const ParseEvent&) for each event, and returns the number of
+    // bytes consumed. `slack` bytes behind `bytes` may be read too, whatever they hold. With `enough_slack` of them,
+    // the last checksums are computed as fast as the others.
     template <class Sink>
     std::size_t scan(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         std::size_t at = 0;
@@ -39,7 +40,7 @@ public:
         return at;
     }
 
-    // One step of `scan`: a frame, or one byte that begins none. Returns 0 where more bytes are needed. `bytes` is not empty.
+    // One step of `scan`: a frame, or one byte that begins none. Returns 0 if more bytes are needed. `bytes` is not empty.
     template <class Sink>
     std::size_t scan_one(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         const Candidate found = examine(bytes.data(), bytes.size(), end, slack);
@@ -90,7 +91,7 @@ private:
         return wire::frame_length({p, size});
     }
 
-    // `readable` bytes from the frame's begin on may be read.
+    // `readable` bytes from the start of the frame may be read.
     [[nodiscard]] static bool checksum_agrees(const FrameView& frame, std::size_t readable,
                                               const MessageInfo& info) noexcept {
         const auto covered = frame.bytes().subspan(1, frame.header_length() - 1 + frame.payload_length());
@@ -120,7 +121,7 @@ private:
 
     [[nodiscard]] Candidate examine_unknown(const FrameView& frame, ByteView behind, End end) noexcept;
 
-    // Tells of a candidate that is no good frame; returns how many bytes are done with.
+    // Reports a candidate that is not a good frame. Returns the number of bytes consumed.
     template <class Sink>
     std::size_t refuse(const Candidate& found, const std::uint8_t* p, Sink&& sink) {
         if (found.kind == Candidate::Kind::unknown_flags) {
