@@ -7,9 +7,10 @@
 #   examples/pipeline/run.sh                 a vehicle that sends to port 5058 of this machine, until Ctrl-C
 #   examples/pipeline/run.sh FLIGHT.tlog     a recorded flight at its own pace, to its end; SPEED=10 is faster
 #
-# What the ground station sends goes to the vehicle by the ring's inlet: parameters, missions and commands work through it.
-# LISTEN, TO and RING change where it comes from, where it goes, and the ring's name. The script ends both programs together; started by hand,
-# each can be ended and started again by itself. Other readers, in C++ or Python, may follow the ring at any time (docs/guide/python.md, docs/guide/shm.md).
+# Frames from the ground station return to the vehicle through the ring's inlet (px4.in), so parameters, missions and
+# commands work. Set LISTEN, TO and RING to change the source, the destination and the name of the ring. The script
+# ends both programs together. If you start them by hand, you can stop and restart each of them separately. Other
+# programs, in C++ or Python, can read the ring at any time (docs/guide/python.md, docs/guide/shm.md).
 set -euo pipefail
 
 here=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
@@ -20,12 +21,12 @@ listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring
 [ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
 log=$(mktemp)
 
-# Ctrl-C goes to all: who passes on what hear says must outlive it.
+# Ctrl-C reaches every process of the script. This subshell ignores it, to pass on the last messages of mavloom.hear.
 "$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(trap '' INT TERM HUP && exec tee "$log" >&2) &
 hear=$!
 "$mavloom" relay "shm://$ring?from=oldest" --to "$to" &
 relay=$!
-# The signal ends both: the relay when it has sent what the ring holds.
+# Ends both programs. The relay first sends what the ring still holds.
 end() {
   trap '' INT TERM
   trap - EXIT
@@ -41,10 +42,10 @@ trap 'end; exit 143' TERM
 
 if [ $# -gt 0 ]; then
   until grep -q "writing to ring" "$log"; do
-    kill -0 "$hear" 2>/dev/null || exit 1 # it has said why
+    kill -0 "$hear" 2>/dev/null || exit 1 # hear has printed the reason
     sleep 0.1
   done
   "$mavloom" replay "$1" --to "${listen/udpin/udpout}" --speed "${SPEED:-1}"
 else
-  wait -n "$hear" "$relay" # neither ends by itself
+  wait -n "$hear" "$relay" # both normally run until a signal
 fi

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ring_attitude NAME: the attitude of every vehicle in a ring, a line each; goes on with the next writer, and ends when nobody writes for two seconds.
+// ring_attitude NAME prints each ATTITUDE message in a ring, one per line. It continues when another writer takes over,
+// and ends when no record arrives for two seconds.
 #include <chrono>
 #include <cstdio>
 #include <mavloom/dialect/dialect.hpp>
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
     auto record = next_record();
     for (; record; record = next_record()) {
         parser.parse(record->data, show);
-        // All that waits behind it, where it lies: nothing is copied.
+        // Reads the records that follow in place, without copying them.
         (void)ring.reader()->try_visit(256, [&](const shm::RingRecord& next) { parser.parse(next.data, show); });
     }
     if (const auto* error = ring.error()) std::fprintf(stderr, "%s\n", error->text.c_str());

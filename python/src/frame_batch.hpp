@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FrameBatch: frames that were read without the GIL, to be returned as Python objects with it.
+// FrameBatch: frames copied out of a link's buffer, to be returned as Python objects.
 // Single owner. The memory is reused from batch to batch.
 #pragma once
 

@@ -12,8 +12,8 @@
 // - A block that the kernel has taken in part is never dropped at a bound.
 //
 // Blocks lie back to back in one buffer, so that one system call can send many of them. The buffer grows with the
-// queue, to at most twice the bound, and shrinks again after a jam. The queue allocates nothing in steady state. Not
-// thread-safe.
+// queue, to at most four times the bound, and shrinks again after a jam. The queue allocates nothing in steady state.
+// Not thread-safe.
 #pragma once
 
 #include <sys/uio.h>

@@ -20,7 +20,7 @@ public:
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
 };
 
-// Reads once per turn, and writes what is queued with one call per turn. What the kernel does not accept stays in the
+// Reads once per turn, and writes the queue in as few calls as possible. What the kernel does not accept stays in the
 // queue. A slow far side is never disconnected for being slow.
 class TcpPeer final : public Link, public Outlet, public net::IoHandler, public Core::Ticker {
 public:
