@@ -20,13 +20,7 @@ namespace mavloom::link {
 using namespace detail;
 
 void LinkCounters::add(const LinkCounters& other) noexcept {
-    for (const auto counter :
-         {&LinkCounters::frames_in, &LinkCounters::bytes_in, &LinkCounters::frames_out, &LinkCounters::bytes_out,
-          &LinkCounters::crc_error, &LinkCounters::junk_bytes, &LinkCounters::unknown_flags,
-          &LinkCounters::implausible_unknown, &LinkCounters::unknown_ids, &LinkCounters::bad_signature,
-          &LinkCounters::queue_bytes, &LinkCounters::queue_age, &LinkCounters::lost, &LinkCounters::late,
-          &LinkCounters::duplicate, &LinkCounters::resync, &LinkCounters::frames_not_sent, &LinkCounters::refused})
-        (this->*counter).add((other.*counter).value());
+    for (const auto& counter : link_counters) (this->*counter.word).add((other.*counter.word).value());
 }
 
 void LinkCounters::add(const wire::SequenceTracker::Update& update) noexcept {

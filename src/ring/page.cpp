@@ -39,8 +39,8 @@ RingPage::RingPage(shm::CounterPage page)
 
 RingPage::Words RingPage::add_words(std::string_view before, shm::CounterType type, std::optional<LinkId> link) {
     Words words;
-    std::ranges::transform(paged_counters, words.begin(), [&](const PagedCounter& counter) {
-        return page_.add(fmt::format("{}{}", before, counter.label), type, link);
+    std::ranges::transform(paged_counters, words.begin(), [&](const link::LinkCounter& counter) {
+        return page_.add(fmt::format("{}{}", before, counter.name), type, link);
     });
     return words;
 }

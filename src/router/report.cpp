@@ -15,30 +15,14 @@ namespace mavloom::router {
 namespace {
 
 struct NamedCount {
-    const char* name;
+    std::string_view name;
     std::uint64_t value;
 };
 
 // The counters of a link, for JSON and metrics: traffic in and out, then every kind of loss.
 std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::LinkCounters* routed) {
-    std::vector<NamedCount> all{{"frames_in", c.frames_in.value()},
-                                {"bytes_in", c.bytes_in.value()},
-                                {"frames_out", c.frames_out.value()},
-                                {"bytes_out", c.bytes_out.value()},
-                                {"lost", c.lost.value()},
-                                {"late", c.late.value()},
-                                {"repeated", c.duplicate.value()},
-                                {"resync", c.resync.value()},
-                                {"crc_error", c.crc_error.value()},
-                                {"junk_bytes", c.junk_bytes.value()},
-                                {"unknown_flags", c.unknown_flags.value()},
-                                {"unknown_ids", c.unknown_ids.value()},
-                                {"implausible_unknown", c.implausible_unknown.value()},
-                                {"bad_signature", c.bad_signature.value()},
-                                {"queue_bytes", c.queue_bytes.value()},
-                                {"queue_age", c.queue_age.value()},
-                                {"frames_not_sent", c.frames_not_sent.value()},
-                                {"refused", c.refused.value()}};
+    std::vector<NamedCount> all;
+    for (const auto& counter : link::link_counters) all.push_back({counter.name, (c.*counter.word).value()});
     if (routed == nullptr) return all;
     const route::LinkCounters& r = *routed;
     all.insert(all.end(), {{"forwarded", r.forwarded.value()},
@@ -58,10 +42,9 @@ std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::Link
 }
 
 std::vector<NamedCount> counts_of(const link::EndpointCounters& c) {
-    return {{"kernel_drop", c.kernel_drop.value()},     {"wrong_peer", c.wrong_peer.value()},
-            {"stray_bytes", c.stray_bytes.value()},     {"peers_refused", c.peers_refused.value()},
-            {"peers_evicted", c.peers_evicted.value()}, {"send_errors", c.send_errors.value()},
-            {"reconnects", c.reconnects.value()}};
+    std::vector<NamedCount> all;
+    for (const auto& counter : link::endpoint_counters) all.push_back({counter.name, (c.*counter.word).value()});
+    return all;
 }
 
 // Sums over the links of an endpoint that are gone.
@@ -93,7 +76,7 @@ std::vector<NamedCount> counts_of(Router& router) {
 }
 
 void put(Json& object, const std::vector<NamedCount>& counts) {
-    for (const auto& count : counts) object[count.name] = count.value;
+    for (const auto& count : counts) object[std::string(count.name)] = count.value;
 }
 
 double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }

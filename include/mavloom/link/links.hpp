@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "mavloom/base/clock.hpp"
-#include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/endpoint/checks.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/counters.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
 #include "mavloom/wire/sequence.hpp"
@@ -36,43 +36,6 @@ class Dialect;
 namespace mavloom::link {
 
 using EndpointId = Id<struct EndpointTag, std::uint32_t>;
-
-// Traffic of one link. Every discarded frame or byte has a counter.
-struct LinkCounters {
-    Counter frames_in, bytes_in, frames_out, bytes_out;
-    Counter crc_error, junk_bytes, unknown_flags, implausible_unknown, unknown_ids;
-    // With verify=: frames that are unsigned or whose signature is invalid.
-    Counter bad_signature;
-    Counter queue_bytes, queue_age;  // whole frames dropped from the send queue
-    // Loss on the link itself, from gaps in the sequence numbers received.
-    Counter lost, late, duplicate, resync;
-    Counter frames_not_sent;  // in datagrams that the kernel rejected
-    // Frames sent to a closed port: those that met an ICMP refusal, and those sent within 1 s of one while the peer
-    // is silent.
-    Counter refused;
-    void add(const LinkCounters& other) noexcept;
-    // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
-    void add(const wire::SequenceTracker::Update& update) noexcept;
-};
-
-// Counters of an endpoint as a whole rather than of one peer.
-struct EndpointCounters {
-    Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
-    Counter wrong_peer;   // udpout: datagrams from another address
-    // Bytes in datagrams from unknown senders that held no valid frame (with verify=: no correctly signed frame).
-    Counter stray_bytes;
-    // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
-    Counter peers_refused;
-    Counter peers_evicted;  // the longest idle peers, evicted for new ones
-    // Datagrams that met a closed port, as far as ICMP reports it, or that the kernel rejected.
-    Counter send_errors;
-    Counter reconnects;
-    // Sums over links that no longer exist, plus bad signatures of senders that never became peers. Added to the
-    // counters of the existing links, they give the endpoint's totals. A link's counters move here after its
-    // on_link_down has returned.
-    LinkCounters gone;
-    Counter gone_queued;  // frames still queued when their link ended
-};
 
 struct RxFrame {
     wire::FrameView frame;  // valid during the call

@@ -4,6 +4,7 @@
 // The router's thread refreshes the copies from time to time. One owner thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -16,23 +17,13 @@
 
 namespace mavloom::ring {
 
-// A link counter that the page contains, and its label.
-struct PagedCounter {
-    std::string_view label;
-    Counter link::LinkCounters::*word;
-};
-inline constexpr std::array<PagedCounter, 12> paged_counters{{{"frames_in", &link::LinkCounters::frames_in},
-                                                              {"bytes_in", &link::LinkCounters::bytes_in},
-                                                              {"frames_out", &link::LinkCounters::frames_out},
-                                                              {"bytes_out", &link::LinkCounters::bytes_out},
-                                                              {"lost", &link::LinkCounters::lost},
-                                                              {"crc_error", &link::LinkCounters::crc_error},
-                                                              {"junk_bytes", &link::LinkCounters::junk_bytes},
-                                                              {"bad_signature", &link::LinkCounters::bad_signature},
-                                                              {"queue_bytes", &link::LinkCounters::queue_bytes},
-                                                              {"queue_age", &link::LinkCounters::queue_age},
-                                                              {"frames_not_sent", &link::LinkCounters::frames_not_sent},
-                                                              {"refused", &link::LinkCounters::refused}}};
+// The counters of a link that the page contains.
+inline constexpr auto paged_counters = [] {
+    constexpr auto count = std::ranges::count_if(link::link_counters, &link::LinkCounter::on_page);
+    std::array<link::LinkCounter, static_cast<std::size_t>(count)> paged{};
+    std::ranges::copy_if(link::link_counters, paged.begin(), &link::LinkCounter::on_page);
+    return paged;
+}();
 
 class RingPage {
 public:

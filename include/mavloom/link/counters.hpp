@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What links and endpoints count, and under which names it is shown. One thread writes; any thread may read values.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "mavloom/base/counter.hpp"
+#include "mavloom/wire/sequence.hpp"
+
+namespace mavloom::link {
+
+// Traffic of one link. Every discarded frame or byte has a counter.
+struct LinkCounters {
+    Counter frames_in, bytes_in, frames_out, bytes_out;
+    Counter crc_error, junk_bytes, unknown_flags, implausible_unknown, unknown_ids;
+    // With verify=: frames that are unsigned or whose signature is invalid.
+    Counter bad_signature;
+    Counter queue_bytes, queue_age;  // whole frames dropped from the send queue
+    // Loss on the link itself, from gaps in the sequence numbers received.
+    Counter lost, late, duplicate, resync;
+    Counter frames_not_sent;  // in datagrams that the kernel rejected
+    // Frames sent to a closed port: those that met an ICMP refusal, and those sent within 1 s of one while the peer
+    // is silent.
+    Counter refused;
+    void add(const LinkCounters& other) noexcept;
+    // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
+    void add(const wire::SequenceTracker::Update& update) noexcept;
+};
+
+// One counter of a link, with its name in `ctl`, `stat`, the metrics and docs/guide/route.md.
+struct LinkCounter {
+    std::string_view name;
+    Counter LinkCounters::*word;
+    bool on_page;  // also on the counter page of a ring (docs/formats/ring.md)
+};
+inline constexpr std::array<LinkCounter, 18> link_counters{{
+    {"frames_in", &LinkCounters::frames_in, true},
+    {"bytes_in", &LinkCounters::bytes_in, true},
+    {"frames_out", &LinkCounters::frames_out, true},
+    {"bytes_out", &LinkCounters::bytes_out, true},
+    {"lost", &LinkCounters::lost, true},
+    {"late", &LinkCounters::late, false},
+    {"repeated", &LinkCounters::duplicate, false},
+    {"resync", &LinkCounters::resync, false},
+    {"crc_error", &LinkCounters::crc_error, true},
+    {"junk_bytes", &LinkCounters::junk_bytes, true},
+    {"unknown_flags", &LinkCounters::unknown_flags, false},
+    {"unknown_ids", &LinkCounters::unknown_ids, false},
+    {"implausible_unknown", &LinkCounters::implausible_unknown, false},
+    {"bad_signature", &LinkCounters::bad_signature, true},
+    {"queue_bytes", &LinkCounters::queue_bytes, true},
+    {"queue_age", &LinkCounters::queue_age, true},
+    {"frames_not_sent", &LinkCounters::frames_not_sent, true},
+    {"refused", &LinkCounters::refused, true},
+}};
+static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "each counter needs a row");
+
+// Counters of an endpoint as a whole rather than of one peer.
+struct EndpointCounters {
+    Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
+    Counter wrong_peer;   // udpout: datagrams from another address
+    // Bytes in datagrams from unknown senders that held no valid frame (with verify=: no correctly signed frame).
+    Counter stray_bytes;
+    // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
+    Counter peers_refused;
+    Counter peers_evicted;  // the longest idle peers, evicted for new ones
+    // Datagrams that met a closed port, as far as ICMP reports it, or that the kernel rejected.
+    Counter send_errors;
+    Counter reconnects;
+    // Sums over links that no longer exist, plus bad signatures of senders that never became peers. Added to the
+    // counters of the existing links, they give the endpoint's totals. A link's counters move here after its
+    // on_link_down has returned.
+    LinkCounters gone;
+    Counter gone_queued;  // frames still queued when their link ended
+};
+
+// The same for endpoints. `gone` and `gone_queued` are shown apart.
+struct EndpointCounter {
+    std::string_view name;
+    Counter EndpointCounters::*word;
+};
+inline constexpr std::array<EndpointCounter, 7> endpoint_counters{{
+    {"kernel_drop", &EndpointCounters::kernel_drop},
+    {"wrong_peer", &EndpointCounters::wrong_peer},
+    {"stray_bytes", &EndpointCounters::stray_bytes},
+    {"peers_refused", &EndpointCounters::peers_refused},
+    {"peers_evicted", &EndpointCounters::peers_evicted},
+    {"send_errors", &EndpointCounters::send_errors},
+    {"reconnects", &EndpointCounters::reconnects},
+}};
+static_assert(sizeof(EndpointCounters) == (endpoint_counters.size() + 1) * sizeof(Counter) + sizeof(LinkCounters),
+              "each counter needs a row");
+
+}  // namespace mavloom::link
