@@ -161,7 +161,15 @@ class Running:
         return wait_for(look, timeout, f"{pattern!r} from {self.args}")
 
     def send(self, number: int):
+        """Sends a signal. SIGSTOP: returns when every thread has stopped, which may be later."""
         self.process.send_signal(number)
+        if number == signal.SIGSTOP:
+            wait_for(self._is_stopped, what="the program to stop")
+
+    def _is_stopped(self) -> bool:
+        states = [stat.read_text().rpartition(")")[2].split()[0]
+                  for stat in pathlib.Path(f"/proc/{self.pid}/task").glob("*/stat")]
+        return all(state in "TtZX" for state in states)
 
     def wait(self, timeout: float = DEFAULT_TIMEOUT_S) -> Finished:
         """Waits for the program's own end."""

@@ -256,8 +256,7 @@ def test_lines_that_a_full_ring_does_not_take(run, spawn, ring):
     write(run, ring, "first\n")
     reader = spawn("shm", "read", ring, "--from", "oldest", "--lossless", "--data")
     reader.wait_output("^first$", stream="out")
-    os.kill(reader.pid, signal.SIGSTOP)
-    harness.wait_for(lambda: pathlib.Path(f"/proc/{reader.pid}/stat").read_text().rpartition(") ")[2][0] == "T", what="a reader that stands still")
+    reader.send(signal.SIGSTOP)
     done = run("shm", "write", ring, "--full", "drop_newest", input=("x" * 1000 + "\n") * 100)
     stat = stat_of(run, ring)
     os.kill(reader.pid, signal.SIGCONT)
@@ -428,7 +427,7 @@ def test_the_hold_of_a_killed_reader_is_released(run, start, ring):
     for _ in range(3):
         reader = start("read", ring, "lossless", "0")
         reader.wait_output("ready")
-        os.kill(reader.pid, signal.SIGSTOP)
+        reader.send(signal.SIGSTOP)
         held = stat_of(run, ring)["readers"]
         assert [r["pid"] for r in held] == [reader.pid], "a stopped reader is not dead"
         reader.kill()
