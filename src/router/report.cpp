@@ -19,10 +19,18 @@ struct NamedCount {
     std::uint64_t value;
 };
 
+template <class Counters>
+std::vector<NamedCount> counts_in(const Counters& counters, const auto& table) {
+    std::vector<NamedCount> all(table.size());
+    std::ranges::transform(table, all.begin(), [&](const auto& counter) {
+        return NamedCount{counter.name, (counters.*counter.word).value()};
+    });
+    return all;
+}
+
 // The counters of a link, for JSON and metrics: traffic in and out, then every kind of loss.
 std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::LinkCounters* routed) {
-    std::vector<NamedCount> all;
-    for (const auto& counter : link::link_counters) all.push_back({counter.name, (c.*counter.word).value()});
+    auto all = counts_in(c, link::link_counters);
     if (routed == nullptr) return all;
     const route::LinkCounters& r = *routed;
     all.insert(all.end(), {{"forwarded", r.forwarded.value()},
@@ -41,11 +49,7 @@ std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::Link
     return all;
 }
 
-std::vector<NamedCount> counts_of(const link::EndpointCounters& c) {
-    std::vector<NamedCount> all;
-    for (const auto& counter : link::endpoint_counters) all.push_back({counter.name, (c.*counter.word).value()});
-    return all;
-}
+std::vector<NamedCount> counts_of(const link::EndpointCounters& c) { return counts_in(c, link::endpoint_counters); }
 
 // Sums over the links of an endpoint that are gone.
 std::vector<NamedCount> gone_of(const link::EndpointCounters& c) {
