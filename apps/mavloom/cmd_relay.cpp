@@ -192,13 +192,14 @@ SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
 // Whether `host` is a name of this machine, as far as that is known without a lookup.
 bool is_own_name(const std::string& host) {
     std::array<char, HOST_NAME_MAX + 1> own{};
-    return host == "localhost" || (::gethostname(own.data(), own.size() - 1) == 0 && host == own.data());
+    return ::gethostname(own.data(), own.size() - 1) == 0 && host == own.data();
 }
 
 // Whether a socket bound to `bound` receives what is sent to `host`. A socket on 0.0.0.0 receives no IPv6; one on ::
 // receives both.
 bool hears(const std::string& bound, const std::string& host, bool broadcast) {
-    const auto here = net::Address::parse(bound, 0), there = net::Address::parse(host, 0);
+    const auto here = net::Address::parse(bound, 0);
+    const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
     if (!there) return is_own_name(host);
     if (!here) return true;
     if (!here->is_any()) return *here == *there;

@@ -50,7 +50,7 @@ SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_v
         auto path = folder / fmt::format("{}.{}", name, suffix);
         if (path.native().size() <= most) return path;
         return setup_error(SetupCode::permission,
-                           fmt::format("{} {}: a socket's path has at most {} bytes; a shorter name or XDG_RUNTIME_DIR "
+                           fmt::format("{} {}: a socket's path has at most {} bytes; a shorter name or MAVLOOM_RUN "
                                        "helps",
                                        what, path.string(), most));
     }

@@ -387,7 +387,8 @@ def test_a_relay_onto_its_own_port_is_refused(run, udp_port, source, to):
     assert run("relay", source.format(port), "--to", "udpout://127.0.0.1:1", "--for", "100ms").status == 0
 
 
-@pytest.mark.parametrize("source, to", [("udpin://0.0.0.0:{}", "udpout://[::1]:{}"), ("udpin://127.0.0.1:{}", "udpout://127.0.0.2:{}")])
+@pytest.mark.parametrize("source, to", [("udpin://0.0.0.0:{}", "udpout://[::1]:{}"), ("udpin://127.0.0.1:{}", "udpout://127.0.0.2:{}"),
+                                        ("udpin://127.0.0.2:{}", "udpout://localhost:{}")])
 def test_the_same_port_of_another_address_is_no_loop(run, udp_port, source, to):
     port = udp_port()
     assert run("relay", source.format(port), "--to", to.format(port), "--for", "100ms").status == 0

@@ -72,7 +72,8 @@ private:
     net::LocalSender socket_;
     net::WatchId watch_;
     Retry retry_;
-    bool full_ = false, was_up_ = false, told_no_way_ = false;
+    MonoTime up_since_{};
+    bool full_ = false, has_sent_ = false, was_up_ = false, told_no_way_ = false;
 };
 
 SetupResult<void> InletSender::connect() {
@@ -82,6 +83,8 @@ SetupResult<void> InletSender::connect() {
     if (!watch) return tl::unexpected(std::move(watch.error()));
     socket_ = std::move(*socket);
     watch_ = *watch;
+    up_since_ = core_.now();
+    has_sent_ = false;
     full_ = false;
     retry_.settle();
     retry_.begin_anew();
@@ -115,11 +118,13 @@ void InletSender::connect_or_retry() {
 }
 
 // The far side's router has ended. This only shows when a frame is sent, so a new router may already be running.
+// A socket that refuses right after every connect is retried with back-off.
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
     core_.set_down(peer_, "the router went");
-    if (!connect()) retry_.later();
+    const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
+    if (!worked || !connect()) retry_.later();
 }
 
 void InletSender::on_io(net::IoEvents events) {
@@ -169,6 +174,7 @@ bool InletSender::submit(net::SendBatch& batch) {
 }
 
 void InletSender::took(std::size_t frames) {
+    has_sent_ = true;
     std::array<iovec, most_pieces> pieces;
     auto position = peer_.queue.front();
     for (; frames != 0; --frames) {

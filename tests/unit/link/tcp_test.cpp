@@ -52,16 +52,23 @@ TEST_F(LinksTcp, AFalseStartDoesNotHoldFramesBackForEver) {
     EXPECT_EQ(node.links->links().at(0).counters->junk_bytes.value(), 5u);
 }
 
+// Between two turns nobody is there to take the frame that the parser holds back. A slow machine may end the parser's
+// wait first; then another client tries.
 TEST_F(LinksTcp, AClientThatItsOwnerClosesIsNotParsedToTheEnd) {
-    const auto client = connect();
-    client.write(Bytes{0xfd, 0xff, 0, 0, 0} + heartbeat(1));
-    ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
-    node.poll();  // reads, and holds the frame back for it may be a part of a longer one
-    if (!node.recorder.frames.empty()) GTEST_SKIP() << "this machine is slower than the parser waits";
-    EXPECT_TRUE(node.links->close(node.recorder.ups[0].first));  // between two turns: nobody is there to take the frame
-    node.poll();
-    EXPECT_TRUE(node.recorder.frames.empty());
-    EXPECT_THAT(node.links->links(), SizeIs(0));
+    bool held_back = false;
+    for (int attempt = 0; attempt < 50 && !held_back; ++attempt) {
+        node.recorder = {};
+        const auto client = connect();
+        client.write(Bytes{0xfd, 0xff, 0, 0, 0} + heartbeat(1));
+        ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 1; }, node));
+        node.poll();
+        held_back = node.recorder.frames.empty();
+        EXPECT_TRUE(node.links->close(node.recorder.ups[0].first));
+        node.poll();
+        EXPECT_EQ(node.recorder.frames.empty(), held_back);
+        EXPECT_THAT(node.links->links(), SizeIs(0));
+    }
+    EXPECT_TRUE(held_back);
 }
 
 TEST_F(LinksTcp, AClosedClientGoesDownOnceAndItsFramesWereHeard) {
