@@ -7,25 +7,20 @@
 
 namespace mavloom::link {
 
-MessageClasses::MessageClasses(const wire::MessageTable& table) {
-    for (const wire::MessageInfo& info : table.messages()) set(info, nullptr, false);
-    std::sort(far_.begin(), far_.end(), [](const Far& a, const Far& b) { return a.id < b.id; });
-}
-
 MessageClasses::MessageClasses(const dialect::Dialect& dialect) {
     for (const dialect::Message& message : dialect.messages()) {
         const auto instance = std::find_if(message.fields.begin(), message.fields.end(),
                                            [](const auto& f) { return f.instance; });
-        set(message.wire, instance == message.fields.end() ? nullptr : &*instance, true);
+        set(message.wire, instance == message.fields.end() ? nullptr : &*instance);
     }
     std::sort(far_.begin(), far_.end(), [](const Far& a, const Far& b) { return a.id < b.id; });
 }
 
-void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* instance, bool instances_known) {
+void MessageClasses::set(const wire::MessageInfo& info, const dialect::Field* instance) {
     Rule rule;
     const auto message_class = dialect::class_of(info.id, &info);
     rule.block_class = static_cast<std::uint8_t>(message_class);
-    rule.replaceable = instances_known && message_class == dialect::MessageClass::telemetry &&
+    rule.replaceable = message_class == dialect::MessageClass::telemetry &&
                        dialect::meaning_of(info.id) == dialect::FrameMeaning::latest;
     if (instance != nullptr) {
         rule.instance_offset = instance->offset;

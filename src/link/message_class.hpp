@@ -9,7 +9,6 @@
 
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/wire/frame.hpp"
-#include "mavloom/wire/message_table.hpp"
 
 namespace mavloom::link {
 
@@ -21,8 +20,6 @@ public:
         std::uint8_t instance_offset = 0, instance_size = 0;  // size 0: no instance field
     };
 
-    // Without a dialect the instance fields are unknown, so no frame supersedes another.
-    explicit MessageClasses(const wire::MessageTable& table);
     explicit MessageClasses(const dialect::Dialect& dialect);
 
     // An id without definition counts as telemetry that is never superseded.
@@ -37,7 +34,7 @@ private:
         Rule rule;
     };
 
-    void set(const wire::MessageInfo& info, const dialect::Field* instance, bool instances_known);
+    void set(const wire::MessageInfo& info, const dialect::Field* instance);
     [[nodiscard]] Rule find(MessageId id) const noexcept;
 
     std::array<Rule, direct_size> direct_{};

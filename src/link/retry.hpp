@@ -38,7 +38,7 @@ public:
     }
     void tell(std::string_view what, std::string_view then) {
         if (std::exchange(told_, true)) return;
-        core_.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
+        core_.news.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
     }
     [[nodiscard]] bool failing() const noexcept { return told_; }
     // Ends the series: the next failure is reported again.

@@ -128,7 +128,6 @@ private:
             (*reasons_)[slot] = reason;
     }
 
-    [[nodiscard]] Nanoseconds timeout_of(const LinkPolicy& policy) const noexcept;
     void index_links();
     void rebuild();
     void grow(std::size_t slots);

@@ -26,6 +26,7 @@ Engine::Impl::Impl(const wire::MessageTable& message_table, const Options& given
       routes_(max_routes, max_routes_per_link),
       turns_(RouteTable::pairs),
       unknown_(RouteTable::pairs) {
+    routes_.set_timeout(options.route_timeout);
     grow(64);
     rebuild();
 }
@@ -59,7 +60,7 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
                                .filters_in = !policy.in.admits_all()});
     ids_[slot] = id;
     ++link_count;
-    routes_.add_link(slot, timeout_of(policy));
+    routes_.add_link(slot);
     index_links();
     rebuild();
     return true;
@@ -77,18 +78,13 @@ void Engine::Impl::remove_link(LinkId id) {
     rebuild();
 }
 
-Nanoseconds Engine::Impl::timeout_of(const LinkPolicy& policy) const noexcept {
-    return std::clamp(policy.route_timeout.value_or(options.route_timeout), Nanoseconds{}, longest);
-}
-
 void Engine::Impl::set_options(const Options& given) {
     const auto [seed, recent_frames] = std::pair{options.seed, options.recent_frames};
     options = bounded(given);
     options.seed = seed;
     options.recent_frames = recent_frames;
     window_ = std::max(echo_window, options.dedup);
-    for (Slot slot = 0; slot < links.size(); ++slot)
-        if (links[slot] != nullptr) routes_.set_timeout(slot, timeout_of(links[slot]->policy));
+    routes_.set_timeout(options.route_timeout);
     rebuild();
 }
 
@@ -177,9 +173,9 @@ void Engine::Impl::rebuild() {
 
 std::vector<RouteInfo> Engine::Impl::routes(MonoTime now) const {
     std::vector<RouteInfo> list;
-    routes_.each_known([&](const Route& route, std::int64_t timeout_ns) {
+    routes_.each_known([&](const Route& route) {
         const std::int64_t age_ns = now.time_since_epoch().count() - route.heard_ns;
-        if (age_ns < timeout_ns)
+        if (age_ns < options.route_timeout.count())
             list.push_back({ids_[route.slot], source_of(route.pair), Nanoseconds{std::max<std::int64_t>(age_ns, 0)},
                             route.frames});
     });

@@ -30,17 +30,17 @@ void RouteTable::resize(std::size_t words) {
             if (routes_[i].known) set_known(routes_[i]);
 }
 
-void RouteTable::add_link(Slot slot, Nanoseconds timeout) {
+void RouteTable::add_link(Slot slot) {
     if (slot >= links_.size()) links_.resize(slot + 1);
-    links_[slot] = Link{.timeout_ns = timeout.count()};
+    links_[slot] = Link{};
 }
 
 void RouteTable::remove_link(Slot slot) noexcept {
     while (links_[slot].oldest != none) remove(links_[slot].oldest);
 }
 
-void RouteTable::set_timeout(Slot slot, Nanoseconds timeout) noexcept {
-    links_[slot].timeout_ns = timeout.count();
+void RouteTable::set_timeout(Nanoseconds timeout) noexcept {
+    timeout_ns_ = timeout.count();
     next_expiry_ns_ = 0;  // the next `expire` recomputes it
 }
 
@@ -63,7 +63,7 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
     if (!route.known) [[unlikely]] {
         set_known(route);
         ++change.learned;
-        next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + link.timeout_ns);
+        next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + timeout_ns_);
     }
     return route;
 }
@@ -171,12 +171,12 @@ void RouteTable::forget_system(SystemId system) noexcept {
 void RouteTable::expire_now(std::int64_t now_ns, Change& change) noexcept {
     next_expiry_ns_ = never;
     for (Link& link : links_) {
-        while (link.oldest != none && now_ns - routes_[link.oldest].heard_ns >= link.timeout_ns) {
+        while (link.oldest != none && now_ns - routes_[link.oldest].heard_ns >= timeout_ns_) {
             change.expired += routes_[link.oldest].known ? 1 : 0;
             remove(link.oldest);
         }
         if (link.oldest != none)
-            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].heard_ns + link.timeout_ns);
+            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].heard_ns + timeout_ns_);
     }
 }
 

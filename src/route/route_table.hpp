@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The learned routes: which system and component was heard on which link, when, and how often. Lookups return the set
-// of links for a system, or for a pair of system and component. Routes expire exactly at the timeout of their link.
+// of links for a system, or for a pair of system and component. Routes expire exactly at the timeout.
 //
 // Memory is bounded: at most `per_link` routes on one link and `most` in total. A new route evicts the stalest route of
 // its link, or, if the table is full, of the link with most routes. Private to module route; one owner thread.
@@ -46,11 +46,11 @@ public:
 
     // Sets the number of words in a set of links. Keeps the learned routes.
     void resize(std::size_t words);
-    void add_link(Slot slot, Nanoseconds timeout);
+    void add_link(Slot slot);
     void remove_link(Slot slot) noexcept;
-    void set_timeout(Slot slot, Nanoseconds timeout) noexcept;
+    void set_timeout(Nanoseconds timeout) noexcept;
 
-    // Removes routes older than the timeout of their link. Call it before using the sets.
+    // Removes routes older than the timeout. Call it before using the sets.
     void expire(MonoTime now, Change& change) noexcept {
         if (now.time_since_epoch().count() >= next_expiry_ns_) expire_now(now.time_since_epoch().count(), change);
     }
@@ -61,12 +61,12 @@ public:
     [[nodiscard]] ConstWords links_of(Pair pair) const noexcept { return &pair_links_[pair * words_]; }
     [[nodiscard]] ConstWords links_of(SystemId system) const noexcept { return &system_links_[system.value * words_]; }
 
-    // Calls f(const Route&, timeout) for every known route, link by link.
+    // Calls f(const Route&) for every known route, link by link.
     template <class F>
     void each_known(F&& f) const {
         for (const Link& link : links_)
             for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
-                if (routes_[i].known) f(routes_[i], link.timeout_ns);
+                if (routes_[i].known) f(routes_[i]);
     }
 
 private:
@@ -76,7 +76,6 @@ private:
     struct Link {
         std::uint32_t oldest = none, newest = none;
         std::uint32_t count = 0;
-        std::int64_t timeout_ns = 0;
     };
 
     [[nodiscard]] std::size_t home(Slot slot, Pair pair) const noexcept {
@@ -101,6 +100,7 @@ private:
     ZeroedArray<std::uint32_t> index_;  // open addressing by (slot, pair): index into routes_ plus one, or 0
     unsigned shift_;
     std::vector<Link> links_;  // by slot
+    std::int64_t timeout_ns_ = 0;
     ZeroedArray<std::uint64_t> pair_links_, system_links_;
     ZeroedArray<std::uint16_t> system_counts_;  // known routes per system and slot
     std::int64_t next_expiry_ns_ = never;       // at or before the earliest expiry

@@ -47,7 +47,6 @@ route::LinkPolicy policy_from(Input& in) {
         const std::vector<dialect::RateTerm> terms{{"*", 1000.0 / (1 + in.byte())}};
         policy.max_rate = *dialect::Rates::compile(dialect::default_dialect(), terms);
     }
-    if ((bits & 0x80) != 0) policy.route_timeout = std::chrono::milliseconds{in.byte() * 100};
     return policy;
 }
 

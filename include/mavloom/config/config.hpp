@@ -32,7 +32,7 @@ struct RouterConfig {
     UnknownComponent unknown_component = UnknownComponent::system;
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
-    std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat;  // system and component; empty: off
+    std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat{};  // system and component; empty: off
     // Rate at which the router asks ArduPilot for its streams, as the id in `heartbeat`. 0: off.
     std::uint16_t request_streams_hz = 0;
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;

@@ -92,18 +92,40 @@ struct EndpointInfo {
     }
 };
 
-class Links {
+// What a program that forwards frames does with its links. Links implements it; tests may, too.
+class LinkSet {
 public:
-    // `table` must outlive the object. A full queue drops the oldest telemetry first: without a dialect it cannot
-    // tell which frame a newer one supersedes.
-    [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(const wire::MessageTable& table);
+    LinkSet() = default;
+    LinkSet(const LinkSet&) = delete;
+    LinkSet& operator=(const LinkSet&) = delete;
+    virtual ~LinkSet() = default;
+
+    // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
+    // skipped.
+    virtual std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
+    // Queues the frame without signing it. Returns the number of links that queued it and whose endpoint has `sign=`.
+    virtual std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
+    // For endpoint::RoutingOptions::by_owner: counts the frame being handled in its link's loss.
+    virtual wire::SequenceTracker::Update count_loss(const RxFrame& rx) = 0;
+    // The clock reading that the current turn uses.
+    [[nodiscard]] virtual MonoTime now() const noexcept = 0;
+    // A link's counters in constant time; null if the link is gone.
+    [[nodiscard]] virtual const LinkCounters* counters(LinkId link) const noexcept = 0;
+    // Empty if the link is gone.
+    [[nodiscard]] virtual std::string_view link_name(LinkId link) const = 0;
+};
+
+namespace detail {
+class Core;
+}
+
+class Links final : public LinkSet {
+public:
     // Uses the dialect's message table and instance fields, so that a full queue drops superseded frames first
     // (docs/guide/queues.md). `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<std::unique_ptr<Links>> create(
         const dialect::Dialect& dialect, endpoint::RoutingOptions routing = endpoint::RoutingOptions::refused);
-    Links(const Links&) = delete;
-    Links& operator=(const Links&) = delete;
-    ~Links();
+    ~Links() override;
 
     // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
@@ -153,16 +175,13 @@ public:
     // starts at least 0.2 ms after the previous one, unless an endpoint has low_latency.
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
-    // Queues a whole frame for one link, or for every active link of an endpoint. Returns the number of links that
-    // queued it.
-    std::size_t send(LinkId link, wire::FrameView frame);
-    std::size_t send(EndpointId endpoint, wire::FrameView frame);
-    // Queues the frame without signing it. Returns true if the link queued it and its endpoint has `sign=`.
-    bool send_unsigned(LinkId link, wire::FrameView frame);
-    // For endpoint::RoutingOptions::by_owner: counts the frame being handled in its link's loss.
-    wire::SequenceTracker::Update count_loss(const RxFrame& rx);
-    // The clock reading that the current turn uses.
-    [[nodiscard]] MonoTime now() const noexcept;
+    std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override;
+    // The same for one link, and for every link of an endpoint that is up.
+    std::size_t send(LinkId link, const wire::FrameView& frame);
+    std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
+    std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override;
+    wire::SequenceTracker::Update count_loss(const RxFrame& rx) override;
+    [[nodiscard]] MonoTime now() const noexcept override;
     // True while a queued frame has not been handed to the kernel.
     [[nodiscard]] bool pending() const;
     // Bytes queued for an endpoint's links. A file source pauses on it instead of overflowing a queue.
@@ -177,17 +196,19 @@ public:
     // What exists now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
-    // A link's counters in constant time; null if the link is gone.
-    [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept;
+    [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept override;
     // Loss per source on a link. Valid until the next turn; empty if the link is gone.
     [[nodiscard]] std::span<const wire::SequenceStats> sources(LinkId link) const noexcept;
-    // Empty if the link is gone.
-    [[nodiscard]] std::string_view link_name(LinkId link) const;
+    [[nodiscard]] std::string_view link_name(LinkId link) const override;
 
 private:
-    class Impl;
-    explicit Links(std::unique_ptr<Impl> impl) noexcept;
-    std::unique_ptr<Impl> impl_;
+    Links(std::unique_ptr<detail::Core> core, endpoint::RoutingOptions routing) noexcept;
+    [[nodiscard]] SetupResult<void> open_as(EndpointId id, EndpointId signs_as, const endpoint::Endpoint& endpoint,
+                                            const dialect::Dialect* dialect);
+
+    std::unique_ptr<detail::Core> core_;
+    endpoint::RoutingOptions routing_;
+    bool may_repeat_ = false;
 };
 
 }  // namespace mavloom::link

@@ -52,7 +52,6 @@ struct LinkPolicy {
     bool is_private = false;
     dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
-    std::optional<Nanoseconds> route_timeout{};  // overrides Options::route_timeout, for high-latency links
 };
 
 struct GroupOrder {

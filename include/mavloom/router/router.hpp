@@ -7,14 +7,10 @@
 // log, unless an Explainer is set.
 #pragma once
 
-#include <atomic>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,8 +19,6 @@
 #include "mavloom/config/config.hpp"
 #include "mavloom/control/served.hpp"
 #include "mavloom/link/links.hpp"
-#include "mavloom/observe/traffic_table.hpp"
-#include "mavloom/record/recorder.hpp"
 #include "mavloom/route/engine.hpp"
 
 namespace mavloom::ring {
@@ -33,7 +27,10 @@ class RingTap;
 
 namespace mavloom::router {
 
-class OwnMessages;
+class Forwarder;
+class PostBox;
+class Recordings;
+class RoutedEndpoints;
 class SilenceWatch;
 
 class Router : public control::Served, private link::LinkHandler {
@@ -79,7 +76,7 @@ public:
     // Logs a line through the router's Notice.
     void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
 
-    void explain(Explainer explainer) { explainer_ = std::move(explainer); }
+    void explain(Explainer explainer);
 
     // Runs one turn of the links, which waits until `deadline` at most. Then runs one posted item and does what is due.
     void turn(MonoTime deadline);
@@ -95,29 +92,14 @@ public:
     [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
     [[nodiscard]] control::Later<std::string> metrics() override;
 
-    // For reports; on the router's thread only.
+    // The parts, for reports and tests; on the router's thread only.
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
-    [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
-    [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
-    [[nodiscard]] const std::vector<std::unique_ptr<record::Recorder>>& recorders() const noexcept {
-        return recorders_;
-    }
+    [[nodiscard]] const Forwarder& forwarder() const noexcept { return *forwarder_; }
+    [[nodiscard]] const Recordings& recordings() const noexcept { return *recordings_; }
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
-    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
-    // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
-    [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
     [[nodiscard]] MonoTime started() const noexcept { return started_; }
 
 private:
-    static constexpr std::size_t most_told = 100;  // burst limit of log lines about links of one endpoint
-    struct OpenedEndpoint {
-        link::EndpointId id;
-        endpoint::Endpoint endpoint;
-        route::LinkPolicy policy;
-        bool verifies = false;
-        std::size_t may_tell = most_told, not_told = 0;  // lines about its links: remaining budget, suppressed
-    };
-
     Router(const dialect::Dialect& dialect, const config::RouterConfig& config, Notice notice,
            std::unique_ptr<link::Links> links);
 
@@ -125,64 +107,32 @@ private:
     void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override;
     void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
     void on_notice(link::EndpointId endpoint, std::string_view text) override;
-
-    [[nodiscard]] SetupResult<void> add_recording(const endpoint::Endpoint& endpoint);
-    [[nodiscard]] route::Decision decide(const link::RxFrame& rx, std::uint64_t mark);
-    [[nodiscard]] SetupResult<route::LinkPolicy> policy_of(const endpoint::Endpoint& endpoint);
-    [[nodiscard]] SetupResult<void> check_group(const endpoint::Endpoint& endpoint) const;
-    [[nodiscard]] endpoint::GroupMode mode_of(const endpoint::EndpointOptions& options) const;
-    [[nodiscard]] route::GroupId group_id(const std::string& name);
-    void register_endpoint(OpenedEndpoint& opened);
-    [[nodiscard]] bool has(const endpoint::Endpoint& endpoint) const;
-    void order_as(const std::vector<endpoint::Endpoint>& endpoints);
-    void put_back(const std::vector<endpoint::Endpoint>& gone, const std::string& label);
-    void speak_on(LinkId link, link::EndpointId endpoint);
     void forget_link(LinkId link);
+
     bool close_link(std::string_view name);
-    // Limits the log lines about links that come and go. Spends one line of the endpoint's budget, or returns false and
-    // counts the suppressed line.
-    [[nodiscard]] bool may_tell_of_link(link::EndpointId endpoint) noexcept;
-    void send(const link::RxFrame& rx, std::span<const LinkId> links);
-    void count_loss(const link::RxFrame& rx);
-    void run_posted();
-    bool send_own(LinkId link, const wire::FrameView& frame);
-    [[nodiscard]] bool is_answered(LinkId link) const;
+    void remove_unwanted(std::span<const endpoint::Endpoint> wanted, std::vector<endpoint::Endpoint>& gone);
+    void add_missing(std::span<const endpoint::Endpoint> wanted, std::span<const endpoint::Endpoint> gone);
+    void put_back(std::span<const endpoint::Endpoint> gone, const std::string& label);
+
+    [[nodiscard]] MonoTime next_due() const noexcept;
     void look_after(MonoTime now);
     void look_after_ring();
-    void tell_silence(MonoTime now);
     void refresh_page();
-    void tell_more_links(OpenedEndpoint& opened);
-    [[nodiscard]] MonoTime next_due() const noexcept;
+    void tell_silence(MonoTime now);
 
     const dialect::Dialect& dialect_;
-    config::RouterConfig config_;
+    bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
+    // Never null, apart from `ring_`.
     std::unique_ptr<link::Links> links_;
-    route::Engine engine_;
-    Explainer explainer_;
-    std::vector<route::Explanation> why_;
-    observe::TrafficTable traffic_;
-    std::vector<std::unique_ptr<OpenedEndpoint>> endpoints_;
-    std::vector<OpenedEndpoint*> by_id_;  // by EndpointId; null if removed
-    std::vector<std::string> groups_;     // by GroupId - 1
-    GroupModes group_modes_;
-    std::vector<std::unique_ptr<record::Recorder>> recorders_;
-    std::vector<std::unique_ptr<record::Recorder>> ending_recorders_;  // removed, and still writing
-    std::vector<endpoint::Endpoint> recordings_;                       // the endpoint of each recorder
-    std::unique_ptr<OpenedEndpoint> inlet_;                            // null if there is none
-    std::unique_ptr<ring::RingTap> ring_;                              // null if there is none
-    std::unique_ptr<OwnMessages> own_messages_;                        // never null
-    std::unique_ptr<SilenceWatch> silence_;                            // never null
-    bool any_signs_ = false;
-    bool a_link_went_ = false;  // a link went down or was removed, so traffic_ may hold rows of a link that is gone
-    Counter not_signed_;
-    std::size_t duplicate_ids_told_ = 0;
+    std::unique_ptr<RoutedEndpoints> endpoints_;
+    std::unique_ptr<Forwarder> forwarder_;
+    std::unique_ptr<SilenceWatch> silence_;
+    std::unique_ptr<PostBox> posted_;
+    std::unique_ptr<Recordings> recordings_;
+    std::unique_ptr<ring::RingTap> ring_;
     MonoTime started_ = mono_now();
     MonoTime look_due_{};
-
-    std::atomic<bool> has_posted_{false};
-    std::mutex posted_mutex_;
-    std::deque<std::function<void()>> posted_;  // guarded by posted_mutex_
 };
 
 }  // namespace mavloom::router

@@ -54,7 +54,7 @@ struct Place {
 class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
 public:
     explicit Inlet(Opening& opening)
-        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.table(opening.id)) {}
+        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.languages.of(opening.id).table) {}
     ~Inlet() override;
 
     SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
@@ -141,8 +141,9 @@ Inlet::~Inlet() {
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
     const auto anew = bind();
-    if (anew) core_.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
-    else if (!told_) core_.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
+    if (anew) core_.news.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
+    else if (!told_)
+        core_.news.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
     told_ = !anew;
 }
 
@@ -190,13 +191,13 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
         counters.peers_refused.add();
         return nullptr;
     }
-    auto sender = std::make_unique<Sender>(info.id, core_.table(info.id), datagram.from);
+    auto sender = std::make_unique<Sender>(info.id, core_.languages.of(info.id).table, datagram.from);
     sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
     sender->last_heard = core_.now();
     core_.add_link(*sender);
     by_address_.emplace(sender->address, sender.get());
     senders_.push_back(std::move(sender));
-    core_.set_up(*senders_.back());
+    core_.news.set_up(*senders_.back());
     return senders_.back().get();
 }
 

@@ -34,7 +34,7 @@ public:
         core_.add_link(peer_);
     }
     ~InletSender() override {
-        core_.forget(static_cast<Outlet&>(*this));
+        core_.outlets.forget(*this);
         core_.loop().unwatch(watch_);
         core_.remove_link(peer_, "closed");
     }
@@ -56,7 +56,7 @@ public:
 private:
     struct Peer final : Link {
         Peer(InletSender& o, EndpointId owner, const net::BlockQueue::Limits& limits) : Link(owner, limits), inlet(o) {}
-        void schedule() override { inlet.core_.schedule(inlet); }
+        void schedule() override { inlet.core_.outlets.schedule(inlet); }
         InletSender& inlet;
     };
 
@@ -90,11 +90,11 @@ SetupResult<void> InletSender::connect() {
     retry_.begin_anew();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (std::exchange(told_no_way_, false))
-        core_.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
+        core_.news.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
     // The same name that the ring's router gives this link.
     peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());
-    core_.set_up(peer_);
-    if (!peer_.queue.empty()) core_.schedule(*this);
+    core_.news.set_up(peer_);
+    if (!peer_.queue.empty()) core_.outlets.schedule(*this);
     return {};
 }
 
@@ -110,10 +110,10 @@ void InletSender::connect_or_retry() {
     const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
     if (!is_absent || (!told_no_way_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
     if (!std::exchange(told_no_way_, true))
-        core_.notice(info.id,
-                     fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "
-                                 "dropped until somebody does",
-                                 info.endpoint.label()));
+        core_.news.notice(info.id,
+                          fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "
+                                      "dropped until somebody does",
+                                      info.endpoint.label()));
     retry_.fail_silently(done.error());
 }
 
@@ -122,7 +122,7 @@ void InletSender::connect_or_retry() {
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
-    core_.set_down(peer_, "the router went");
+    core_.news.set_down(peer_, "the router went");
     const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
     if (!worked || !connect()) retry_.later();
 }
@@ -130,7 +130,7 @@ void InletSender::lose() {
 void InletSender::on_io(net::IoEvents events) {
     if (!events.writable) return;
     wait_for_room(false);
-    core_.schedule(*this);
+    core_.outlets.schedule(*this);
 }
 
 void InletSender::wait_for_room(bool waits) {
@@ -138,7 +138,7 @@ void InletSender::wait_for_room(bool waits) {
 }
 
 void InletSender::flush() {
-    net::SendBatch& batch = core_.send_batch();
+    net::SendBatch& batch = core_.send_batch;
     while (socket_ && !full_ && fill(batch))
         if (!submit(batch)) break;
     peer_.queued = !peer_.queue.empty();

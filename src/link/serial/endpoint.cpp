@@ -39,7 +39,6 @@ public:
     ~Serial() override {
         watch_folders(false);
         core_.remove_link(peer_, "closed");
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     [[nodiscard]] SetupResult<void> open();
@@ -108,29 +107,29 @@ SetupResult<void> Serial::open_as(const std::string& name) {
         good_frames_ = 0;
         retry_.after(auto_window);
     } else {
-        core_.set_up(peer_);
+        core_.news.set_up(peer_);
     }
     return {};
 }
 
 void Serial::tell_settings() {
     const auto& options = info.endpoint.options;
-    const auto got = peer_.port().baud();
+    const auto got = peer_.stream().baud();
     const auto apart = got > baud() ? got - baud() : baud() - got;
     // The error that a receiver of ten-bit characters tolerates.
     constexpr std::uint32_t tolerance_percent = 3;
     if (apart > std::uint64_t{baud()} * tolerance_percent / 100)
-        core_.notice(info.id,
-                     fmt::format("{}: asked for {} baud, the driver took {}", info.endpoint.label(), baud(), got));
-    if (options.low_latency && !peer_.port().low_latency())
-        core_.notice(info.id, fmt::format("{}: its driver has no low_latency", info.endpoint.label()));
-    if (was_up_ && peer_.port())
-        core_.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
+        core_.news.notice(info.id,
+                          fmt::format("{}: asked for {} baud, the driver took {}", info.endpoint.label(), baud(), got));
+    if (options.low_latency && !peer_.stream().low_latency())
+        core_.news.notice(info.id, fmt::format("{}: its driver has no low_latency", info.endpoint.label()));
+    if (was_up_ && peer_.stream())
+        core_.news.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
 }
 
 void Serial::on_gone(std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting;
-    core_.set_down(peer_, why);
+    core_.news.set_down(peer_, why);
     if (lasted) retry_.begin_anew();
     retry_.later();
     watch_folders(true);
@@ -140,13 +139,13 @@ void Serial::on_gone(std::string_view why) {
 void Serial::count_good_frame() {
     ++good_frames_;
     if (!std::exchange(searching_, false)) return;
-    core_.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
+    core_.news.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
     retry_.after(auto_confirm);
-    core_.set_up(peer_);
+    core_.news.set_up(peer_);
 }
 
 void Serial::search_on() {
-    core_.set_down(peer_, "no more good frames at this baud rate");
+    core_.news.set_down(peer_, "no more good frames at this baud rate");
     searching_ = true;
     good_frames_ = 0;
     auto_index_ = (auto_index_ + 1) % auto_bauds.size();
@@ -164,7 +163,7 @@ void Serial::on_io(net::IoEvents) {
 
 void Serial::on_timer(MonoTime now) {
     retry_.fired(now);
-    if (peer_.port()) {
+    if (peer_.stream()) {
         if (automatic() && good_frames_ < 2) search_on();
     } else if (auto done = open(); !done) {
         fail(done.error());

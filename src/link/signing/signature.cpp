@@ -3,7 +3,7 @@
 // frames.
 #include <algorithm>
 
-#include "link/core.hpp"
+#include "link/signing/signature.hpp"
 #include "mavloom/wire/crc.hpp"
 
 namespace mavloom::link::detail {

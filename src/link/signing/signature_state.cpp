@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-#include "link/core.hpp"
+#include "link/signing/signature.hpp"
 #include "mavloom/base/thread.hpp"
 #include "mavloom/net/fd.hpp"
 

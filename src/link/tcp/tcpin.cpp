@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "link/listening.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/tcp.hpp"
 #include "mavloom/endpoint/checks.hpp"
@@ -40,14 +41,14 @@ private:
     net::WatchId watch_;
 };
 
-class TcpIn final : public OpenEndpoint, public TcpOwner, public net::TimerHandler {
+class TcpIn final : public OpenEndpoint, public Asker, public TcpOwner, public net::TimerHandler {
 public:
-    explicit TcpIn(Opening& opening) : OpenEndpoint(opening), core_(opening.core), retry_(opening.core, *this, *this) {}
+    explicit TcpIn(Opening& opening)
+        : OpenEndpoint(opening), Asker(opening.core.look_ups), core_(opening.core), retry_(opening.core, *this, *this) {}
     ~TcpIn() override {
         core_.loop().cancel_timer(pause_);
         core_.loop().cancel_timer(expiry_);
         for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     SetupResult<void> open(const std::vector<net::Address>& addresses);
@@ -94,7 +95,7 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
         if (auto done = listening->start(); !done) return done;
         listeners_.push_back(std::move(listening));
     }
-    core_.notice(info.id, info.label() + ": listening");
+    core_.news.notice(info.id, info.label() + ": listening");
     if (const auto idle = info.endpoint.options.idle) expiry_ = core_.loop().start_timer(core_.now() + *idle, *this);
     return {};
 }
@@ -124,8 +125,8 @@ void TcpIn::admit(net::TcpStream stream) {
     if (peers_.size() >= info.endpoint.options.max_peers) {
         counters.peers_refused.add();
         if (!std::exchange(told_full_, true)) {
-            core_.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
-                                              info.endpoint.label(), peers_.size()));
+            core_.news.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
+                                                   info.endpoint.label(), peers_.size()));
         }
         return;
     }
@@ -135,14 +136,15 @@ void TcpIn::admit(net::TcpStream stream) {
     if (!peer->attach(std::move(stream))) return;
     core_.add_link(*peer);
     peers_.push_back(std::move(peer));
-    core_.set_up(*peers_.back());
+    core_.news.set_up(*peers_.back());
 }
 
 void TcpIn::pause() {
     for (const auto& listening : listeners_) listening->listen(false);
     if (!pause_.valid()) pause_ = core_.loop().start_timer(core_.now() + accept_pause, *this);
     if (!std::exchange(told_full_, true)) {
-        core_.notice(info.id, fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
+        core_.news.notice(info.id,
+                          fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
     }
 }
 
@@ -168,7 +170,7 @@ void TcpIn::on_timer(MonoTime now) {
         for (const auto& listening : listeners_) listening->listen(true);
     }
     if (expiry_.valid() && expiry_.when <= now) expire(now);
-    if (retry_.fired(now)) core_.resolve(*this, info.endpoint.address);
+    if (retry_.fired(now)) look_up(info.endpoint.address);
 }
 
 void TcpIn::expire(MonoTime now) {
@@ -187,16 +189,7 @@ void TcpIn::expire(MonoTime now) {
 }  // namespace
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpin(Opening opening) {
-    Core& core = opening.core;
-    const endpoint::Endpoint& endpoint = opening.endpoint;
-    auto opened = std::make_unique<TcpIn>(opening);
-    constexpr std::chrono::seconds look_up_limit{1};
-    auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
-    if (!answer) return opened;
-    if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
-    if (auto done = opened->open(**answer); !done)
-        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
-    return opened;
+    return open_listening<TcpIn>(std::move(opening));
 }
 
 }  // namespace mavloom::link::detail

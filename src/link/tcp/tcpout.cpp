@@ -15,10 +15,11 @@ namespace {
 constexpr std::chrono::seconds connect_limit{5};
 constexpr std::chrono::seconds required_limit{5};
 
-class TcpOut final : public OpenEndpoint, public TcpOwner, public net::IoHandler, public net::TimerHandler {
+class TcpOut final : public OpenEndpoint, public Asker, public TcpOwner, public net::IoHandler, public net::TimerHandler {
 public:
     TcpOut(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
+          Asker(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
@@ -30,12 +31,11 @@ public:
     ~TcpOut() override {
         core_.loop().unwatch(connecting_watch_);
         core_.remove_link(peer_, "closed");
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     // Resolves the host and connects, in the background.
     void begin() {
-        if (auto answer = core_.resolve_now(info.endpoint.address, std::chrono::milliseconds(250), *this))
+        if (auto answer = look_up_now(info.endpoint.address, std::chrono::milliseconds(250)))
             on_resolved(std::move(*answer));
     }
     // Resolves the host and connects, and waits for the result.
@@ -101,7 +101,7 @@ SetupResult<void> TcpOut::finish() {
     retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (const auto idle = info.endpoint.options.idle) retry_.after(*idle);
-    core_.set_up(peer_);
+    core_.news.set_up(peer_);
     return {};
 }
 
@@ -118,7 +118,7 @@ void TcpOut::fail(const SetupError& error) {
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting || peer.last_heard > up_since_;
-    core_.set_down(peer, why);
+    core_.news.set_down(peer, why);
     if (lasted) retry_.begin_anew();
     retry_.later();
 }
@@ -131,11 +131,7 @@ void TcpOut::on_timer(MonoTime now) {
         connecting_ = {};
         return fail({SetupCode::unreachable, 0, fmt::format("{} does not answer", silent.text())});
     }
-    if (const auto numeric = net::Address::parse(info.endpoint.address.host, info.endpoint.address.port)) {
-        on_resolved(std::vector<net::Address>{*numeric});
-    } else {
-        core_.resolve(*this, info.endpoint.address);
-    }
+    look_up(info.endpoint.address);
 }
 
 void TcpOut::on_up_timer(MonoTime now) {
@@ -145,8 +141,8 @@ void TcpOut::on_up_timer(MonoTime now) {
 }
 
 SetupResult<void> TcpOut::begin_and_wait() {
-    auto answer = core_.resolve_now(info.endpoint.address, required_limit, *this);
-    if (!answer) return setup_error(SetupCode::unreachable, "no answer about the host's address within 5 s");
+    auto answer = look_up_now(info.endpoint.address, required_limit);
+    if (!answer) return tl::unexpected(no_answer(info.endpoint.address));
     if (!*answer) return tl::unexpected(std::move(answer->error()));
     SetupError last{SetupCode::not_found, 0, "the host has no address of the family of bind="};
     for (const net::Address& address : **answer) {

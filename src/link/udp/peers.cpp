@@ -61,8 +61,8 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     }
     if (peers_.empty()) owner_.on_first_peer(*datagram.from);
     const EndpointInfo& info = endpoint_.info;
-    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(info.id), port,
-                                          *datagram.from);
+    auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
+                                          core_.languages.of(info.id).table, port, *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->signature = endpoint_.signature.get();
     peer->last_heard = core_.now();  // until its first frame is found
@@ -70,7 +70,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     port.peers().add(*datagram.from, *peer);
     peers_.push_back(std::move(peer));
     if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle_, *this);
-    core_.set_up(*peers_.back());
+    core_.news.set_up(*peers_.back());
     return peers_.back().get();
 }
 

@@ -27,7 +27,7 @@ public:
           endpoint_(endpoint),
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
-          stranger_(core.table(endpoint.info.id)) {}
+          stranger_(core.languages.of(endpoint.info.id).table) {}
     ~UdpPeers() override;
 
     // The peer that sent the datagram. A new sender of a valid frame becomes a peer. Null for a new sender without a

@@ -52,7 +52,7 @@ void UdpPeer::settle() noexcept {
 UdpPeer* UdpOwner::find_peer(UdpPort& port, const net::Address& address) const { return port.peers().find(address); }
 
 UdpPort::~UdpPort() {
-    core_.forget(*this);
+    core_.outlets.forget(*this);
     core_.loop().cancel_timer(retry_);
     core_.loop().unwatch(watch_);
 }
@@ -92,7 +92,7 @@ void UdpPort::on_io(net::IoEvents events) {
     if (events.writable && blocked_) {
         blocked_ = false;
         core_.loop().change(watch_, true, false);
-        core_.schedule(*this);
+        core_.outlets.schedule(*this);
     }
     if (events.readable) receive();
 }
@@ -123,11 +123,11 @@ void UdpPort::settle() {
 void UdpPort::on_timer(MonoTime) {
     retry_ = {};
     for (UdpPeer* peer : waiting_) peer->held = false;
-    core_.schedule(*this);
+    core_.outlets.schedule(*this);
 }
 
 void UdpPort::receive() {
-    net::ReceiveBatch& batch = core_.receive_batch();
+    net::ReceiveBatch& batch = core_.receive_batch;
     const auto count = socket_.receive(batch);
     // would_block, or an ICMP error. on_io also receives that error as `failed`.
     if (!count) return;
@@ -151,7 +151,7 @@ void UdpPort::expire(MonoTime now) {
 
 void UdpPort::flush() {
     if (blocked_) return;
-    net::SendBatch& batch = core_.send_batch();
+    net::SendBatch& batch = core_.send_batch;
     batch.clear();
     parts_.clear();
     for (std::size_t i = 0; i < waiting_.size() && !blocked_; ++i) {
@@ -176,7 +176,7 @@ void UdpPort::flush() {
 
 // Sends the batch. Returns false if the kernel accepts no more for now. What was not sent stays queued.
 bool UdpPort::submit() {
-    net::SendBatch& batch = core_.send_batch();
+    net::SendBatch& batch = core_.send_batch;
     int refusals = 0;
     for (std::size_t first = 0; first < batch.size();) {
         const auto sent = socket_.send(batch, first);

@@ -81,7 +81,7 @@ public:
 
     void schedule(UdpPeer& peer) {
         waiting_.push_back(&peer);
-        core_.schedule(*this);
+        core_.outlets.schedule(*this);
     }
     // The peer is about to be destroyed.
     void forget(UdpPeer& peer) noexcept;

@@ -13,15 +13,16 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpBroadcast final : public OpenEndpoint, public UdpPeers::Owner, public net::TimerHandler {
+class UdpBroadcast final : public OpenEndpoint, public Asker, public UdpPeers::Owner, public net::TimerHandler {
 public:
     UdpBroadcast(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
+          Asker(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.table(opening.id), port_,
-                     net::Address{}),
+          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.languages.of(opening.id).table,
+                     port_, net::Address{}),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {
         everybody_.name = opening.endpoint.label();
@@ -31,7 +32,6 @@ public:
     ~UdpBroadcast() override {
         core_.remove_link(everybody_, "closed");
         port_.forget(everybody_);
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     SetupResult<void> start(const net::Resolver::Answer& answer);
@@ -50,10 +50,10 @@ public:
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
     void on_send_error(net::IoError error) override;
     void on_first_peer(const net::Address& from) override {
-        core_.set_down(everybody_, fmt::format("{} answers", from.text()));
+        core_.news.set_down(everybody_, fmt::format("{} answers", from.text()));
     }
-    void on_last_peer_gone() override { core_.set_up(everybody_); }
-    void on_timer(MonoTime now) override;
+    void on_last_peer_gone() override { core_.news.set_up(everybody_); }
+    void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
 private:
     Core& core_;
@@ -76,20 +76,12 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     info.local_port = port_.socket().local().port();
     info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();
     everybody_.address = *to;
-    core_.set_up(everybody_);
+    core_.news.set_up(everybody_);
     return {};
 }
 
 void UdpBroadcast::on_resolved(net::Resolver::Answer&& answer) {
     if (auto done = start(answer); !done) fail(done.error());
-}
-
-void UdpBroadcast::on_timer(MonoTime) {
-    if (const auto numeric = net::Address::parse(info.endpoint.address.host, info.endpoint.address.port)) {
-        on_resolved(std::vector<net::Address>{*numeric});
-    } else {
-        core_.resolve(*this, info.endpoint.address);
-    }
 }
 
 // A socket bound to the broadcast port hears its own datagrams.
@@ -101,8 +93,8 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
 void UdpBroadcast::on_send_error(net::IoError error) {
     if (error == net::IoError::refused) return;  // a peer's port was closed
     if (std::exchange(told_unreachable_, true)) return;
-    core_.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
-                                      everybody_.address.text()));
+    core_.news.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
+                                           everybody_.address.text()));
 }
 
 }  // namespace
@@ -117,11 +109,9 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
     const bool required = endpoint.options.required && !core.running();
     auto opened = std::make_unique<UdpBroadcast>(opening, *local);
     const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
-    auto answer = core.resolve_now(endpoint.address, limit, *opened);
+    auto answer = opened->look_up_now(endpoint.address, limit);
     if (!answer && !required) return opened;
-    if (!answer)
-        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
-                                                               endpoint.label(), endpoint.address.host));
+    if (!answer) return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
     auto done = opened->start(*answer);
     if (done) return opened;
     const bool may_come = !*answer || done.error().code == SetupCode::not_found;

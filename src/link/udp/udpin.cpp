@@ -2,6 +2,7 @@
 // udpin: each peer that sends valid MAVLink is a link of its own.
 #include <fmt/format.h>
 
+#include "link/listening.hpp"
 #include "link/retry.hpp"
 #include "link/udp/peers.hpp"
 #include "mavloom/endpoint/checks.hpp"
@@ -10,14 +11,14 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpIn final : public OpenEndpoint, public UdpPeers::Owner, public net::TimerHandler {
+class UdpIn final : public OpenEndpoint, public Asker, public UdpPeers::Owner, public net::TimerHandler {
 public:
     explicit UdpIn(Opening& opening)
         : OpenEndpoint(opening),
+          Asker(opening.core.look_ups),
           core_(opening.core),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {}
-    ~UdpIn() override { core_.forget(static_cast<const OpenEndpoint&>(*this)); }
 
     SetupResult<void> open(const std::vector<net::Address>& addresses);
     std::size_t send(const wire::FrameView& frame) override { return peers_.send(frame); }
@@ -33,7 +34,7 @@ public:
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override { return peers_.of(port, datagram); }
     void on_send_error(net::IoError) override {}
-    void on_timer(MonoTime) override { core_.resolve(*this, info.endpoint.address); }
+    void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
 private:
     Core& core_;
@@ -56,11 +57,12 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
         info.rcvbuf_bytes = port->socket().receive_buffer_bytes();
         ports_.push_back(std::move(port));
     }
-    core_.notice(info.id, fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
+    core_.news.notice(info.id, fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
     if (info.rcvbuf_bytes < options.receive_buffer_bytes)
-        core_.notice(info.id, fmt::format("{}: a larger receive buffer loses less when very much comes at once; to "
-                                          "allow it: sysctl net.core.rmem_max={}",
-                                          info.label(), options.receive_buffer_bytes));
+        core_.news.notice(info.id,
+                          fmt::format("{}: a larger receive buffer loses less when very much comes at once; to "
+                                      "allow it: sysctl net.core.rmem_max={}",
+                                      info.label(), options.receive_buffer_bytes));
     return {};
 }
 
@@ -83,16 +85,7 @@ net::UdpOptions udp_options(const endpoint::EndpointOptions& endpoint) {
 }
 
 SetupResult<std::unique_ptr<OpenEndpoint>> open_udpin(Opening opening) {
-    Core& core = opening.core;
-    const endpoint::Endpoint& endpoint = opening.endpoint;
-    auto opened = std::make_unique<UdpIn>(opening);
-    constexpr std::chrono::seconds look_up_limit{1};
-    auto answer = core.resolve_now(endpoint.address, look_up_limit, *opened);
-    if (!answer) return opened;
-    if (!*answer) return tl::unexpected(std::move(answer->error()).within(endpoint.label()));
-    if (auto done = opened->open(**answer); !done)
-        return tl::unexpected(std::move(done.error()).within(endpoint.label()));
-    return opened;
+    return open_listening<UdpIn>(std::move(opening));
 }
 
 }  // namespace mavloom::link::detail

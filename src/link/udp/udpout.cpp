@@ -13,10 +13,11 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpOut final : public OpenEndpoint, public UdpOwner, public net::TimerHandler {
+class UdpOut final : public OpenEndpoint, public Asker, public UdpOwner, public net::TimerHandler {
 public:
     UdpOut(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
+          Asker(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           idle_(opening.endpoint.options.idle.value_or(std::chrono::seconds(60))),
@@ -25,7 +26,6 @@ public:
     ~UdpOut() override {
         if (peer_) core_.remove_link(*peer_, "closed");
         if (peer_) port_->forget(*peer_);
-        core_.forget(static_cast<const OpenEndpoint&>(*this));
     }
 
     SetupResult<void> start(net::Resolver::Answer answer);
@@ -95,14 +95,14 @@ SetupResult<void> UdpOut::open_port(const net::Address& address) {
 SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     if (auto done = open_port(address); !done) return done;
     if (!peer_) {
-        peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options), core_.table(info.id), *port_,
-                                          address);
+        peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
+                                          core_.languages.of(info.id).table, *port_, address);
         peer_->name = info.endpoint.label();
         peer_->signature = signature.get();
         core_.add_link(*peer_);
     }
     peer_->move_to(address);
-    core_.set_up(*peer_);
+    core_.news.set_up(*peer_);
     return {};
 }
 
@@ -142,7 +142,7 @@ void UdpOut::on_timer(MonoTime now) {
         ++current_;
         if (auto done = aim_at(addresses_[current_]); !done) retry_.later();
     } else if (is_name_ && !heard) {
-        core_.resolve(*this, info.endpoint.address);
+        look_up(info.endpoint.address);
     } else if (retry_.failing() && addresses_.size() > 1) {
         current_ = 0;
         if (auto done = aim_at(addresses_[0]); !done) retry_.later();
@@ -162,11 +162,10 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
     const bool required = endpoint.options.required;
     auto opened = std::make_unique<UdpOut>(opening, *local);
     const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
-    auto answer = core.resolve_now(endpoint.address, limit, *opened);
+    auto answer = opened->look_up_now(endpoint.address, limit);
     if (!answer) {
         if (!required || core.running()) return opened;
-        return setup_error(SetupCode::unreachable, fmt::format("{}: no answer about host '{}' within 5 s",
-                                                               endpoint.label(), endpoint.address.host));
+        return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
     }
     if (!*answer && !required) {
         opened->on_resolved(std::move(*answer));

@@ -49,7 +49,6 @@ ModelPolicy policy_of(const Step& s) {
     if (s[6] / 9 % 4 == 1) policy.attitude_interval = 500ms;
     if (s[6] / 36 % 4 == 1) policy.other_interval = 1s;
     if (s[4] / 6 % 4 == 1) policy.bytes_per_s = s[4] / 24;
-    if (s[3] / 6 % 4 == 1) policy.route_timeout = 30s;
     return policy;
 }
 
@@ -61,8 +60,7 @@ LinkPolicy compiled(const ModelPolicy& policy) {
                     .group_order = policy.order,
                     .tap = policy.tap,
                     .is_private = policy.is_private,
-                    .max_bytes_per_s = policy.bytes_per_s,
-                    .route_timeout = policy.route_timeout};
+                    .max_bytes_per_s = policy.bytes_per_s};
     std::vector<dialect::RateTerm> rates;
     const auto add = [&](const char* message, std::optional<Nanoseconds> interval) {
         if (interval) rates.push_back({message, 1e9 / static_cast<double>(interval->count())});

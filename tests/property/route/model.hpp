@@ -24,7 +24,6 @@ struct ModelPolicy {
     bool tap = false, is_private = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
-    std::optional<Nanoseconds> route_timeout{};
 };
 
 class Model {
@@ -60,7 +59,7 @@ public:
             return h.link == link && h.system == system && h.component == component;
         };
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
-        if (source == heard_.end() || !source->known || now - source->time >= timeout(link)) return false;
+        if (source == heard_.end() || !source->known || now - source->time >= options_.route_timeout) return false;
         const auto last = reboots_.find(system);  // of one restart two links report
         const bool is_known = last != reboots_.end() && last->second.link != link &&
                               now - last->second.time < std::chrono::seconds(10);
@@ -97,7 +96,7 @@ public:
             for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
             return result;
         }
-        std::erase_if(heard_, [&](const Heard& h) { return now - h.time >= timeout(h.link); });
+        std::erase_if(heard_, [&](const Heard& h) { return now - h.time >= options_.route_timeout; });
         for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
         Recent* remembered = nullptr;
         result.verdict = judge(ingress, bytes, frame, result.why, remembered);
@@ -111,7 +110,7 @@ public:
     [[nodiscard]] std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> routes(MonoTime now) const {
         std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> list;
         for (const Heard& h : heard_)
-            if (h.known && now - h.time < timeout(h.link)) list.emplace(h.link, h.system, h.component, h.frames);
+            if (h.known && now - h.time < options_.route_timeout) list.emplace(h.link, h.system, h.component, h.frames);
         return list;
     }
 
@@ -138,9 +137,6 @@ private:
     };
     using Why = std::map<std::uint32_t, Reason>;
 
-    [[nodiscard]] Nanoseconds timeout(std::uint32_t link) const {
-        return links_.at(link).policy.route_timeout.value_or(options_.route_timeout);
-    }
     static bool in(const auto& list, const auto& value) {
         return std::find(list.begin(), list.end(), value) != list.end();
     }

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "mavloom/dialect/dialect.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/wire/frame_writer.hpp"
 #include "mavloom/wire/stream_parser.hpp"
@@ -90,7 +91,7 @@ public:
 
 // One Links with its handler.
 struct Node {
-    Node() : links(std::move(*Links::create(table()))) {}
+    Node() : links(std::move(*Links::create(dialect::default_dialect()))) {}
     EndpointId add(const std::string& url) {
         auto id = links->add(endpoint_of(url));
         EXPECT_TRUE(id) << url << ": " << (id ? "" : id.error().text);

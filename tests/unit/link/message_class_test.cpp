@@ -54,12 +54,5 @@ TEST(MessageClasses, TheKeyTellsSourceMessageAndInstance) {
     EXPECT_EQ(key_of(251, 8, "speed"), key_of(251, 8, "speed"));
 }
 
-TEST(MessageClasses, WithoutADialectNothingIsReplaced) {
-    const MessageClasses by_table(dialect::default_dialect().wire_table());
-    EXPECT_EQ(by_table.of(MessageId{30}).block_class, 2);
-    EXPECT_FALSE(by_table.of(MessageId{30}).replaceable);
-    EXPECT_EQ(by_table.of(MessageId{76}).block_class, 0);
-}
-
 }  // namespace
 }  // namespace mavloom::link

@@ -115,16 +115,6 @@ TEST(Engine, RouteIsForgottenExactlyAtItsTimeout) {
     EXPECT_EQ(sut.engine.counters().routes_expired.value(), 1u);
 }
 
-TEST(Engine, LinkMayHaveATimeoutOfItsOwn) {
-    Network sut({.route_timeout = 10s});
-    sut.link();
-    sut.link({.route_timeout = 120s});
-    sut.hears(2, vehicle);
-    sut.wait(119s);
-
-    EXPECT_THAT(sut.command(1, gcs, vehicle), ElementsAre(2));
-}
-
 TEST(Engine, RebootForgetsTheRoutesOfASystemAndKeepsTheCount) {
     Network sut;
     sut.links(3);

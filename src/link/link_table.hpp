@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The links that exist, by id and with unique names. Private to module link; single owner thread.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "link/link.hpp"
+
+namespace mavloom::link::detail {
+
+// Looks up links by id with one load. Ids increase and are never reused. `add` skips an id whose slot is still taken.
+class LinkTable {
+public:
+    LinkTable() : places_(64) {}
+    // Assigns the link's id, and appends " (2)" or more to a name that another link has.
+    void add(Link& link);
+    // The next id is greater than `last`.
+    void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }
+    void remove(LinkId id) noexcept;
+    [[nodiscard]] Link* find(LinkId id) const noexcept {
+        Link* link = places_[id.value & (places_.size() - 1)];
+        return link != nullptr && link->id == id ? link : nullptr;
+    }
+    // True while a link that is up has frames queued.
+    [[nodiscard]] bool any_queued() const noexcept;
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    template <class F>
+    void each(F&& f) const {
+        for (Link* link : places_)
+            if (link != nullptr) f(*link);
+    }
+
+private:
+    [[nodiscard]] bool name_taken(const std::string& name) const noexcept;
+    void grow();
+
+    std::vector<Link*> places_;  // size: a power of two; at most half used
+    std::size_t size_ = 0;
+    std::uint32_t last_ = 0;
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "link/look_ups.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mavloom::link::detail {
+
+void LookUps::deliver() {
+    while (auto done = resolver_.take()) {
+        const auto question = std::ranges::find_if(questions_, [&](const auto& q) { return q.first == done->ticket; });
+        if (question == questions_.end()) continue;
+        Asker* const asker = question->second;
+        questions_.erase(question);
+        asker->on_resolved(std::move(done->answer));
+    }
+}
+
+Asker::~Asker() {
+    std::erase_if(look_ups_.questions_, [&](const auto& question) { return question.second == this; });
+}
+
+void Asker::look_up(const endpoint::HostPort& host) {
+    if (auto answer = look_up_now(host, {})) on_resolved(std::move(*answer));
+}
+
+std::optional<net::Resolver::Answer> Asker::look_up_now(const endpoint::HostPort& host, std::chrono::milliseconds limit) {
+    if (const auto numeric = net::Address::parse(host.host, host.port)) return std::vector<net::Address>{*numeric};
+    const std::uint64_t ticket = look_ups_.resolver_.ask(host.host, host.port);
+    auto answer = look_ups_.may_wait_ ? look_ups_.resolver_.wait(ticket, limit) : std::nullopt;
+    if (!answer) look_ups_.questions_.emplace_back(ticket, this);
+    return answer;
+}
+
+SetupError no_answer(const endpoint::HostPort& host) {
+    return {SetupCode::unreachable, 0, fmt::format("no answer about host '{}' within 5 s", host.host)};
+}
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// sign= and verify= of an endpoint. Private to module link; single owner thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "link/signing/signature_state.hpp"
+#include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/wire/signing.hpp"
+
+namespace mavloom::link::detail {
+
+// Signing (sign=) and verification (verify=) for one endpoint.
+class Signature {
+public:
+    // Loads the keys. Timestamps of earlier runs come from `states`, which must outlive the object; problems with
+    // them go to `notices`. `signs_as` supplies the link id of signed frames. Returns null if neither option is set.
+    [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const endpoint::EndpointOptions& options,
+                                                                      EndpointId signs_as, KeyStates& states,
+                                                                      std::vector<std::string>& notices);
+    explicit Signature(KeyStates& states) : states_(states) { states_.add(*this); }
+    Signature(const Signature&) = delete;
+    Signature& operator=(const Signature&) = delete;
+    ~Signature();
+
+    // Copies the timestamps used so far into the key files' states.
+    void keep_times() const;
+    // True if the key files now hold other keys. False while one of them cannot be read.
+    [[nodiscard]] bool has_other_keys() const;
+    [[nodiscard]] bool verifies() const noexcept { return judge_ != nullptr; }
+    [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
+    [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
+    // Like `accepts`, but called before the parser finds the same bytes again. The second check then does not treat
+    // the frame as a replay.
+    [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
+    // The buffer with the vouched-for bytes is about to be reused.
+    void forget_vouched() noexcept { vouched_ = nullptr; }
+    // Returns the signed frame, in a buffer that is valid until the next call. Returns the original frame if it
+    // cannot be signed: MAVLink 1, or an unknown id whose checksum matches no CRC_EXTRA.
+    [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
+                                       WallTime now) noexcept;
+
+private:
+    struct OpenKey {
+        std::string path;
+        wire::SigningKey key;
+        std::shared_ptr<KeyFile> times;
+        [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
+    };
+    [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
+    void judge(const OpenKey& with, bool in_group);
+    [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
+
+    KeyStates& states_;
+    std::optional<OpenKey> verify_with_, sign_with_;
+    std::shared_ptr<KeyJudge> judge_;    // null without verify=
+    std::optional<wire::Verifier> own_;  // in a group: per endpoint
+    std::optional<wire::Signer> signer_;
+    // Start of the frame that `vouches` has already verified.
+    const std::uint8_t* vouched_ = nullptr;
+    std::array<std::uint8_t, wire::max_frame_length> buffer_{};
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// A byte stream as a link: TCP or serial. Private to module link; single owner thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "link/core.hpp"
+#include "mavloom/net/io_result.hpp"
+#include "mavloom/wire/stream_parser.hpp"
+
+namespace mavloom::link::detail {
+
+// Reads once per turn, and writes the queue in as few calls as possible. What the kernel does not accept stays in the
+// queue.
+template <class Stream>
+class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
+public:
+    ~StreamPeer() override { release(); }
+
+    // Starts to read the stream, and to write what waited and is not too old.
+    [[nodiscard]] SetupResult<void> attach(Stream stream) {
+        auto watch = core_.loop().watch(stream.fd(), true, false, *this);
+        if (!watch) return tl::unexpected(std::move(watch).error());
+        stream_ = std::move(stream);
+        watch_ = *watch;
+        blocked_ = false;
+        last_heard = core_.now();
+        // Nothing expired while there was no stream.
+        counters.queue_age.add(queue.expire(core_.now()));
+        if (queued) schedule();
+        return {};
+    }
+    // Closes the stream. A partly sent frame will be sent again, from its start, on the next stream.
+    virtual void detach() noexcept { release(); }
+    [[nodiscard]] const Stream& stream() const noexcept { return stream_; }
+
+    void schedule() override { core_.outlets.schedule(*this); }
+    void on_io(net::IoEvents events) override {
+        if (events.writable && blocked_) {
+            blocked_ = false;
+            core_.loop().change(watch_, true, false);
+            schedule();
+        }
+        if (events.readable || events.failed) read();
+    }
+    void flush() override {
+        if (!blocked() && stream_) (void)write_queue(SIZE_MAX);
+    }
+    [[nodiscard]] bool blocked() const override { return blocked_; }
+    void expire(MonoTime now) override { counters.queue_age.add(queue.expire(now)); }
+    [[nodiscard]] std::optional<MonoTime> tick_due() const override { return parser_.deadline(); }
+    void tick(MonoTime now) override { parser_.tick(now, sink(wall_now())); }
+
+    MonoTime last_heard{};
+
+protected:
+    StreamPeer(Core& core, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
+        : Link(endpoint_id, limits), core_(core), parser_(core.languages.of(endpoint_id).table) {}
+
+    // Reading or writing failed for good.
+    virtual void on_end(net::IoError error) = 0;
+    // Whether the handler gets what the parser found.
+    [[nodiscard]] virtual bool wants(const wire::ParseEvent&) { return true; }
+
+    // Writes at most about `room` bytes. Returns false if the queue holds more than that; true if it is empty, or if
+    // the stream has ended or waits for the kernel.
+    [[nodiscard]] bool write_queue(std::size_t room) {
+        while (!queue.empty()) {
+            if (room == 0) return false;
+            std::array<iovec, pieces_per_write> pieces;
+            const auto written = stream_.write({pieces.data(), queue.pieces(pieces, room)});
+            if (!written) {
+                fail_to_write(written.error());
+                return true;
+            }
+            counters.bytes_out.add(*written);
+            counters.frames_out.add(queue.consume(*written));
+            room -= std::min(room, *written);
+        }
+        queued = false;
+        return true;
+    }
+    // Delivers what the parser still holds back.
+    void finish_parsing() { parser_.finish(sink(wall_now())); }
+
+    Core& core_;
+    Stream stream_;
+
+private:
+    static constexpr std::size_t pieces_per_write = 128;
+
+    void release() noexcept {
+        core_.outlets.forget(*this);
+        core_.tickers.forget(*this);
+        core_.loop().unwatch(watch_);
+        stream_ = {};
+        blocked_ = false;
+        queue.rewind();
+    }
+    void read() {
+        const ByteSpan room = core_.stream_buffer;
+        const auto count = stream_.read(room);
+        if (!count) {
+            if (count.error() != net::IoError::would_block) on_end(count.error());
+            return;
+        }
+        last_heard = core_.now();
+        parser_.feed(room.first(*count), core_.now(), sink(wall_now()));
+        counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
+        if (parser_.deadline()) core_.tickers.keep(*this);
+    }
+    void fail_to_write(net::IoError error) {
+        if (error != net::IoError::would_block && error != net::IoError::no_buffers) return on_end(error);
+        blocked_ = true;
+        core_.loop().change(watch_, true, true);
+    }
+    [[nodiscard]] auto sink(WallTime time) {
+        return [this, time](const wire::ParseEvent& event) {
+            if (wants(event)) core_.on_event(*this, event, time);
+        };
+    }
+
+    net::WatchId watch_;
+    wire::StreamParser parser_;
+    bool blocked_ = false;  // the kernel accepts no more
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Stream parsers that hold bytes back until a deadline. Private to module link; single owner thread.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+
+namespace mavloom::link::detail {
+
+// A stream parser that holds bytes back. `tick` is called once its deadline has passed.
+class Ticker {
+public:
+    virtual ~Ticker() = default;
+    [[nodiscard]] virtual std::optional<MonoTime> tick_due() const = 0;
+    virtual void tick(MonoTime now) = 0;
+
+    bool ticking = false;  // is in the list of Tickers
+};
+
+// A ticker may forget itself in its own `tick`.
+class Tickers {
+public:
+    void keep(Ticker& ticker) {
+        if (!std::exchange(ticker.ticking, true)) tickers_.push_back(&ticker);
+    }
+    void forget(Ticker& ticker) noexcept;
+    // Calls `tick` of those that are due, and lets go of those that have no deadline any more.
+    void run(MonoTime now);
+    [[nodiscard]] bool empty() const noexcept { return tickers_.empty(); }
+    // The earliest deadline; MonoTime::max() if there is none.
+    [[nodiscard]] MonoTime due() const;
+
+private:
+    std::vector<Ticker*> tickers_;
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "router/forwarder.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "mavloom/msg/heartbeat.hpp"
+
+namespace mavloom::router {
+
+static_assert(link::Links::longest_late < route::Engine::echo_window);
+
+namespace {
+
+route::Options engine_options(const config::RouterConfig& config) {
+    route::Options options;
+    options.dedup = std::chrono::milliseconds(config.dedup_ms);
+    options.unknown_component = config.unknown_component;
+    options.unknown_target = config.unknown_target;
+    options.route_timeout = config.route_timeout;
+    if (config.heartbeat)
+        options.own = Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
+    options.seed = static_cast<std::uint64_t>(wall_now().time_since_epoch().count());
+    return options;
+}
+
+}  // namespace
+
+Forwarder::Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkSet& links)
+    : links_(links),
+      engine_(dialect.wire_table(), engine_options(config)),
+      own_messages_(dialect.wire_table(), config,
+                    {[this](LinkId link, const wire::FrameView& frame) { return send_own(link, frame); },
+                     [this](LinkId link) { return is_answered(link); }}) {}
+
+void Forwarder::configure(const config::RouterConfig& config) {
+    engine_.set_options(engine_options(config));
+    own_messages_.configure(config);
+}
+
+// Taps get none of the router's own messages. Neither does the inlet: programs behind it read the ring, which does not
+// hold these messages.
+bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
+    if (!engine_.add_link(link, endpoint.policy)) return false;
+    if (!endpoint.policy.tap && !endpoint.is_inlet)
+        own_messages_.add(link, wants_heartbeat(endpoint.endpoint), links_.now());
+    return true;
+}
+
+void Forwarder::remove_link(LinkId link) {
+    engine_.remove_link(link);
+    own_messages_.remove(link);
+    a_link_went_ = true;
+}
+
+route::Verdict Forwarder::forward(const link::RxFrame& rx, const RoutedEndpoint& from) {
+    const std::uint64_t mark = engine_.mark_of(rx.frame);
+    traffic_.add(rx.link, rx.frame, rx.time);
+    if (rx.frame.id() == msg::Heartbeat::id) own_messages_.on_heartbeat(rx.link, rx.frame, links_.now());
+    const auto decision = decide(rx, mark);
+    send(rx, decision.links, from.verifies);
+    if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
+    return decision.verdict;
+}
+
+route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
+    if (!explainer_) [[likely]]
+        return engine_.route(rx.frame, mark, rx.info, rx.link, links_.now());
+    const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_.now(), why_);
+    explainer_(rx, decision, why_);
+    return decision;
+}
+
+// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic.
+void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool may_sign) {
+    if (may_sign) links_.send(links, rx.frame);
+    else not_signed_.add(links_.send_unsigned(links, rx.frame));
+}
+
+// Ignores reboots shown by frames that teach no route: those from taps, and those that the input filter drops.
+void Forwarder::count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy) {
+    if (links_.count_loss(rx).verdict != wire::SequenceTracker::Verdict::reboot) [[likely]]
+        return;
+    if (!policy.tap && policy.in.admits(rx.frame.id(), rx.frame.source()))
+        engine_.note_reboot(rx.link, rx.frame.source(), links_.now());
+}
+
+bool Forwarder::send_own(LinkId link, const wire::FrameView& frame) {
+    if (links_.send(std::span(&link, 1), frame) == 0) return false;
+    engine_.note_sent(frame, link, links_.now());
+    return true;
+}
+
+bool Forwarder::is_answered(LinkId link) const {
+    const auto* const counters = links_.counters(link);
+    return counters != nullptr && counters->frames_in.value() != 0;
+}
+
+std::string Forwarder::name_of(LinkId link) const {
+    const auto name = links_.link_name(link);
+    return name.empty() ? "a link that is gone" : std::string(name);
+}
+
+std::vector<std::string> Forwarder::look_after() {
+    if (std::exchange(a_link_went_, false))
+        traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
+    std::vector<std::string> warnings;
+    const auto ids = engine_.duplicate_ids();
+    for (const auto& id : ids.subspan(std::exchange(duplicate_ids_told_, ids.size())))
+        warnings.push_back(
+            fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
+                        id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
+    return warnings;
+}
+
+}  // namespace mavloom::router

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What a router does with a received frame: it counts the traffic, asks the routing engine, sends the frame on and
+// counts loss. It also sends the router's own messages. Private to module router.
+//
+// One owner thread; time comes from the links. A frame costs no allocation, lock or log line, unless an Explainer is
+// set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mavloom/base/counter.hpp"
+#include "mavloom/config/config.hpp"
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/observe/traffic_table.hpp"
+#include "mavloom/route/engine.hpp"
+#include "router/endpoints.hpp"
+#include "router/own_messages.hpp"
+
+namespace mavloom::router {
+
+class Forwarder {
+public:
+    using Explainer =
+        std::function<void(const link::RxFrame&, const route::Decision&, std::span<const route::Explanation>)>;
+
+    // `dialect` and `links` must outlive the object.
+    Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkSet& links);
+
+    // Applies new [router] values. Links, routes and counters stay.
+    void configure(const config::RouterConfig& config);
+    void explain(Explainer explainer) { explainer_ = std::move(explainer); }
+
+    // Returns false if there are too many links. Frames of this link then go nowhere, and it gets none.
+    [[nodiscard]] bool add_link(LinkId link, const RoutedEndpoint& endpoint);
+    void remove_link(LinkId link);
+    void set_group_orders(std::span<const route::GroupOrder> orders) { engine_.set_group_orders(orders); }
+
+    // Handles a frame that arrived at the endpoint `from`.
+    route::Verdict forward(const link::RxFrame& rx, const RoutedEndpoint& from);
+
+    // When the router's next own message is due; MonoTime::max() if none is.
+    [[nodiscard]] MonoTime next_due() const noexcept { return own_messages_.next_due(); }
+    void send_due(MonoTime now) { own_messages_.send_due(now); }
+    // Call about once a second. Forgets the traffic of links that went. Returns warnings: each id that two senders use,
+    // once.
+    [[nodiscard]] std::vector<std::string> look_after();
+
+    [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
+    [[nodiscard]] const observe::TrafficTable& traffic() const noexcept { return traffic_; }
+    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return own_messages_.heartbeats_sent(); }
+    // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
+    [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
+
+private:
+    [[nodiscard]] route::Decision decide(const link::RxFrame& rx, std::uint64_t mark);
+    void send(const link::RxFrame& rx, std::span<const LinkId> links, bool may_sign);
+    void count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy);
+    bool send_own(LinkId link, const wire::FrameView& frame);
+    [[nodiscard]] bool is_answered(LinkId link) const;
+    [[nodiscard]] std::string name_of(LinkId link) const;
+
+    link::LinkSet& links_;
+    route::Engine engine_;
+    OwnMessages own_messages_;
+    observe::TrafficTable traffic_;
+    Explainer explainer_;
+    std::vector<route::Explanation> why_;
+    Counter not_signed_;
+    std::size_t duplicate_ids_told_ = 0;
+    bool a_link_went_ = false;  // `traffic_` may hold rows of a link that is gone
+};
+
+}  // namespace mavloom::router

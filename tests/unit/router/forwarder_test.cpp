@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// What a router does with a frame, over links that the test plays. Rules: docs/guide/routing.md and docs/guide/route.md.
+// Which links a frame goes to is the engine's decision: unit/route.
+#include "router/forwarder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "unit/route/route_frames.hpp"
+
+namespace mavloom::router {
+namespace {
+
+using namespace std::chrono_literals;
+using route::test::Bytes;
+using route::test::Id;
+using route::test::make_frame;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Restart = wire::SequenceTracker::Verdict;
+
+constexpr Id vehicle{1, 1}, gcs{255, 190};
+
+// Links that take every frame, and a clock that the test moves.
+class PlayedLinks : public link::LinkSet {
+public:
+    struct Sent {
+        std::uint32_t link;
+        MessageId id;
+        bool may_sign;
+    };
+    std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override {
+        for (const LinkId link : links) sent.push_back({link.value, frame.id(), true});
+        last = {frame.bytes().begin(), frame.bytes().end()};
+        return links.size();
+    }
+    std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override {
+        for (const LinkId link : links) sent.push_back({link.value, frame.id(), false});
+        return static_cast<std::size_t>(
+            std::ranges::count_if(links, [&](LinkId link) { return signing.contains(link.value); }));
+    }
+    wire::SequenceTracker::Update count_loss(const link::RxFrame& rx) override {
+        counted.push_back(rx.link.value);
+        return {.verdict = loss_verdict};
+    }
+    [[nodiscard]] MonoTime now() const noexcept override { return time; }
+    [[nodiscard]] const link::LinkCounters* counters(LinkId link) const noexcept override {
+        const auto at = there.find(link.value);
+        return at == there.end() ? nullptr : &at->second;
+    }
+    [[nodiscard]] std::string_view link_name(LinkId link) const override {
+        return there.contains(link.value) ? names[link.value % names.size()] : std::string_view{};
+    }
+
+    std::vector<Sent> sent;
+    Bytes last;
+    std::set<std::uint32_t> signing;
+    std::vector<std::uint32_t> counted;
+    Restart loss_verdict = Restart::good;
+    MonoTime time{1000s};
+    std::map<std::uint32_t, link::LinkCounters> there;
+    std::array<std::string_view, 4> names{"four", "one", "two", "three"};
+};
+
+struct Router {
+    explicit Router(config::RouterConfig config = {}) : sut(dialect::default_dialect(), with_timeout(config), links) {}
+    static config::RouterConfig with_timeout(config::RouterConfig config) {
+        config.route_timeout = 60s;
+        return config;
+    }
+
+    RoutedEndpoint& endpoint(std::string_view url) {
+        auto made = std::make_unique<RoutedEndpoint>(
+            RoutedEndpoint{.id = link::EndpointId{0}, .endpoint = *endpoint::parse_endpoint(url)});
+        made->policy.tap = made->endpoint.options.tap;
+        made->verifies = !made->endpoint.options.verify_key_file.empty();
+        return *endpoints.emplace_back(std::move(made));
+    }
+    // Link 1, 2, 3... of an endpoint of its own.
+    RoutedEndpoint& link(std::string_view url = "udpin://127.0.0.1:1") {
+        RoutedEndpoint& at = endpoint(url);
+        links.there.try_emplace(++last);
+        EXPECT_TRUE(sut.add_link(LinkId{last}, at));
+        return at;
+    }
+    route::Verdict hears(std::uint32_t link, const Bytes& bytes) {
+        links.sent.clear();
+        const auto frame = wire::FrameView::unchecked(bytes);
+        const auto* const info = dialect::default_dialect().wire_table().find(frame.id());
+        return sut.forward({frame, info, LinkId{link}, {}}, *endpoints.at(link - 1));
+    }
+    [[nodiscard]] std::vector<std::uint32_t> reached() const {
+        std::vector<std::uint32_t> ids;
+        for (const auto& sent : links.sent) ids.push_back(sent.link);
+        return ids;
+    }
+
+    PlayedLinks links;
+    std::vector<std::unique_ptr<RoutedEndpoint>> endpoints;
+    std::uint32_t last = 0;
+    Forwarder sut;
+};
+
+Bytes attitude(Id source = vehicle) {
+    static std::uint32_t unique = 0;
+    return make_frame("ATTITUDE", source, {{"time_boot_ms", ++unique}});
+}
+Bytes command(Id target) {
+    static std::uint32_t unique = 0;
+    return make_frame(
+        "COMMAND_LONG", gcs,
+        {{"target_system", target.system}, {"target_component", target.component}, {"param1", ++unique}});
+}
+
+TEST(Forwarder, SendsWhereTheEngineSaysAndCountsTheTraffic) {
+    Router router;
+    for (int i = 0; i < 3; ++i) router.link();
+
+    EXPECT_EQ(router.hears(1, attitude()), route::Verdict::forwarded);
+
+    EXPECT_THAT(router.reached(), ElementsAre(2, 3));
+    EXPECT_THAT(router.links.counted, ElementsAre(1));
+    const auto rows = router.sut.traffic().rows();
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].link, LinkId{1});
+    EXPECT_EQ(rows[0].count, 1u);
+}
+
+TEST(Forwarder, ALinkThatWentGetsNothing) {
+    Router router;
+    for (int i = 0; i < 3; ++i) router.link();
+    router.sut.remove_link(LinkId{2});
+
+    router.hears(1, attitude());
+
+    EXPECT_THAT(router.reached(), ElementsAre(3));
+}
+
+TEST(Forwarder, VouchesOnlyForVerifiedFrames) {
+    Router router;
+    router.link("udpin://127.0.0.1:1?verify=key");
+    router.link("udpin://127.0.0.1:2");
+    router.link("udpin://127.0.0.1:3?sign=key");
+    router.links.signing = {3};
+
+    router.hears(1, attitude());
+    ASSERT_THAT(router.reached(), ElementsAre(2, 3));
+    EXPECT_TRUE(router.links.sent[1].may_sign);
+    EXPECT_EQ(router.sut.not_signed(), 0u);
+    router.hears(2, attitude({2, 1}));
+    ASSERT_THAT(router.reached(), ElementsAre(1, 3));
+    EXPECT_FALSE(router.links.sent[1].may_sign);
+    EXPECT_EQ(router.sut.not_signed(), 1u);
+}
+
+TEST(Forwarder, AnEchoIsNoLoss) {
+    Router router;
+    router.link();
+    router.link();
+    const auto frame = attitude();
+    router.hears(1, frame);
+
+    EXPECT_EQ(router.hears(2, frame), route::Verdict::echo);
+
+    EXPECT_THAT(router.reached(), IsEmpty());
+    EXPECT_THAT(router.links.counted, ElementsAre(1));
+}
+
+// Whether a restart of the vehicle that shows on link 1 makes the router forget that 1/154 is behind link 2.
+bool restart_forgets_routes(std::string_view url, const route::Filter& in = {}) {
+    Router router;
+    router.endpoint(url).policy.in = in;
+    router.links.there.try_emplace(++router.last);
+    EXPECT_TRUE(router.sut.add_link(LinkId{1}, *router.endpoints[0]));
+    router.link();
+    router.link();
+    router.hears(2, attitude({1, 154}));
+    router.links.loss_verdict = Restart::reboot;
+    router.hears(1, attitude());
+    router.links.loss_verdict = Restart::good;
+    router.hears(3, command({1, 154}));
+    return router.reached() == std::vector<std::uint32_t>{1};  // where its system was heard last
+}
+
+TEST(Forwarder, ARestartForgetsTheRoutesOfTheSystem) { EXPECT_TRUE(restart_forgets_routes("udpin://127.0.0.1:1")); }
+
+TEST(Forwarder, WhatTeachesNoRouteForgetsNone) {
+    EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1?tap=true"));
+    EXPECT_FALSE(restart_forgets_routes("udpin://127.0.0.1:1", route::test::make_filter({}, {.systems = {1}})));
+}
+
+TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
+    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
+    router.link("udpout://127.0.0.1:1");
+    router.link("udpin://127.0.0.1:2");
+    router.link("udpout://127.0.0.1:3?tap=true");
+    RoutedEndpoint& inlet = router.endpoint("udpout://127.0.0.1:4");
+    inlet.is_inlet = true;
+    EXPECT_TRUE(router.sut.add_link(LinkId{4}, inlet));
+
+    router.sut.send_due(router.links.time);
+
+    EXPECT_THAT(router.reached(), ElementsAre(1));
+    EXPECT_EQ(router.sut.heartbeats_sent(), 1u);
+}
+
+TEST(Forwarder, TheOwnHeartbeatThatComesBackIsAnEcho) {
+    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
+    router.link("udpout://127.0.0.1:1");
+    router.link("udpin://127.0.0.1:2");
+    router.sut.send_due(router.links.time);
+    const Bytes own = router.links.last;
+
+    EXPECT_EQ(router.hears(1, own), route::Verdict::echo);
+    EXPECT_THAT(router.reached(), IsEmpty());
+}
+
+TEST(Forwarder, WhatIsForTheRouterItselfIsConsumed) {
+    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}});
+    router.link();
+    router.link();
+
+    EXPECT_EQ(router.hears(1, command({42, 191})), route::Verdict::consumed);
+}
+
+TEST(Forwarder, AsksAnArduPilotForItsStreamsOnItsLink) {
+    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}, .request_streams_hz = 4});
+    router.link();
+    router.link();
+
+    router.hears(2, make_frame("HEARTBEAT", vehicle, {{"autopilot", 3}}));
+
+    ASSERT_THAT(router.reached(), ElementsAre(2, 1));
+    EXPECT_EQ(router.links.sent[0].id, MessageId{66});  // REQUEST_DATA_STREAM
+}
+
+TEST(Forwarder, OtherOptionsHoldFromTheNextFrame) {
+    Router router;
+    router.link();
+    router.link();
+    EXPECT_EQ(router.hears(1, command({9, 9})), route::Verdict::unknown_target);
+
+    router.sut.configure({.unknown_target = route::UnknownTarget::flood});
+
+    EXPECT_EQ(router.hears(1, command({9, 9})), route::Verdict::forwarded);
+}
+
+TEST(Forwarder, AnExplainedFrameGoesTheSameWay) {
+    Router router;
+    for (int i = 0; i < 3; ++i) router.link();
+    std::vector<route::Explanation> why;
+    router.sut.explain([&](const auto&, const auto&, auto explained) { why.assign(explained.begin(), explained.end()); });
+
+    EXPECT_EQ(router.hears(2, attitude()), route::Verdict::forwarded);
+
+    EXPECT_THAT(router.reached(), ElementsAre(1, 3));
+    ASSERT_EQ(why.size(), 3u);
+    EXPECT_EQ(why[1].reason, route::Reason::ingress);
+}
+
+TEST(Forwarder, RefusesLinksBeyondTheBound) {
+    Router router;
+    RoutedEndpoint& at = router.endpoint("udpin://127.0.0.1:1");
+    for (std::uint32_t id = 1; id <= route::Engine::max_links; ++id) ASSERT_TRUE(router.sut.add_link(LinkId{id}, at));
+
+    EXPECT_FALSE(router.sut.add_link(LinkId{route::Engine::max_links + 1}, at));
+}
+
+TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
+    Router router;
+    router.link();
+    router.link();
+    for (std::uint32_t i = 0; i < 8; ++i) router.hears(1 + i % 2, attitude());
+    router.links.there.erase(2);
+
+    EXPECT_THAT(router.sut.look_after(), ElementsAre(AllOf(HasSubstr("1/1 is heard on "), HasSubstr("on one"), HasSubstr("on a link that is gone"))));
+    EXPECT_THAT(router.sut.look_after(), IsEmpty());
+}
+
+TEST(Forwarder, ForgetsTheTrafficOfLinksThatWent) {
+    Router router;
+    router.link();
+    router.link();
+    router.hears(1, attitude());
+    router.hears(2, attitude({2, 1}));
+    router.sut.remove_link(LinkId{1});
+    router.links.there.erase(1);
+
+    (void)router.sut.look_after();
+
+    const auto rows = router.sut.traffic().rows();
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].link, LinkId{2});
+}
+
+}  // namespace
+}  // namespace mavloom::router
