@@ -11,7 +11,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "link/peer_room.hpp"
+#include "link/peer_list.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/net/local.hpp"
 #include "mavloom/net/local_sender.hpp"
@@ -54,11 +54,14 @@ struct Place {
 class Inlet final : public OpenEndpoint, public net::IoHandler, public net::TimerHandler {
 public:
     explicit Inlet(Opening& opening)
-        : OpenEndpoint(opening), core_(opening.core), stranger_(opening.core.languages.of(opening.id).table) {}
+        : OpenEndpoint(opening),
+          core_(opening.core),
+          stranger_(opening.core.languages.of(opening.id).table),
+          senders_(core_, *this) {}
     ~Inlet() override;
 
     SetupResult<void> open(const std::filesystem::path& path, unsigned mode);
-    std::size_t send(const wire::FrameView& frame) override;
+    std::size_t send(const wire::FrameView& frame) override { return senders_.send(frame); }
     [[nodiscard]] std::size_t queued_bytes() const override { return 0; }
     bool close_link(LinkId link) override;
     void on_io(net::IoEvents events) override;
@@ -67,13 +70,12 @@ public:
 private:
     SetupResult<void> bind();
     void look_at_place();
-    void expire(MonoTime now);
     void take(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* sender_of(const net::LocalDatagram& datagram);
     [[nodiscard]] Sender* newcomer(const net::LocalDatagram& datagram);
     [[nodiscard]] bool holds_frame(ByteView datagram);
     [[nodiscard]] bool make_room();
-    void drop(std::size_t index, std::string_view why);
+    void drop(Sender& sender, std::string_view why);
 
     static constexpr std::chrono::seconds idle{60}, look_interval{1};
 
@@ -85,7 +87,7 @@ private:
     Place place_;
     bool told_ = false;  // that the socket cannot be recreated
     wire::DatagramParser stranger_;
-    std::vector<std::unique_ptr<Sender>> senders_;
+    PeerList<Sender> senders_;
     std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
     Sender* last_ = nullptr;  // datagrams arrive in runs
     net::TimerId timer_;
@@ -133,7 +135,6 @@ SetupResult<void> Inlet::bind() {
 Inlet::~Inlet() {
     core_.loop().cancel_timer(timer_);
     core_.loop().unwatch(watch_);
-    while (!senders_.empty()) drop(senders_.size() - 1, "closed");
     if (place_ != Place{} && place_ == Place::of(path_)) ::unlink(path_.c_str());
 }
 
@@ -194,11 +195,8 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
     auto sender = std::make_unique<Sender>(info.id, core_.languages.of(info.id).table, datagram.from);
     sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
     sender->last_heard = core_.now();
-    core_.add_link(*sender);
     by_address_.emplace(sender->address, sender.get());
-    senders_.push_back(std::move(sender));
-    core_.news.set_up(*senders_.back());
-    return senders_.back().get();
+    return &senders_.add(std::move(sender));
 }
 
 // The checksum of a defined message proves a MAVLink sender. An id without definition does not.
@@ -211,48 +209,30 @@ bool Inlet::holds_frame(ByteView datagram) {
 }
 
 bool Inlet::make_room() {
-    if (senders_.size() < info.endpoint.options.max_peers) return true;
-    const auto first = gives_way(senders_, core_.now());
-    if (first == senders_.end()) return false;
+    if (!senders_.is_full()) return true;
+    Sender* const first = senders_.gives_way(core_.now());
+    if (first == nullptr) return false;
     counters.peers_evicted.add();
-    drop(static_cast<std::size_t>(first - senders_.begin()),
-         "more senders than there may be, and this one was silent for longest");
+    drop(*first, "more senders than there may be, and this one was silent for longest");
     return true;
 }
 
-void Inlet::drop(std::size_t index, std::string_view why) {
-    Sender& sender = *senders_[index];
-    core_.remove_link(sender, why);
-    count_gone(sender);
+void Inlet::drop(Sender& sender, std::string_view why) {
     by_address_.erase(sender.address);
     last_ = nullptr;
-    core_.bury(std::move(senders_[index]));
-    senders_[index] = std::move(senders_.back());
-    senders_.pop_back();
+    senders_.remove(sender, why);
 }
 
 void Inlet::on_timer(MonoTime now) {
     timer_ = core_.loop().start_timer(now + look_interval, *this);
-    expire(now);
+    senders_.expire(now, idle, [&](Sender& sender) { drop(sender, "idle"); });
     look_at_place();
 }
 
-void Inlet::expire(MonoTime now) {
-    for (std::size_t i = senders_.size(); i-- > 0;)
-        if (now - senders_[i]->last_heard >= idle) drop(i, "idle");
-}
-
 bool Inlet::close_link(LinkId link) {
-    const auto sender = std::ranges::find_if(senders_, [&](const auto& s) { return s->id == link; });
-    if (sender == senders_.end()) return false;
-    drop(static_cast<std::size_t>(sender - senders_.begin()), "closed");
-    return true;
-}
-
-std::size_t Inlet::send(const wire::FrameView& frame) {
-    std::size_t taken = 0;
-    for (const auto& sender : senders_) taken += core_.send(*sender, frame) ? 1 : 0;
-    return taken;
+    Sender* const sender = senders_.find(link);
+    if (sender != nullptr) drop(*sender, "closed");
+    return sender != nullptr;
 }
 
 }  // namespace

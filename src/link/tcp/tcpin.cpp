@@ -2,9 +2,8 @@
 // tcpin: each client is a link of its own.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "link/listening.hpp"
+#include "link/peer_list.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/tcp.hpp"
 #include "mavloom/endpoint/checks.hpp"
@@ -44,29 +43,24 @@ private:
 class TcpIn final : public OpenEndpoint, public Asker, public TcpOwner, public net::TimerHandler {
 public:
     explicit TcpIn(Opening& opening)
-        : OpenEndpoint(opening), Asker(opening.core.look_ups), core_(opening.core), retry_(opening.core, *this, *this) {}
+        : OpenEndpoint(opening),
+          Asker(opening.core.look_ups),
+          core_(opening.core),
+          peers_(core_, *this),
+          retry_(opening.core, *this, *this) {}
     ~TcpIn() override {
         core_.loop().cancel_timer(pause_);
         core_.loop().cancel_timer(expiry_);
-        for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
     }
 
     SetupResult<void> open(const std::vector<net::Address>& addresses);
     void accept_from(net::TcpListener& listener);
 
-    std::size_t send(const wire::FrameView& frame) override {
-        std::size_t taken = 0;
-        for (const auto& peer : peers_) taken += core_.send(*peer, frame) ? 1 : 0;
-        return taken;
-    }
-    [[nodiscard]] std::size_t queued_bytes() const override {
-        std::size_t sum = 0;
-        for (const auto& peer : peers_) sum += peer->queue.bytes();
-        return sum;
-    }
+    std::size_t send(const wire::FrameView& frame) override { return peers_.send(frame); }
+    [[nodiscard]] std::size_t queued_bytes() const override { return peers_.queued_bytes(); }
     bool close_link(LinkId link) override;
     void on_resolved(net::Resolver::Answer&& answer) override;
-    void on_closed(TcpPeer& peer, std::string_view why) override;
+    void on_closed(TcpPeer& peer, std::string_view why) override { peers_.remove(peer, why); }
     void on_timer(MonoTime now) override;
 
 private:
@@ -76,7 +70,7 @@ private:
 
     Core& core_;
     std::vector<std::unique_ptr<Listening>> listeners_;
-    std::vector<std::unique_ptr<TcpPeer>> peers_;
+    PeerList<TcpPeer> peers_;
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
     bool told_full_ = false;
@@ -122,7 +116,7 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 }
 
 void TcpIn::admit(net::TcpStream stream) {
-    if (peers_.size() >= info.endpoint.options.max_peers) {
+    if (peers_.is_full()) {
         counters.peers_refused.add();
         if (!std::exchange(told_full_, true)) {
             core_.news.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
@@ -132,11 +126,7 @@ void TcpIn::admit(net::TcpStream stream) {
     }
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
-    peer->signature = signature.get();
-    if (!peer->attach(std::move(stream))) return;
-    core_.add_link(*peer);
-    peers_.push_back(std::move(peer));
-    core_.news.set_up(*peers_.back());
+    if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
 }
 
 void TcpIn::pause() {
@@ -148,20 +138,10 @@ void TcpIn::pause() {
     }
 }
 
-void TcpIn::on_closed(TcpPeer& peer, std::string_view why) {
-    core_.remove_link(peer, why);
-    count_gone(peer);
-    const auto at = std::find_if(peers_.begin(), peers_.end(), [&](const auto& p) { return p.get() == &peer; });
-    core_.bury(std::move(*at));
-    *at = std::move(peers_.back());
-    peers_.pop_back();
-}
-
 bool TcpIn::close_link(LinkId link) {
-    const auto peer = std::ranges::find_if(peers_, [&](const auto& p) { return p->id == link; });
-    if (peer == peers_.end()) return false;
-    (*peer)->drop("closed");
-    return true;
+    TcpPeer* const peer = peers_.find(link);
+    if (peer != nullptr) peer->drop("closed");
+    return peer != nullptr;
 }
 
 void TcpIn::on_timer(MonoTime now) {
@@ -174,16 +154,8 @@ void TcpIn::on_timer(MonoTime now) {
 }
 
 void TcpIn::expire(MonoTime now) {
-    const Nanoseconds idle = *info.endpoint.options.idle;
-    MonoTime oldest = now;
-    for (std::size_t i = peers_.size(); i-- > 0;) {
-        if (now - peers_[i]->last_heard >= idle) {
-            peers_[i]->close("idle");
-        } else {
-            oldest = std::min(oldest, peers_[i]->last_heard);
-        }
-    }
-    expiry_ = core_.loop().start_timer(oldest + idle, *this);
+    const auto next = peers_.expire(now, *info.endpoint.options.idle, [](TcpPeer& peer) { peer.close("idle"); });
+    expiry_ = core_.loop().start_timer(next, *this);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 // until it is silent for `idle`. There are at most max_peers. Private to module link; single owner thread.
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <string_view>
 
+#include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
 
 namespace mavloom::link::detail {
@@ -27,7 +27,8 @@ public:
           endpoint_(endpoint),
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
-          stranger_(core.languages.of(endpoint.info.id).table) {}
+          stranger_(core.languages.of(endpoint.info.id).table),
+          peers_(core, endpoint) {}
     ~UdpPeers() override;
 
     // The peer that sent the datagram. A new sender of a valid frame becomes a peer. Null for a new sender without a
@@ -37,9 +38,9 @@ public:
         if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;
         return newcomer(port, datagram);
     }
-    std::size_t send(const wire::FrameView& frame);
+    std::size_t send(const wire::FrameView& frame) { return peers_.send(frame); }
     bool close(LinkId link);
-    [[nodiscard]] std::size_t queued_bytes() const;
+    [[nodiscard]] std::size_t queued_bytes() const { return peers_.queued_bytes(); }
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     void on_timer(MonoTime now) override;
 
@@ -47,14 +48,14 @@ private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool make_room();
-    void drop(std::size_t index, std::string_view why);
+    void drop(UdpPeer& peer, std::string_view why);
 
     Core& core_;
     OpenEndpoint& endpoint_;
     Owner& owner_;
     Nanoseconds idle_;
     wire::DatagramParser stranger_;
-    std::vector<std::unique_ptr<UdpPeer>> peers_;
+    PeerList<UdpPeer> peers_;
     net::TimerId expiry_;
 };
 

@@ -111,9 +111,8 @@ Bytes attitude(Id source = vehicle) {
 }
 Bytes command(Id target) {
     static std::uint32_t unique = 0;
-    return make_frame(
-        "COMMAND_LONG", gcs,
-        {{"target_system", target.system}, {"target_component", target.component}, {"param1", ++unique}});
+    return make_frame("COMMAND_LONG", gcs,
+                      {{"target_system", target.system}, {"target_component", target.component}, {"param1", ++unique}});
 }
 
 TEST(Forwarder, SendsWhereTheEngineSaysAndCountsTheTraffic) {
@@ -277,7 +276,8 @@ TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
     for (std::uint32_t i = 0; i < 8; ++i) router.hears(1 + i % 2, attitude());
     router.links.there.erase(2);
 
-    EXPECT_THAT(router.sut.look_after(), ElementsAre(AllOf(HasSubstr("1/1 is heard on "), HasSubstr("on one"), HasSubstr("on a link that is gone"))));
+    EXPECT_THAT(router.sut.look_after(), ElementsAre(AllOf(HasSubstr("1/1 is heard on "), HasSubstr("on one"),
+                                                           HasSubstr("on a link that is gone"))));
     EXPECT_THAT(router.sut.look_after(), IsEmpty());
 }
 

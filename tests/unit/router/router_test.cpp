@@ -65,9 +65,9 @@ struct RouterTest : testing::Test {
     }
 
     std::vector<std::string> notices;
-    std::unique_ptr<Router> sut = std::move(*Router::create(
-        dialect::default_dialect(), {.route_timeout = 60s},
-        [this](config::LogLevel, std::string_view text) { notices.emplace_back(text); }));
+    std::unique_ptr<Router> sut = std::move(
+        *Router::create(dialect::default_dialect(), {.route_timeout = 60s},
+                        [this](config::LogLevel, std::string_view text) { notices.emplace_back(text); }));
     test::TempDir folder;
 };
 
@@ -110,8 +110,8 @@ TEST_F(RouterTest, AReloadTouchesOnlyWhatChanged) {
 
     EXPECT_THAT(labels(), ElementsAre(udpin(same), udpin(changed), udpin(fresh)));
     EXPECT_THAT(link_ids(), ElementsAre(1)) << "the vehicle's link stays, the station has to call again";
-    EXPECT_THAT(notices, ElementsAre(udpin(changed) + ": removed", udpin(gone) + ": removed", udpin(changed) + ": added",
-                                     udpin(fresh) + ": added"));
+    EXPECT_THAT(notices, ElementsAre(udpin(changed) + ": removed", udpin(gone) + ": removed",
+                                     udpin(changed) + ": added", udpin(fresh) + ": added"));
 }
 
 TEST_F(RouterTest, WhatCannotBeOpenedIsLeftOutAndItsFormerSelfGoesOn) {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The peers, clients or senders of an endpoint that may have several. Private to module link; single owner thread.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "link/core.hpp"
+
+namespace mavloom::link::detail {
+
+// `Peer` is a Link with `last_heard`. The destructor ends those that are left at once, so it must not run
+// inside a callback.
+template <class Peer>
+class PeerList {
+public:
+    PeerList(Core& core, OpenEndpoint& endpoint) : core_(core), endpoint_(endpoint) {}
+    PeerList(const PeerList&) = delete;
+    PeerList& operator=(const PeerList&) = delete;
+    ~PeerList() {
+        for (const auto& peer : peers_) core_.remove_link(*peer, "closed");
+    }
+
+    [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
+    [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
+    [[nodiscard]] bool is_full() const noexcept { return size() >= endpoint_.info.endpoint.options.max_peers; }
+    // Null if the link is none of them.
+    [[nodiscard]] Peer* find(LinkId link) const noexcept {
+        const auto at = std::ranges::find_if(peers_, [&](const auto& peer) { return peer->id == link; });
+        return at == peers_.end() ? nullptr : at->get();
+    }
+
+    // Makes the peer a link, and tells the handler.
+    Peer& add(std::unique_ptr<Peer> peer) {
+        peer->signature = endpoint_.signature.get();
+        core_.add_link(*peer);
+        Peer& added = *peers_.emplace_back(std::move(peer));
+        core_.news.set_up(added);
+        return added;
+    }
+    // Tells the handler, adds the peer's counters to the endpoint's sums, and destroys it at the end of the turn.
+    void remove(Peer& peer, std::string_view why) {
+        core_.remove_link(peer, why);
+        endpoint_.count_gone(peer);
+        const auto at = std::ranges::find_if(peers_, [&](const auto& p) { return p.get() == &peer; });
+        core_.bury(std::move(*at));
+        *at = std::move(peers_.back());
+        peers_.pop_back();
+    }
+    // Calls drop(Peer&), which removes the peer, for all that were silent for `idle`. Returns when the next one may be.
+    template <class Drop>
+    MonoTime expire(MonoTime now, Nanoseconds idle, Drop&& drop) {
+        MonoTime oldest = now;
+        for (std::size_t i = peers_.size(); i-- > 0;) {
+            if (now - peers_[i]->last_heard >= idle) drop(*peers_[i]);
+            else oldest = std::min(oldest, peers_[i]->last_heard);
+        }
+        return oldest + idle;
+    }
+    // The peer that gives way to a newcomer: the longest idle of those heard once, else the longest idle of the rest.
+    // Null if that peer is protected. `Peer` has `datagrams`.
+    [[nodiscard]] Peer* gives_way(MonoTime now) const {
+        const auto rank = [](const auto& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };
+        const auto first = std::ranges::min_element(peers_, {}, rank);
+        if (first == peers_.end()) return nullptr;
+        const bool is_protected = (*first)->datagrams > 1 && now - (*first)->last_heard < protected_for;
+        return is_protected ? nullptr : first->get();
+    }
+
+    // Queues the frame for all. Returns how many took it.
+    std::size_t send(const wire::FrameView& frame) {
+        Departure departure(frame);
+        std::size_t taken = 0;
+        for (const auto& peer : peers_) taken += Core::send(*peer, departure, core_.now()) ? 1 : 0;
+        return taken;
+    }
+    [[nodiscard]] std::size_t queued_bytes() const noexcept {
+        std::size_t sum = 0;
+        for (const auto& peer : peers_) sum += peer->queue.bytes();
+        return sum;
+    }
+
+private:
+    // A peer that was heard at least twice, the last time within this period, is not evicted. A flood of unknown
+    // senders thus cannot displace peers that send heartbeats (1 Hz).
+    static constexpr std::chrono::seconds protected_for{2};
+
+    Core& core_;
+    OpenEndpoint& endpoint_;
+    std::vector<std::unique_ptr<Peer>> peers_;
+};
+
+}  // namespace mavloom::link::detail
