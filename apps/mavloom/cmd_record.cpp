@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "destinations.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
+#include "sending.hpp"
 #include "signals.hpp"
 #include "traffic_report.hpp"
 

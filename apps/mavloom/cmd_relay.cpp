@@ -6,27 +6,21 @@
 #include <array>
 #include <climits>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "command.hpp"
 #include "counted.hpp"
-#include "destinations.hpp"
 #include "mavloom/edit/stage.hpp"
-#include "mavloom/feed/sources.hpp"
+#include "mavloom/feed/relay.hpp"
 #include "mavloom/net/interfaces.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
+#include "sending.hpp"
 #include "signals.hpp"
 #include "traffic_report.hpp"
 
 namespace mavloom::app {
 
 namespace {
-
-using namespace std::chrono_literals;
-
-constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
-constexpr auto longest_flush = 5s;           // to send what is still queued
 
 struct Options {
     std::vector<std::string> sources, to;
@@ -37,121 +31,71 @@ struct Options {
     bool json = false;
 };
 
-class Relay : private link::LinkHandler {
+// Logs the events of the relay. A signal ends it.
+class Events final : public feed::RelayHandler {
 public:
-    Relay(const Common& common, feed::Sources& sources, Destinations& destinations, edit::Stage& stage,
-          const Options& options)
-        : common_(common),
-          sources_(sources),
-          destinations_(destinations),
-          stage_(stage),
-          signs_(options.edit.sign_key.has_value()),
-          json_(options.json) {}
-
-    // Recordings wait until every destination has a peer; live sources do not wait. A lossless ring holds its writer
-    // while a queue is full.
-    Exit run(MonoTime end) {
-        while (going(end) && !destinations_.failed() && !sources_.finished()) {
-            const bool started = started_ || destinations_.all_up();
-            if (started != std::exchange(started_, started) && waited_) say(common_, "somebody is there: going on");
-            const std::size_t room = started ? ring_room() : 0;
-            if (!started && sources_.has_recordings() && !std::exchange(waited_, true))
-                say(common_, "waiting for somebody to send to");
-            // If a queue is full, check again soon: its socket may have taken everything by then.
-            sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? Nanoseconds{1ms} : Nanoseconds{1s})),
-                          {room, ring_room(), frames_a_turn});
-        }
-        drain();
-        return finish();
-    }
+    explicit Events(const Common& common) : common_(common) {}
 
 private:
-    void on_frame(const link::RxFrame& rx) override {
-        if (destinations_.has(rx.endpoint)) {
-            const auto outcome = stage_.backward(rx.frame);
-            if (outcome.verdict == edit::Verdict::forward && sources_.send(outcome.frame) == 0) unheard_answers_.add();
-            return;
-        }
-        const auto outcome = stage_.forward(rx.frame, rx.time, signs_ ? wall_now() : WallTime{});
-        if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame, rx.time);
-    }
-    void on_link_up(LinkId, link::EndpointId, std::string_view name) override {
+    bool should_stop() override { return Signals::received(); }
+    void on_waiting() override { say(common_, "waiting for somebody to send to"); }
+    void on_started() override { say(common_, "somebody is there: going on"); }
+    void on_link_up(std::string_view name) override {
         if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
     }
-    void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {
-        if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", sources_.links().link_name(link), why));
+    void on_link_down(std::string_view name, std::string_view why) override {
+        if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", name, why));
     }
-    void on_notice(link::EndpointId, std::string_view text) override { say(common_, text); }
-
-    [[nodiscard]] std::size_t ring_room() const { return std::min(frames_a_turn, destinations_.room_in_frames()); }
-    static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
-
-    void drain() {
-        sources_.drain(*this, [this] { return feed::Room(0, ring_room(), frames_a_turn); });
-        const auto begin = mono_now();
-        while (mono_now() < begin + longest_flush && sources_.links().pending())
-            sources_.links().turn(*this, mono_now() + 5ms);
-        sources_.links().turn(*this, MonoTime{});  // collects the errors of the last datagrams
-    }
-
-    std::string summary() const {
-        const auto& c = stage_.counters();
-        return stats_line({{"destinations", destinations_.sums_json()},
-                           {"edit",
-                            {{"frames", c.frames.value()},
-                             {"reencoded", c.reencoded.value()},
-                             {"rewrapped", c.rewrapped.value()},
-                             {"passed_untouched", c.passed_untouched.value()},
-                             {"filtered", c.filtered.value()},
-                             {"rate_limited", c.rate_limited.value()},
-                             {"not_v1", c.not_v1.value()},
-                             {"not_signed", c.not_signed.value()},
-                             {"signature_removed", c.signature_removed.value()},
-                             {"backward", c.backward.value()},
-                             {"unheard_answers", unheard_answers_.value()}}},
-                           {"totals", losses_json(totals_)}});
-    }
-
-    Exit finish() {
-        sources_.add_to(totals_);
-        const auto closed = destinations_.close();
-        destinations_.say_sums(common_);
-        const auto& c = stage_.counters();
-        say(common_, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched",
-                                 counted(c.frames.value(), "frame"), c.reencoded.value(), c.passed_untouched.value()));
-        say_unless_zero("rewrapped", c.rewrapped, "frame", "without full definition, with a new header and checksum");
-        say_unless_zero("filtered", c.filtered, "frame", "that --only leaves out");
-        say_unless_zero("rate_limited", c.rate_limited, "frame", "over --max-rate");
-        say_unless_zero("not_v1", c.not_v1, "frame", "that MAVLink 1 cannot carry");
-        say_unless_zero("not_signed", c.not_signed, "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
-        say_unless_zero("signature_removed", c.signature_removed, "changed frame",
-                        "now without signature (--sign gives a new one)");
-        say_unless_zero("unheard_answers", unheard_answers_, "answer", "of the far side that no source was there for");
-        say_losses(common_, totals_);
-        const auto printed = json_ ? print_at_end(summary(), Exit::done) : Exit::done;
-        if (!closed) return fail(closed.error());
-        if (printed != Exit::done) return printed;
-        const bool had_something = destinations_.given() != 0 || (waited_ && !started_);
-        const bool lost = sources_.finished() && destinations_.lost_any();
-        if (lost || (had_something && destinations_.reached_nobody())) return Signals::status(Exit::mismatch);
-        if (const auto* error = sources_.error()) return fail(*error);
-        return Signals::status(Exit::done);
-    }
-
-    void say_unless_zero(std::string_view name, const Counter& counter, std::string_view noun,
-                         std::string_view rest) const {
-        if (counter.value() != 0) say(common_, fmt::format("{}: {} {}", name, counted(counter.value(), noun), rest));
-    }
+    void on_notice(std::string_view text) override { say(common_, text); }
 
     const Common& common_;
-    feed::Sources& sources_;
-    Destinations& destinations_;
-    edit::Stage& stage_;
-    const bool signs_, json_;
-    feed::Totals totals_;
-    Counter unheard_answers_;
-    bool started_ = false, waited_ = false;
 };
+
+// What the relay did: as log lines, and as one JSON object.
+void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
+                const feed::RelayOutcome& outcome) {
+    say_sums(common, destinations);
+    say(common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
+                            c.reencoded.value(), c.passed_untouched.value()));
+    const auto unless_zero = [&](std::string_view name, std::uint64_t count, std::string_view noun,
+                                 std::string_view rest) {
+        if (count != 0) say(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
+    };
+    unless_zero("rewrapped", c.rewrapped.value(), "frame", "without full definition, with a new header and checksum");
+    unless_zero("filtered", c.filtered.value(), "frame", "that --only leaves out");
+    unless_zero("rate_limited", c.rate_limited.value(), "frame", "over --max-rate");
+    unless_zero("not_v1", c.not_v1.value(), "frame", "that MAVLink 1 cannot carry");
+    unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
+    unless_zero("signature_removed", c.signature_removed.value(), "changed frame",
+                "now without signature (--sign gives a new one)");
+    unless_zero("unheard_answers", outcome.unheard_answers, "answer", "of the far side that no source was there for");
+    say_losses(common, outcome.totals);
+}
+
+std::string summary(const feed::Destinations& destinations, const edit::Counters& c, const feed::RelayOutcome& outcome) {
+    return stats_line({{"destinations", sums_json(destinations)},
+                       {"edit",
+                        {{"frames", c.frames.value()},
+                         {"reencoded", c.reencoded.value()},
+                         {"rewrapped", c.rewrapped.value()},
+                         {"passed_untouched", c.passed_untouched.value()},
+                         {"filtered", c.filtered.value()},
+                         {"rate_limited", c.rate_limited.value()},
+                         {"not_v1", c.not_v1.value()},
+                         {"not_signed", c.not_signed.value()},
+                         {"signature_removed", c.signature_removed.value()},
+                         {"backward", c.backward.value()},
+                         {"unheard_answers", outcome.unheard_answers}}},
+                       {"totals", losses_json(outcome.totals)}});
+}
+
+Exit status_of(const feed::RelayOutcome& outcome, Exit printed) {
+    if (outcome.write_error) return fail(*outcome.write_error);
+    if (printed != Exit::done) return printed;
+    if (outcome.is_incomplete || outcome.reached_nobody) return Signals::status(Exit::mismatch);
+    if (outcome.read_error) return fail(*outcome.read_error);
+    return Signals::status(Exit::done);
+}
 
 SetupResult<void> check_words(Options& options) {
     if (options.as_v1) options.edit.as_version = wire::Version::v1;
@@ -246,11 +190,18 @@ Exit relay(const Common& common, Options& options) {
     if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
     say_ports(common, sources->links().endpoints());
-    auto destinations = Destinations::open(common, options.to, sources->links());
+    auto destinations = open_destinations(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *endpoint::parse_duration(options.duration);
-    return Relay(common, *sources, *destinations, **stage, options).run(end);
+    Events events(common);
+    using Signing = feed::Relay::Signing;
+    feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
+    const auto outcome = relaying.run(end);
+    const auto& counters = (*stage)->counters();
+    say_report(common, *destinations, counters, outcome);
+    const auto printed = options.json ? print_at_end(summary(*destinations, counters, outcome), Exit::done) : Exit::done;
+    return status_of(outcome, printed);
 }
 
 }  // namespace

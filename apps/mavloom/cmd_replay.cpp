@@ -9,12 +9,14 @@
 
 #include "command.hpp"
 #include "counted.hpp"
-#include "destinations.hpp"
 #include "mavloom/feed/sources.hpp"
+#include "mavloom/link/flush.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
+#include "sending.hpp"
 #include "signals.hpp"
+#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -36,7 +38,7 @@ struct Options {
 
 class Replayer : private link::LinkHandler {
 public:
-    Replayer(const Common& common, const Options& options, feed::Sources& sources, Destinations& destinations)
+    Replayer(const Common& common, const Options& options, feed::Sources& sources, feed::Destinations& destinations)
         : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
 
     Exit run(MonoTime end) {
@@ -45,7 +47,7 @@ public:
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
             show_progress();
         }
-        flush();
+        link::flush(sources_.links(), *this, longest_flush);
         if (progress_shown_) talk("\n");
         return finish();
     }
@@ -69,12 +71,6 @@ private:
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
-    void flush() {
-        const auto limit = mono_now() + longest_flush;
-        while (sources_.links().pending() && mono_now() < limit) sources_.links().turn(*this, mono_now() + 20ms);
-        sources_.links().turn(*this, MonoTime{});  // collects the errors of the last datagrams
-    }
-
     void show_progress() {
         const auto now = mono_now();
         if (common_.quiet || now < next_progress_ || ::isatty(STDERR_FILENO) == 0) return;
@@ -93,12 +89,12 @@ private:
         read.add(counters);
         Json totals{{"frames", frames_}, {"bytes", bytes_}};
         totals.update(losses_json(read));
-        return stats_line({{"destinations", destinations_.sums_json()}, {"totals", std::move(totals)}});
+        return stats_line({{"destinations", sums_json(destinations_)}, {"totals", std::move(totals)}});
     }
 
     Exit finish() {
         const auto closed = destinations_.close();
-        destinations_.say_sums(common_);
+        say_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
             say(common_, fmt::format("nothing lies behind --start {}", options_.start));
@@ -120,7 +116,7 @@ private:
     const Common& common_;
     const Options& options_;
     feed::Sources& sources_;
-    Destinations& destinations_;
+    feed::Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
     std::uint64_t frames_ = 0, bytes_ = 0;  // read from the recording so far
@@ -165,7 +161,7 @@ Exit replay(const Common& common, Options& options) {
     if (is_written_over(*endpoint, options.to))
         return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; name another file", options.file));
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
-    auto destinations = Destinations::open(common, options.to, sources->links());
+    auto destinations = open_destinations(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const MonoTime forever = MonoTime::max();
     Replayer replayer(common, options, *sources, *destinations);
