@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/feed/relay.hpp"
 
+#include <atomic>
+#include <limits>
+#include <thread>
+
 #include "unit/feed/fixture.hpp"
 
 namespace mavloom::feed {
@@ -169,6 +173,37 @@ TEST(Relay, TheEndSendsWhatHadArrived) {
     Bytes heard;
     read_into(heard, station);
     EXPECT_EQ(heard, frames);
+}
+
+TEST(Relay, TheEndWaitsForAQueueThatIsFull) {
+    Bench bench;
+    bench.add_source("tlog://" + flight.string());
+    bench.send_to({"tcpin://127.0.0.1:0?queue_bytes=16k"});
+    const auto peer = PlainSocket::connected_tcp(last_port(bench.sources.links()), 4096);
+    Bytes heard;
+    std::atomic<std::uint64_t> sent = std::numeric_limits<std::uint64_t>::max();  // unknown until the end
+    std::thread reader;
+    bench.handler.before_turn = [&] {
+        const bool is_full = bench.destinations->room_in_frames() == 0;
+        if (!is_full || reader.joinable()) return is_full;
+        reader = std::thread([&] {  // reads again only after the relay began to end
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            for (; heard.size() < sent; std::this_thread::yield()) read_into(heard, peer);
+        });
+        return true;
+    };
+    const auto outcome = bench.run();
+    const auto delivery = bench.destinations->deliveries().at(0);
+    sent = delivery.bytes;
+    ASSERT_TRUE(reader.joinable());
+    reader.join();
+    EXPECT_FALSE(outcome.reached_nobody);
+    EXPECT_FALSE(delivery.lost_any());
+    EXPECT_EQ(delivery.frames, bench.destinations->given());
+    Bytes begin = frames_of(flight);
+    ASSERT_LT(heard.size(), begin.size());
+    begin.resize(heard.size());
+    EXPECT_TRUE(heard == begin);
 }
 
 TEST(Relay, AnswersGoBackToTheSource) {
