@@ -21,10 +21,10 @@ void say_sums(const Common& common, const feed::Delivery& sums) {
         if (count != 0) say(common, fmt::format("{}: {} {}", sums.name, counted(count, "frame"), what));
     };
     say(common, fmt::format("{}: {}, {} sent", sums.name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
-    frames(sums.dropped, "dropped, the far side was too slow or went");
-    frames(sums.refused, "refused: nobody listens there, or it cannot be reached");
-    frames(sums.not_sent, "not sent, the system refused them");
-    frames(sums.nobody_there, "not sent, nobody was there");
+    frames(sums.dropped, "dropped: the far side was too slow or disconnected");
+    frames(sums.refused, "refused: no program listens there, or the host cannot be reached");
+    frames(sums.not_sent, "not sent: the system refused them");
+    frames(sums.nobody_there, "not sent: there was no peer");
     if (sums.queued_bytes != 0)
         say(common,
             fmt::format("{}: {} still queued at the end, not sent", sums.name, counted(sums.queued_bytes, "byte")));

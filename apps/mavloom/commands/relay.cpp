@@ -38,8 +38,8 @@ public:
 
 private:
     bool should_stop() override { return Signals::received(); }
-    void on_waiting() override { say(common_, "waiting for somebody to send to"); }
-    void on_started() override { say(common_, "somebody is there: going on"); }
+    void on_waiting() override { say(common_, "waiting until every destination has a peer"); }
+    void on_started() override { say(common_, "every destination has a peer: starting"); }
     void on_link_up(std::string_view name) override {
         if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
     }
@@ -68,7 +68,7 @@ void say_report(const Common& common, const feed::Destinations& destinations, co
     unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
     unless_zero("signature_removed", c.signature_removed.value(), "changed frame",
                 "now without signature (--sign gives a new one)");
-    unless_zero("unheard_answers", outcome.unheard_answers, "answer", "of the far side that no source was there for");
+    unless_zero("unheard_answers", outcome.unheard_answers, "answer", "from the far side for which there was no source");
     say_losses(common, outcome.totals);
 }
 
@@ -123,7 +123,7 @@ SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
         auto endpoint = endpoint::parse_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
         if (endpoint->scheme == endpoint::Scheme::shm && is_sent_to(*endpoint, options.to))
-            return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring what it holds already; name "
+            return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring its own records; choose "
                                                              "another destination",
                                                              endpoint->label()));
         const bool is_ring = endpoint->scheme == endpoint::Scheme::shm;
@@ -170,7 +170,7 @@ SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, 
         if (loop != sources.end())
             return setup_error(
                 SetupCode::usage,
-                fmt::format("--to {} is where {} listens: every frame would go round for ever; name another "
+                fmt::format("--to {} is where {} listens: every frame would loop forever; choose another "
                             "port",
                             endpoint->label(), loop->label()));
     }
@@ -215,33 +215,34 @@ Run declare_relay(Arguments command, const Common& common) {
         .type_name("MESSAGE.FIELD=VALUE");
     command
         .add_option("--remap-system", edit.remap_system,
-                    "change system id A to B, and back in what the far side answers")
+                    "change system id A to B, and back in answers from the far side")
         .type_name("A=B");
-    command.add_option("--only", edit.only, "these messages only: names or ids, separated by commas")
+    command.add_option("--only", edit.only, "only these messages: names or ids, separated by commas")
         .delimiter(',')
         .type_name("NAMES");
     command
         .add_option("--max-rate", edit.max_rate,
-                    "at most this many a second of each source; * is telemetry: ATTITUDE:10,*:50")
+                    "at most this many a second of a message from each source; * is all telemetry: ATTITUDE:10,*:50")
         .delimiter(',')
         .type_name("MESSAGE:HZ");
     auto v1 = command.add_flag("--as-v1", options->as_v1,
                                "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
     command.add_flag("--as-v2", options->as_v2, "send MAVLink 2").excludes(v1);
     auto sign = command.add_option("--sign", options->sign_file,
-                                   "sign what is sent with the key in this file (64 hexadecimal digits, mode 0600)");
+                                   "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)");
     sign.type_name("FILE").excludes(v1);
     command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
         .default_str(std::to_string(edit.sign_link_id))
         .type_name("N")
         .range(0, 255)
         .needs(sign);
-    command.add_flag("--resequence", edit.resequence, "own sequence numbers, so that a filtered stream shows no loss");
-    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
+    command.add_flag("--resequence", edit.resequence, "new sequence numbers, so that a filtered stream shows no loss");
+    command.add_flag("--json", options->json,
+                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
-        "Without options what comes out is byte for byte what went in. What the far side answers goes "
-        "back. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
+        "Without options, the output is byte for byte the input. Answers from the far side go back to the "
+        "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
         "  mavloom relay udpin://0.0.0.0:14540 --to udpout://192.168.1.20:14550\n"
         "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"
         "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");

@@ -55,7 +55,7 @@ public:
     // Waits until every destination has a peer.
     void wait_for_peers(MonoTime end) {
         if (options_.no_wait || destinations_.all_up()) return;
-        say(common_, "waiting for somebody to send to (--no-wait to start at once)");
+        say(common_, "waiting until every destination has a peer (--no-wait starts at once)");
         while (going(end) && !destinations_.all_up()) sources_.links().turn(*this, mono_now() + 100ms);
     }
 
@@ -97,7 +97,7 @@ private:
         say_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
-            say(common_, fmt::format("nothing lies behind --start {}", options_.start));
+            say(common_, fmt::format("the recording ends before --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
             say(common_,
                 fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
@@ -159,7 +159,7 @@ Exit replay(const Common& common, Options& options) {
     if (!sources) return fail(sources.error());
     if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
     if (is_written_over(*endpoint, options.to))
-        return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; name another file", options.file));
+        return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; choose another file", options.file));
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
     auto destinations = open_destinations(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
@@ -183,9 +183,10 @@ Run declare_replay(Arguments command, const Common& common) {
     command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
         .type_name("TIME");
     command.add_option("--for", options->duration, "end after this time").type_name("TIME");
-    command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
+    command.add_flag("--no-wait", options->no_wait, "start even if a destination has no peer");
     options->selection.declare(command);
-    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
+    command.add_flag("--json", options->json,
+                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.footer("Example:\n  mavloom replay flight.tlog --to udpout://127.0.0.1:14550 --speed 2");
     return [options, &common] { return replay(common, *options); };
 }

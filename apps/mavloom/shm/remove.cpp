@@ -17,7 +17,7 @@ SetupResult<void> remove_one(const Options& options, const std::string& name) {
     const auto ring = shm::ring_status(name);
     if (ring && ring->writer_alive && !options.force)
         return setup_error(SetupCode::in_use,
-                           fmt::format("ring {} is in use, written by process {}; --force removes it all the same",
+                           fmt::format("ring {} is in use by process {}, which writes it; --force removes it anyway",
                                        name, ring->writer_pid));
     return shm::remove_ring(name);
 }
