@@ -53,7 +53,7 @@ auto losses_of(const feed::Totals& t) {
         Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
         Named{"wrong_peer", "datagram", "from another address than the one called", t.wrong_peer},
         Named{"stray_bytes", "byte",
-              "from unknown senders, in datagrams without a valid (with verify=: correctly signed) frame", t.stray_bytes},
+              "from unknown senders, in datagrams without a valid (verify=: correctly signed) frame", t.stray_bytes},
         Named{"peers_refused", "peer", "beyond max_peers", t.peers_refused},
     };
 }
