@@ -23,18 +23,18 @@ namespace mavloom::app {
 namespace {
 
 constexpr std::array commands{
-    Command{"route", "forward between any number of links, changing nothing", declare_route},
+    Command{"route", "forward frames unchanged between any number of links", declare_route},
     Command{"listen", "decode and print every message that arrives", declare_listen},
     Command{"relay", "decode, optionally edit, re-encode and send on", declare_relay},
     Command{"record", "write what arrives to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
-    Command{"ctl", "look at a running router and change its endpoints", declare_ctl, false},
+    Command{"ctl", "inspect a running router and change its endpoints", declare_ctl, false},
     Command{"stat", "the counters of a running router or a ring", declare_stat, false},
-    Command{"shm", "look after shared-memory rings: list, stat, write, read, remove", declare_shm, false},
+    Command{"shm", "manage shared-memory rings: list, stat, write, read, remove", declare_shm, false},
     Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},
     Command{"check", "validate a configuration file", declare_check},
-    Command{"bench", "measure this machine", declare_bench},
+    Command{"bench", "measure Mavloom's throughput on this machine", declare_bench},
 };
 
 constexpr std::string_view footer =
@@ -45,8 +45,8 @@ constexpr std::string_view footer =
     "signal.";
 
 void add_common(CLI::App& command, Common& common, bool uses_dialect) {
-    command.add_flag("-v,--verbose", common.verbose, "say more on stderr (relay and route do)");
-    command.add_flag("-q,--quiet", common.quiet, "say nothing on stderr but errors");
+    command.add_flag("-v,--verbose", common.verbose, "log more to stderr (relay and route)");
+    command.add_flag("-q,--quiet", common.quiet, "log only errors to stderr");
     if (!uses_dialect) return;
     command
         .add_option("--dialect", common.dialect_files,
@@ -106,7 +106,7 @@ std::optional<std::string> option_before_command(std::span<char*> arguments) {
     if (!first.starts_with('-') || first == "-h" || first == "--help") return std::nullopt;
     const auto command = std::ranges::find_if(arguments, is_command);
     if (command == arguments.end()) return std::nullopt;
-    return fmt::format("{} stands before the command; options go behind it: mavloom {} ... {}", in_quotes(first),
+    return fmt::format("{} comes before the command; options go after it: mavloom {} ... {}", in_quotes(first),
                        *command, shown(first));
 }
 

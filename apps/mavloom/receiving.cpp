@@ -25,10 +25,10 @@ std::optional<T> whole_number(std::string_view text, std::uint32_t largest) {
 }  // namespace
 
 void Selection::declare(Arguments command) {
-    command.add_option("--only", only, "these messages only: names or ids, separated by commas")
+    command.add_option("--only", only, "only these messages: names or ids, separated by commas")
         .delimiter(',')
         .type_name("NAMES");
-    command.add_option("--from", from, "from this system, or this component of it, only").type_name("SYS[/COMP]");
+    command.add_option("--from", from, "only from this system, or from this component of it").type_name("SYS[/COMP]");
 }
 
 SetupResult<void> Selection::resolve(const dialect::Dialect& dialect) {
@@ -67,7 +67,7 @@ void ReceiveOptions::declare(Arguments command) {
     command.add_option("--count", count_text, "end after this many messages").type_name("N");
     command
         .add_option("--buffer", buffer,
-                    "memory for frames that wait to be handled (bytes, k, M); beyond it they are dropped and counted")
+                    "memory for frames that wait to be handled (bytes, k, M); more frames are dropped and counted")
         .capture_default_str()
         .type_name("BYTES");
 }

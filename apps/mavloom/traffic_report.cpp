@@ -40,20 +40,20 @@ struct Named {
 auto losses_of(const feed::Totals& t) {
     return std::array{
         Named{"kernel_drop", "datagram", "dropped by the kernel: the receive buffer was full", t.kernel_drop},
-        Named{"buffer_full", "frame", "not handed on: the output was slower than --buffer allows", t.buffer_full},
+        Named{"buffer_full", "frame", "dropped: the output was slower than --buffer allows", t.buffer_full},
         Named{"lapped", "record", "missed in the ring: its writer was faster", t.lapped},
         Named{"bad_records", "record", "in the ring without a whole valid frame", t.bad_records},
-        Named{"other_kinds", "record", "in the ring that are no MAVLink by their kind", t.other_kinds},
+        Named{"other_kinds", "record", "in the ring whose kind is not MAVLink", t.other_kinds},
         Named{"copies", "record", "in the ring that its router marked as a copy or an echo", t.copies},
-        Named{"echo", "record", "in the ring of what was sent to its inlet", t.echo},
+        Named{"echo", "record", "in the ring that this program itself sent to the inlet", t.echo},
         Named{"crc_error", "frame", "with a bad checksum", t.crc_error},
         Named{"junk_bytes", "byte", "outside every intact frame", t.junk_bytes},
         Named{"damaged_places", "damaged place", "in recordings", t.damaged_places},
         Named{"unknown_flags", "frame", "with an unknown incompatibility flag", t.unknown_flags},
         Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
         Named{"wrong_peer", "datagram", "from another address than the one called", t.wrong_peer},
-        Named{"stray_bytes", "byte", "of strangers, in datagrams without a valid (with verify=: a well signed) frame",
-              t.stray_bytes},
+        Named{"stray_bytes", "byte",
+              "from unknown senders, in datagrams without a valid (verify=: correctly signed) frame", t.stray_bytes},
         Named{"peers_refused", "peer", "beyond max_peers", t.peers_refused},
     };
 }

@@ -13,10 +13,10 @@ import time
 from collections.abc import Callable
 
 from . import ClosedError, Error, InputError, Link, PermissionDeniedError, RingWriter, UsageError, connect
+from ._values import mode, size
 
 LOOK_AT_SIGNALS_S = 0.1
 LOOK_AT_ANSWERS_S = 1.0
-UNITS = {"k": 1 << 10, "m": 1 << 20, "g": 1 << 30}
 
 EPILOG = """\
 The ring has a way back: programs that read it send to the socket RUN/NAME.in (`mavloom relay shm://NAME` and `mavloom.connect("shm://NAME").send` do), and
@@ -48,22 +48,6 @@ class Signals:
     def _remember(self, number: int, frame: object) -> None:
         self.received = number
         signal.signal(number, signal.SIG_DFL)
-
-
-def size(text: str) -> int:
-    """Converts a size such as 65536, 64k, 8M or 1G to bytes."""
-    unit = UNITS.get(text[-1:].lower())
-    digits = text if unit is None else text[:-1]
-    if not digits.isdecimal():
-        raise argparse.ArgumentTypeError(f"{text!r}: expected a size, for example 8M")
-    return int(digits) * (unit or 1)
-
-
-def mode(text: str) -> int:
-    try:
-        return int(text, 8)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: expected octal digits, for example 0640") from None
 
 
 def ring_name(text: str) -> str:

@@ -85,16 +85,12 @@ SetupResult<void> set_full(Config& config, std::string_view text) {
     return {};
 }
 
+// Without quotes TOML reads 600 as a decimal number and 0o600 as 384. Neither has a leading 0, which 0600 must have.
 SetupResult<void> set_mode(Config& config, std::string_view text) {
-    std::uint32_t mode = 0;
-    const bool octal = text.size() == 4 && text[0] == '0' &&
-                       text.find_first_not_of("01234567") == std::string_view::npos;
-    for (const char c : text) mode = mode * 8 + static_cast<std::uint32_t>(c - '0');
-    if (!octal)
+    if (!text.starts_with('0'))
         return endpoint::usage(
             fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", in_quotes(text)));
-    config.ring.mode = static_cast<std::uint16_t>(mode);
-    return {};
+    return endpoint::put(endpoint::parse_mode(text), config.ring.mode);
 }
 
 SetupResult<void> set_record_path(Config& config, std::string_view text) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parses the values of endpoint options and configuration keys: durations, sizes, numbers, filter terms and rate
-// terms.
+// Parses the values of endpoint options and configuration keys: durations, sizes, file modes, numbers, filter terms and
+// rate terms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,6 +106,18 @@ SetupResult<std::uint64_t> parse_size(std::string_view text) {
     constexpr std::uint64_t most = std::uint64_t{1} << 62;
     if (number.value > most / factor) return usage(fmt::format("{} is larger than any disk", in_quotes(text)));
     return number.value * factor;
+}
+
+SetupResult<std::uint16_t> parse_mode(std::string_view text) {
+    std::string_view digits = text;
+    if (digits.starts_with("0o")) digits.remove_prefix(2);
+    else if (digits.size() == 4 && digits.starts_with('0')) digits.remove_prefix(1);
+    std::uint16_t mode = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), mode, 8);
+    if (error != std::errc{} || end != digits.data() + digits.size() || digits.size() != 3)
+        return usage(
+            fmt::format("{} is no file mode; type three octal digits, for example 0600 or 0640", in_quotes(text)));
+    return mode;
 }
 
 tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }

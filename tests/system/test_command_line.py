@@ -57,7 +57,7 @@ def test_an_option_before_the_command_is_told_its_place(run, arguments):
     done = run(*arguments)
     command = next(word for word in arguments if word in ("listen", "route"))
     assert done.status == 2
-    assert f"'{arguments[0]}' stands before the command; options go behind it: mavloom {command} ... {arguments[0]}" in done.stderr
+    assert f"'{arguments[0]}' comes before the command; options go after it: mavloom {command} ... {arguments[0]}" in done.stderr
 
 
 def test_options_of_the_program_itself(run):

@@ -589,4 +589,4 @@ def test_a_recording_is_known_by_its_name(run, tmp_path, name):
 def test_one_message_as_rows_takes_no_other_names(run):
     done = run("listen", frames.FLIGHT, "--csv", "ATTITUDE", "--only", "HEARTBEAT")
 
-    assert done.status == 2 and "--csv ATTITUDE prints that one message; leave --only out" in done.stderr
+    assert done.status == 2 and "--csv ATTITUDE prints that one message; omit --only" in done.stderr

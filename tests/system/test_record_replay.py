@@ -272,8 +272,8 @@ def test_a_start_behind_the_end_is_said(run, tmp_path):
     done = run("replay", frames.FLIGHT, "--to", tmp_path / "x.tlog", "--speed", "max", "--start", "10h")
     other = run("replay", frames.FLIGHT, "--to", tmp_path / "y.tlog", "--speed", "max", "--start", "1s", "--only", "GPS2_RAW")
 
-    assert done.status == 0 and "nothing lies behind --start 10h" in done.stderr
-    assert other.status == 0 and "nothing lies behind" not in other.stderr
+    assert done.status == 0 and "the recording ends before --start 10h" in done.stderr
+    assert other.status == 0 and "the recording ends before" not in other.stderr
 
 
 def test_frames_with_an_unknown_flag_are_left_out_and_named(run, tmp_path):
@@ -355,7 +355,7 @@ def test_that_nobody_listened_is_told(run, tmp_path, udp_port, command):
 
     sent = sums(done)["destinations"][0]
     assert done.status == 4 and (sent["frames"], sent["refused"]) == (0, 3), done
-    assert "3 frames refused: nobody listens there, or it cannot be reached" in done.stderr
+    assert "3 frames refused: no program listens there, or the host cannot be reached" in done.stderr
 
 
 @pytest.mark.parametrize("command", [["replay", "--no-wait"], ["replay"], ["relay"]], ids=" ".join)
@@ -383,7 +383,7 @@ def test_a_relay_onto_its_own_port_is_refused(run, udp_port, source, to):
     port = udp_port()
     done = run("relay", source.format(port), "--to", to.format(port), "--for", "1s")
 
-    assert done.status == 2 and "every frame would go round for ever" in done.stderr, done
+    assert done.status == 2 and "every frame would loop forever" in done.stderr, done
     assert run("relay", source.format(port), "--to", "udpout://127.0.0.1:1", "--for", "100ms").status == 0
 
 

@@ -425,7 +425,7 @@ def test_stat_as_text_and_as_json(net, ctl):
     assert text.status == 0
     for pattern in (r"^up \d+ s; ", r"^link A$", r"^link B#127.0.0.1:\d+$", r"^  in 6 frames, \d+ bytes; out 3 frames, \d+ bytes$", r"unknown_target 1",
                     r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$", r"^message HEARTBEAT +1/1 +1 frame +0\.00 Hz  A$", r"^message 70371 ",
-                    r"^not routed: 1 frame for 66/6, which nobody has heard$"):
+                    r"^not routed: 1 frame for 66/6, which was not heard on any link$"):
         assert re.search(pattern, text.stdout, re.MULTILINE), f"{pattern}\n{text.stdout}"
 
     def steady(all_lines):
@@ -584,7 +584,7 @@ def test_reload_opens_a_changed_endpoint_anew(reloadable):
     ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?idel=2'\n", "did you mean 'idle'?"),
     ("[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?out_block=ATITUDE'\n", "did you mean 'ATTITUDE'?"),
     (None, "cannot read"),
-    ("", "names no endpoint"),
+    ("", "has no endpoint"),
 ])
 def test_a_broken_file_changes_nothing(reloadable, broken, said):
     sut = reloadable(f"udpout://127.0.0.1:{routers.udp_port()}?name=copy")
@@ -715,7 +715,7 @@ def test_a_pipe_is_read_once(spawn, tmp_path):
     pipe.write_text(f"[[endpoint]]\nurl = 'udpin://127.0.0.1:{routers.udp_port()}?name=air'\n")
     process.wait_output("air: listening", stream="err")
     process.send(signal.SIGHUP)
-    process.wait_output("is a pipe or a terminal, which is read once; nothing was changed", stream="err")
+    process.wait_output("is a pipe or a terminal, which can be read only once; nothing was changed", stream="err")
 
     assert process.stop().status == 130
 
@@ -816,7 +816,7 @@ def test_a_hangup_without_a_file_is_noted(spawn):
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     router.process.send(signal.SIGHUP)
 
-    router.process.wait_output("SIGHUP: there is no --config to read again", stream="err")
+    router.process.wait_output("SIGHUP: there is no --config to reread", stream="err")
     assert router.process.alive
 
 
@@ -881,7 +881,7 @@ def test_routing_outlives_who_reads_the_explanations(spawn):
     assert passes() and os.read(reading, 100).startswith(b"ATTITUDE 1/1")
     os.close(reading)
     assert passes()
-    process.wait_output("nobody reads what --explain says any more; it ends, and routing goes on", stream="err")
+    process.wait_output("the reader closed the output of --explain, which ended; routing continues", stream="err")
     for _ in range(10):
         assert passes()
     assert process.stderr.count("--explain") == 1
@@ -894,7 +894,7 @@ def test_routing_does_not_wait_for_who_reads_the_explanations(spawn, resumes):
     frames = 3000
     for _ in range(frames):
         assert passes()
-    process.wait_output("explanations are left out, and routing goes on", stream="err")
+    process.wait_output("explanations are left out, and routing continues", stream="err")
 
     with open(reading, "rb") as pipe:
         if resumes:
@@ -1143,7 +1143,7 @@ def test_recordings_come_and_go_while_it_runs(net, ctl, tmp_path):
 
 IN = "udpin://127.0.0.1:{free}"
 BAD_ARGUMENTS = [
-    ("no endpoint", [], 2, "name endpoints or a --config"),
+    ("no endpoint", [], 2, "give endpoints, or a --config"),
     ("no scheme", ["127.0.0.1:14550"], 2, "type udpout://127.0.0.1:14550 to send, udpin://127.0.0.1:14550 to listen"),
     ("udp://", ["udp://:14540"], 2, "udpin://"),
     ("sends to all", ["udpout://0.0.0.0:14550"], 2, "0.0.0.0"),
@@ -1160,7 +1160,7 @@ BAD_ARGUMENTS = [
     ("metrics without host", [IN, "--metrics", "9090"], 2, "HOST:PORT, as in 127.0.0.1:9090"),
     ("metrics at a name", [IN, "--metrics", "localhost:9090"], 2, "in numbers"),
     ("explains an unknown message", [IN, "--explain", "ATITUDE"], 2, "ATITUDE"),
-    ("--explain before the endpoint", ["--explain", IN], 2, "put it behind the endpoints"),
+    ("--explain before the endpoint", ["--explain", IN], 2, "put it after the endpoints"),
     ("no serial port", ["serial:///dev/null"], 2, "/dev/null is no serial port"),
     ("no key", [IN + "?verify={folder}/none.key"], 3, "none.key: No such file or directory"),
     ("a key that is none", [IN + "?sign={folder}/bad.key"], 3, "64 hexadecimal digits"),

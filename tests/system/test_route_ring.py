@@ -483,7 +483,7 @@ def test_the_file_names_the_ring(spawn, run, ring, tmp_path):
     assert '"kind":"router"' in links.stdout
     file.write_text(file.read_text().replace("64k", "128k"))
     process.process.send_signal(signal.SIGHUP)
-    process.wait_output(r"\[ring\] stays as it is until the router starts anew")
+    process.wait_output(r"a changed \[ring\] takes effect when the router restarts")
     process.process.terminate()
     assert process.wait().status == 143
 

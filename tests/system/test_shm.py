@@ -124,7 +124,7 @@ def test_a_drain_of_no_ring_ends(run, ring):
 @short
 def test_a_record_that_is_too_long_is_named(run, ring):
     done = run("shm", "write", ring, "--capacity", "64k", input="fits\n" + "x" * 20_000 + "\n")
-    assert done.status == 3 and "line 2: over 16360 bytes, the most that a record of this ring has" in done.stderr
+    assert done.status == 3 and "line 2: over 16360 bytes, the longest record that this ring takes" in done.stderr
     assert read_all(run, ring, "--data").lines == ["fits"]
 
 
@@ -206,7 +206,7 @@ def test_remove_spares_a_ring_in_use_unless_forced(run, spawn, ring):
     writer = spawn("shm", "write", ring, "--capacity", "64k", stdin=subprocess.PIPE)
     harness.wait_for(lambda: path_of(ring).exists() and stat_of(run, ring)["writer_pid"] == writer.pid, what="the writer")
     done = run("shm", "remove", ring)
-    assert done.status == 1 and f"ring {ring} is in use, written by process {writer.pid}; --force removes it all the same" in done.stderr
+    assert done.status == 1 and f"ring {ring} is in use by process {writer.pid}, which writes it; --force removes it anyway" in done.stderr
     assert run("shm", "remove", "--force", ring).status == 0
     assert not path_of(ring).exists()
     writer.process.stdin.write(b"lost\n")

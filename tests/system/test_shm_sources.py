@@ -669,7 +669,7 @@ def test_answers_without_an_inlet_are_counted(run, spawn, feed, ring, sink):
 @pytest.mark.parametrize("words, said", [
     (["replay", "shm://a", "--to", "udpout://127.0.0.1:9"], "replay reads a .tlog file"),
     (["route", "udpin://127.0.0.1:14999", "shm://a"], "a ring is no endpoint of a router"),
-    (["relay", "shm://a", "--to", "shm://a"], "would send the ring what it holds already"),
+    (["relay", "shm://a", "--to", "shm://a"], "would send the ring its own records"),
     (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?lossless=true"], "'lossless' is for a ring that is read"),
     (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?from=oldest"], "'from' is for a ring that is read"),
     (["listen", "shm://a?in_allow=ATTITUDE"], "in_allow= is for mavloom route"),

@@ -121,5 +121,7 @@ struct Endpoint {
 // bytes.
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text);
 [[nodiscard]] SetupResult<std::uint64_t> parse_size(std::string_view text);
+// Permissions of a file: three octal digits, "640", "0640" or "0o640".
+[[nodiscard]] SetupResult<std::uint16_t> parse_mode(std::string_view text);
 
 }  // namespace mavloom::endpoint

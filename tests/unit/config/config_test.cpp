@@ -184,6 +184,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[endpoint]]\nurl = \"udpout://127.0.0.1:1\"\nheartbeat = false\ntap = true\n",
             "r.toml:1: heartbeat= does not go with tap=true"},
         Bad{"[ring]\ncapacity = 3000000\n", "no power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
+        Bad{"[ring]\nmode = 0o640\n", "in quotes"}, Bad{"[ring]\nmode = \"640\"\n", "no file mode"},
+        Bad{"[ring]\nmode = \"0968\"\n", "three octal digits"},
         Bad{"[ring]\nfull = \"wait\"\n", "a router waits for no reader: type evict"},
         Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "no ring name"},
         Bad{"[record]\nrotate_every = \"10ms\"\n", "1s is the least"},

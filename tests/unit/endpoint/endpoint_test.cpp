@@ -368,11 +368,24 @@ TEST(ParseSize, CountsBytes) {
     EXPECT_EQ(*parse_size("1M"), 1048576u);
     EXPECT_EQ(*parse_size("32m"), 33554432u);
     EXPECT_EQ(*parse_size("1g"), 1073741824u);
+    EXPECT_EQ(*parse_size("64KiB"), 65536u);
     EXPECT_EQ(*parse_size("32MiB"), 33554432u);
+    EXPECT_EQ(*parse_size("1GiB"), 1073741824u);
+    EXPECT_EQ(*parse_size("1GB"), 1000000000u);
     EXPECT_EQ(*parse_size("32MB"), 32000000u);
     EXPECT_EQ(*parse_size("2G"), 2147483648u);
     for (const auto* bad : {"", "1.5M", "-1", "+1", "M", "1 M", "1T", "18446744073709551616"})
         EXPECT_FALSE(parse_size(bad)) << bad;
+}
+
+TEST(ParseMode, TakesThreeOctalDigits) {
+    for (const auto* good : {"640", "0640", "0o640"}) EXPECT_EQ(*parse_mode(good), 0640) << good;
+    EXPECT_EQ(*parse_mode("0600"), 0600);
+    EXPECT_EQ(*parse_mode("777"), 0777);
+    EXPECT_EQ(*parse_mode("0000"), 0);
+    for (const auto* bad : {"", "9", "0", "60", "06400", "1600", "00o600", "0o6000", "0x600", "-600", "+600", " 600",
+                            "600 ", "6_00", "608", "rw-r-----"})
+        EXPECT_FALSE(parse_mode(bad)) << bad;
 }
 
 TEST(SetEndpointOption, TakesTheTextOfAFilesKey) {

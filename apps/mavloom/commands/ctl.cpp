@@ -42,7 +42,7 @@ SetupResult<Json> request_of(const CtlOptions& options) {
         return setup_error(SetupCode::usage, options.action == "add" ? "add takes the URL of an endpoint"
                                                                      : "remove takes the name of an endpoint or link");
     if (!takes_argument && !options.argument.empty())
-        return setup_error(SetupCode::usage, fmt::format("{} takes nothing behind it", options.action));
+        return setup_error(SetupCode::usage, fmt::format("{} takes no argument", options.action));
     Json request{{"cmd", options.action}};
     if (takes_argument) request[options.action == "add" ? "url" : "name"] = options.argument;
     return request;
@@ -83,7 +83,7 @@ void print_endpoint(fmt::appender out, const Json& o) {
 }
 void print_gone(fmt::appender out, const Json& o) {
     const auto all = nonzero(o, {});
-    if (!all.empty()) fmt::format_to(out, "links that are gone of {}: {}\n", o.value("endpoint", ""), all);
+    if (!all.empty()) fmt::format_to(out, "closed links of {}: {}\n", o.value("endpoint", ""), all);
 }
 void print_traffic(fmt::appender out, const Json& o) {
     fmt::format_to(out, "  in {}, {}; out {}, {}\n", counted(o.value("frames_in", 0ull), "frame"),
@@ -97,7 +97,7 @@ void print_link(fmt::appender out, const Json& o) {
     print_traffic(out, o);
 }
 void print_others(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "all other links, and those that are gone\n");
+    fmt::format_to(out, "all other links, and closed links\n");
     print_traffic(out, o);
 }
 void print_page(fmt::appender out, const Json& o) {
@@ -124,8 +124,8 @@ void print_recording(fmt::appender out, const Json& o) {
     fmt::format_to(out, "recording {}: {}\n", o.value("endpoint", ""), nonzero(o, {}));
 }
 void print_unknown_target(fmt::appender out, const Json& o) {
-    fmt::format_to(out, "not routed: {} for {}/{}, which nobody has heard\n", counted(o.value("frames", 0ull), "frame"),
-                   o.value("sys", 0), o.value("comp", 0));
+    fmt::format_to(out, "not routed: {} for {}/{}, which was not heard on any link\n",
+                   counted(o.value("frames", 0ull), "frame"), o.value("sys", 0), o.value("comp", 0));
 }
 
 std::string table_of(const std::vector<std::string>& lines) {
@@ -198,7 +198,7 @@ Exit stat(const StatOptions& options) {
 
 Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();
-    command.add_option("name", options->name, "the router's --name (router unless it was given one)")
+    command.add_option("name", options->name, "the router's --name, which is router by default")
         .required()
         .type_name("NAME");
     command.add_option("action", options->action, "links, routes, stats, add URL or remove NAME")
@@ -221,8 +221,8 @@ Run declare_stat(Arguments command, const Common&) {
         .type_name("NAME");
     command.add_flag("--json", options->json, "one JSON object a line");
     command.footer(
-        "A router with --ring is not disturbed: its counter page is read. Others are asked, as `ctl NAME stats` "
-        "does.\n\n"
+        "Reads the counter page of a router with --ring, without disturbing it. Asks other routers, as "
+        "`ctl NAME stats` does.\n\n"
         "Examples: mavloom stat router\n"
         "          mavloom stat px4 --json");
     return [options] { return stat(*options); };

@@ -252,19 +252,25 @@ Exit bench_shm(const RingOptions& options) {
                           [&] { good = good && hand_over(*writer, *readers, options, next); });
     (void)writer->close(shm::RingWriter::Leave::nothing);
     if (!readers) return fail(readers.error());
-    if (!good) return fail(Exit::mismatch, "a reader did not get what was written");
+    if (!good) return fail(Exit::mismatch, "a reader received wrong data, or none in time");
     if (!Signals::received()) print(options, rate);
     return Signals::status(Exit::done);
 }
 
 Arguments declare_shm(Arguments command, RingOptions& options) {
-    auto sub = command.add_subcommand("shm", "hand records over by a ring to other threads: records a second");
+    auto sub = command.add_subcommand("shm", "pass records through a ring to other threads: records a second");
     sub.add_option("--readers", options.readers, "lossless readers, each with a thread; 1 to 64")
         .capture_default_str()
         .type_name("N")
         .range(1, 64);
-    sub.add_option("--bytes", options.bytes, "of a record, 8 to 65536").capture_default_str().type_name("N").range(8, 65536);
-    sub.add_option("--records", options.records, "for each turn").capture_default_str().type_name("N").range(1, 1 << 30);
+    sub.add_option("--bytes", options.bytes, "size of a record, 8 to 65536")
+        .capture_default_str()
+        .type_name("N")
+        .range(8, 65536);
+    sub.add_option("--records", options.records, "records for each turn")
+        .capture_default_str()
+        .type_name("N")
+        .range(1, 1 << 30);
     sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
         .capture_default_str()
         .type_name("N")
@@ -282,7 +288,7 @@ Arguments declare_one(Arguments command, Options& options, const char* name, con
         .capture_default_str()
         .type_name("N")
         .range(1, 10'000);
-    sub.add_option("--chunk", options.chunk_text, "bytes handed to the parser at once: 4096, 64k; up to 1G")
+    sub.add_option("--chunk", options.chunk_text, "bytes passed to the parser at once: 4096, 64k; up to 1G")
         .capture_default_str()
         .type_name("BYTES");
     sub.add_flag("--json", options.json, "one JSON object a line");
@@ -301,7 +307,7 @@ Run declare_bench(Arguments command, const Common& common) {
     auto ring = declare_shm(command, *ring_options);
     command.require_subcommand();
     command.footer(
-        "Example:\n  mavloom bench parse flight.tlog\n\n./run bench puts other programs beside these figures.");
+        "Example:\n  mavloom bench parse flight.tlog\n\n./run bench compares other programs with these figures.");
     return [options, ring_options, parse, ring, &common] {
         if (ring.parsed()) return bench_shm(*ring_options);
         return parse.parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);

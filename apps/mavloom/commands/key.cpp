@@ -10,14 +10,14 @@ static Exit create_key(const Common& common, const std::string& file) {
     const auto key = wire::SigningKey::random();
     if (!key) return fail(key.error());
     if (const auto created = key->create_file(file); !created) return fail(created.error());
-    say(common, fmt::format("{}: a new key; who has this file can sign, keep it secret", file));
+    say(common, fmt::format("{}: new key; anyone who has this file can sign, so keep it secret", file));
     return Exit::done;
 }
 
 Run declare_key(Arguments command, const Common& common) {
     auto file = std::make_shared<std::string>();
     auto create = command.add_subcommand("new", "write a new random signing key to a file of mode 0600");
-    create.add_option("file", *file, "the file to make").required().type_name("FILE");
+    create.add_option("file", *file, "the file to create").required().type_name("FILE");
     create.footer("Example: mavloom key new link.key");
     command.require_subcommand();
     command.footer(

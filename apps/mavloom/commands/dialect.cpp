@@ -121,7 +121,7 @@ Exit run_check(const Options& options) {
     } else {
         fmt::format_to(std::back_inserter(out),
                        "{}: good; {} with {}, {} with {}\n"
-                       "Beside the built-in definitions: {} new, {} with another name or wire form\n",
+                       "Compared with the built-in definitions: {} new, {} with another name or wire form\n",
                        printable(options.file), counted(s.messages, "message"), counted(s.fields, "field"),
                        counted(s.enums, "enum"), counted(s.entries, "entry", "entries"), counted(s.added, "id"),
                        s.changed);
@@ -152,7 +152,7 @@ Run declare_dialect(Arguments command, const Common& common) {
                      "Examples: mavloom dialect show ATTITUDE\n"
                      "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
     show.add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT").required();
-    auto check = part("check", "read an XML file and what it includes; status 3 when there is a fault",
+    auto check = part("check", "read an XML file and its includes; status 3 if there is an error",
                       "Example: mavloom dialect check mine.xml");
     check.add_option("FILE", options->file, "message definitions in MAVLink's XML").required();
     return [&common, options, list, show, check] {

@@ -87,7 +87,7 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     if (endpoint::parse_endpoint(options.explain))
         return setup_error(
             SetupCode::usage,
-            fmt::format("--explain takes a message's name, not '{}'; put it behind the endpoints", options.explain));
+            fmt::format("--explain takes a message's name, not '{}'; put it after the endpoints", options.explain));
     for (const auto& text : options.endpoints) {
         auto endpoint = router::parse_router_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
@@ -98,7 +98,7 @@ SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dial
     plan.config = std::move(*config);
     const auto endpoints = plan.endpoints();
     if (endpoints.empty())
-        return setup_error(SetupCode::usage, "nothing to route between: name endpoints or a --config that has some");
+        return setup_error(SetupCode::usage, "nothing to route between: give endpoints, or a --config with some");
     if (auto good = check_recordings(endpoints); !good) return tl::unexpected(std::move(good.error()));
     return plan;
 }
@@ -154,7 +154,8 @@ public:
 private:
     void leave_out(std::size_t lines) {
         if (left_out_ == 0 && output_.state() == Output::State::open)
-            say(common_, "what --explain says is not read fast enough; explanations are left out, and routing goes on");
+            say(common_,
+                "the output of --explain is read too slowly; explanations are left out, and routing continues");
         left_out_ += lines;
     }
 
@@ -211,29 +212,30 @@ private:
         router_.explain({});
         explain_failed_ = explain->output().state() == Output::State::failed;
         if (explain_failed_) (void)fail(explain->output().error());
-        say(common_, explain_failed_ ? "--explain ends here; routing goes on"
-                                     : "nobody reads what --explain says any more; it ends, and routing goes on");
+        say(common_, explain_failed_ ? "--explain ended; routing continues"
+                                     : "the reader closed the output of --explain, which ended; routing continues");
         explain->tell_left_out();
         explain.reset();
     }
 
     void reload() {
-        if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to read again");
+        if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to reread");
         std::error_code unknown;
         const auto type = std::filesystem::status(options_.config, unknown).type();
         if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
-            return tell(fmt::format("mavloom: {} is a pipe or a terminal, which is read once; nothing was changed",
-                                    options_.config));
+            return tell(
+                fmt::format("mavloom: {} is a pipe or a terminal, which can be read only once; nothing was changed",
+                            options_.config));
         auto config = read_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         // An editor may have truncated it.
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))
-            return tell(fmt::format("mavloom: {} names no endpoint; nothing was changed", options_.config));
+            return tell(fmt::format("mavloom: {} has no endpoint; nothing was changed", options_.config));
         if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
             return tell(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
         const bool same_rules = config->router == plan_.config.router;
-        if (config->ring != plan_.config.ring) tell("mavloom: [ring] stays as it is until the router starts anew");
+        if (config->ring != plan_.config.ring) tell("mavloom: a changed [ring] takes effect when the router restarts");
         config->ring = plan_.config.ring;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
@@ -258,7 +260,7 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     if (auto opened = router.open_ring(ring); !opened) return opened;
     const auto path = link::Links::inlet_path(ring.name);
     if (path) return router.open_inlet(ring, *path);
-    say(common, fmt::format("{}; programs cannot send by ring {}", path.error().text, ring.name));
+    say(common, fmt::format("{}; programs cannot send through ring {}", path.error().text, ring.name));
     return {};
 }
 
@@ -326,35 +328,35 @@ Exit route(const Common& common, const Options& options) {
 
 Run declare_route(Arguments command, const Common& common) {
     auto options = std::make_shared<Options>();
-    command.add_option("endpoint", options->endpoints, "what to route between; any number").type_name("ENDPOINT");
+    command.add_option("endpoint", options->endpoints, "an endpoint to route between; any number")
+        .type_name("ENDPOINT");
     command
-        .add_option("--config", options->config,
-                    "a configuration file (docs/guide/configuration.md); SIGHUP reads it again")
+        .add_option("--config", options->config, "a configuration file (docs/guide/configuration.md); SIGHUP rereads it")
         .type_name("FILE");
     command
         .add_option("--explain", options->explain,
-                    "say on stdout for every frame, or for those of one message, where it went and why")
+                    "print for every frame, or for those of one message, where it went and why")
         .expected(0, 1)
         .default_str("*")
         .type_name("[MESSAGE]");
     command
         .add_option(
             "--ring", options->ring,
-            "write every good frame into this ring, /dev/shm/mavloom.NAME, for programs of this machine, and take "
-            "what they send there")
+            "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and forward "
+            "what they send")
         .type_name("NAME");
     command
         .add_option("--name", options->name,
-                    "what `mavloom ctl` and `stat` call it by: A-Z a-z 0-9 _ - (the ring's name, else router)")
+                    "the name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the ring's name, else router)")
         .type_name("NAME");
     command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
         .type_name("HOST:PORT");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
-        "Every frame goes on as it came, byte for byte: broadcasts to all other links, targeted ones to where their "
-        "target was heard.\nEach peer of udpin:// and client of tcpin:// is a link of its own. tlog://PATH records all "
-        "that "
-        "arrives.\n\nExamples:\n"
+        "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "
+        "target was heard.\nEach peer of udpin:// and each client of tcpin:// is its own link. tlog://PATH records "
+        "every "
+        "frame that arrives.\n\nExamples:\n"
         "  mavloom route --config examples/px4-qgc.toml\n"
         "  mavloom route udpin://0.0.0.0:14540 udpout://192.168.1.20:14550\n"
         "  mavloom route serial:///dev/ttyACM0?baud=921600 tcpin://0.0.0.0:5760 tlog://flight.tlog\n"

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "destinations.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
+#include "sending.hpp"
 #include "signals.hpp"
 #include "traffic_report.hpp"
 
@@ -59,7 +59,7 @@ private:
     SetupResult<void> flush() {
         auto flushed = writer_.flush();
         if (flushed || !writer_.is_full_disk(flushed.error())) return flushed;
-        say(common_, fmt::format("{}; waiting for room: what does not fit into --buffer meanwhile is counted",
+        say(common_, fmt::format("{}; waiting for room; frames that do not fit into --buffer are dropped and counted",
                                  flushed.error().text));
         while (!flushed && writer_.is_full_disk(flushed.error()) && goes_on()) {
             ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends the wait
@@ -144,11 +144,12 @@ Run declare_record(Arguments command, const Common& common) {
     command
         .add_option("-o,--output", options->file,
                     "the file to write; an existing one is first renamed FILE.1. FILE.tlog?rotate_bytes=100M or "
-                    "?rotate_every=1h goes "
-                    "on in new files")
+                    "?rotate_every=1h "
+                    "begins new files")
         .required()
         .type_name("FILE");
-    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
+    command.add_flag("--json", options->json,
+                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.footer(
         "Records every good frame with the kernel's receive time, in the tlog format (docs/formats/tlog.md).\n\n"
         "Examples:\n  mavloom record udpin://0.0.0.0:14550 -o flight.tlog --for 10m\n"

@@ -9,12 +9,14 @@
 
 #include "command.hpp"
 #include "counted.hpp"
-#include "destinations.hpp"
 #include "mavloom/feed/sources.hpp"
+#include "mavloom/link/flush.hpp"
 #include "mavloom/record/tlog_index.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
+#include "sending.hpp"
 #include "signals.hpp"
+#include "traffic_report.hpp"
 
 namespace mavloom::app {
 
@@ -36,7 +38,7 @@ struct Options {
 
 class Replayer : private link::LinkHandler {
 public:
-    Replayer(const Common& common, const Options& options, feed::Sources& sources, Destinations& destinations)
+    Replayer(const Common& common, const Options& options, feed::Sources& sources, feed::Destinations& destinations)
         : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
 
     Exit run(MonoTime end) {
@@ -45,7 +47,7 @@ public:
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
             show_progress();
         }
-        flush();
+        link::flush(sources_.links(), *this, longest_flush);
         if (progress_shown_) talk("\n");
         return finish();
     }
@@ -53,7 +55,7 @@ public:
     // Waits until every destination has a peer.
     void wait_for_peers(MonoTime end) {
         if (options_.no_wait || destinations_.all_up()) return;
-        say(common_, "waiting for somebody to send to (--no-wait to start at once)");
+        say(common_, "waiting until every destination has a peer (--no-wait starts at once)");
         while (going(end) && !destinations_.all_up()) sources_.links().turn(*this, mono_now() + 100ms);
     }
 
@@ -68,12 +70,6 @@ private:
     void on_notice(link::EndpointId, std::string_view text) override { say(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
-
-    void flush() {
-        const auto limit = mono_now() + longest_flush;
-        while (sources_.links().pending() && mono_now() < limit) sources_.links().turn(*this, mono_now() + 20ms);
-        sources_.links().turn(*this, MonoTime{});  // collects the errors of the last datagrams
-    }
 
     void show_progress() {
         const auto now = mono_now();
@@ -93,15 +89,15 @@ private:
         read.add(counters);
         Json totals{{"frames", frames_}, {"bytes", bytes_}};
         totals.update(losses_json(read));
-        return stats_line({{"destinations", destinations_.sums_json()}, {"totals", std::move(totals)}});
+        return stats_line({{"destinations", sums_json(destinations_)}, {"totals", std::move(totals)}});
     }
 
     Exit finish() {
         const auto closed = destinations_.close();
-        destinations_.say_sums(common_);
+        say_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
-            say(common_, fmt::format("nothing lies behind --start {}", options_.start));
+            say(common_, fmt::format("the recording ends before --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
             say(common_,
                 fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
@@ -120,7 +116,7 @@ private:
     const Common& common_;
     const Options& options_;
     feed::Sources& sources_;
-    Destinations& destinations_;
+    feed::Destinations& destinations_;
     MonoTime next_progress_{};
     bool progress_shown_ = false;
     std::uint64_t frames_ = 0, bytes_ = 0;  // read from the recording so far
@@ -163,9 +159,9 @@ Exit replay(const Common& common, Options& options) {
     if (!sources) return fail(sources.error());
     if (auto checked = sources->check(*endpoint); !checked) return fail(checked.error());
     if (is_written_over(*endpoint, options.to))
-        return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; name another file", options.file));
+        return fail(Exit::wrong_use, fmt::format("--to is the recording itself, {}; choose another file", options.file));
     const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
-    auto destinations = Destinations::open(common, options.to, sources->links());
+    auto destinations = open_destinations(common, options.to, sources->links());
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const MonoTime forever = MonoTime::max();
     Replayer replayer(common, options, *sources, *destinations);
@@ -187,9 +183,10 @@ Run declare_replay(Arguments command, const Common& common) {
     command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")
         .type_name("TIME");
     command.add_option("--for", options->duration, "end after this time").type_name("TIME");
-    command.add_flag("--no-wait", options->no_wait, "start even if nobody is there to send to");
+    command.add_flag("--no-wait", options->no_wait, "start even if a destination has no peer");
     options->selection.declare(command);
-    command.add_flag("--json", options->json, "end with the sums as one JSON object on stdout (docs/guide/relay.md)");
+    command.add_flag("--json", options->json,
+                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
     command.footer("Example:\n  mavloom replay flight.tlog --to udpout://127.0.0.1:14550 --speed 2");
     return [options, &common] { return replay(common, *options); };
 }

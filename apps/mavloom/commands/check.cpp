@@ -97,15 +97,14 @@ Run declare_check(Arguments command, const Common& common) {
     auto json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
     command
         .add_flag("--convert", options->convert,
-                  "FILE is a configuration of mavlink-router: print ours, and name what it cannot carry over")
+                  "FILE is a configuration of mavlink-router: convert it, and report what cannot be converted")
         .excludes(json);
     command.footer(
-        "Prints every effective value and where it came from: default, FILE:LINE, or a variable of the environment "
-        "(MAVLOOM_ROUTER_DEDUP_MS\n"
-        "for dedup_ms in [router]). Status 3 for a file with an error, which is named with its line. Messages that "
-        "filters and rates\n"
-        "name are looked up in the built-in definitions and those of --dialect; key files are read; nothing is "
-        "bound.\n\n"
+        "Prints every effective value and its origin: default, FILE:LINE, or an environment variable, for example\n"
+        "MAVLOOM_ROUTER_DEDUP_MS for dedup_ms in [router]. If the file has an error, the text gives its line, and the\n"
+        "status is 3. Names of messages are looked up in the built-in definitions and those of --dialect. Key files "
+        "are\n"
+        "read; no port is opened.\n\n"
         "Examples:\n"
         "  mavloom check router.toml\n"
         "  mavloom check --convert main.conf > router.toml");

@@ -89,7 +89,7 @@ private:
         if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + short_backlog;
         if (mono_now() < backlog_end_) return true;
         going_ = ::isatty(STDOUT_FILENO) == 0;
-        if (going_) say(common_, "printing what was received; once more Ctrl-C ends at once");
+        if (going_) say(common_, "printing what was received; another Ctrl-C ends at once");
         backlog_end_ = MonoTime::max();
         return going_;
     }
@@ -144,7 +144,7 @@ Exit listen(const Common& common, Options& options) {
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
     const dialect::Message* csv = nullptr;
     if (!options.csv.empty() && !options.selection.only.empty())
-        return fail(Exit::wrong_use, fmt::format("--csv {} prints that one message; leave --only out", options.csv));
+        return fail(Exit::wrong_use, fmt::format("--csv {} prints that one message; omit --only", options.csv));
     if (!options.csv.empty()) {
         const auto message = dialect::find_message(*dialect, options.csv);
         if (!message) return fail(SetupError(message.error()).within("--csv"));
@@ -169,9 +169,8 @@ Run declare_listen(Arguments command, const Common& common) {
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nEnds with status 0 whatever the "
-        "link lost; 130 after Ctrl-C; 1 where "
-        "nobody took the output behind the end of --for.");
+        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nThe status is 0 whatever the "
+        "link lost, 130 after Ctrl-C, and 1 if messages could not be printed because the output stalled at the end.");
     return [options, &common] { return listen(common, *options); };
 }
 

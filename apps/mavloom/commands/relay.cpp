@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "counted.hpp"
+#include "mavloom/edit/stage.hpp"
+#include "mavloom/feed/relay.hpp"
+#include "mavloom/net/interfaces.hpp"
+#include "output.hpp"
+#include "receiving.hpp"
+#include "sending.hpp"
+#include "signals.hpp"
+#include "traffic_report.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> sources, to;
+    std::string duration;
+    edit::Options edit;
+    std::string sign_file;
+    bool as_v1 = false, as_v2 = false;
+    bool json = false;
+};
+
+// Logs the events of the relay. A signal ends it.
+class Events final : public feed::RelayHandler {
+public:
+    explicit Events(const Common& common) : common_(common) {}
+
+private:
+    bool should_stop() override { return Signals::received(); }
+    void on_waiting() override { say(common_, "waiting until every destination has a peer"); }
+    void on_started() override { say(common_, "every destination has a peer: starting"); }
+    void on_link_up(std::string_view name) override {
+        if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
+    }
+    void on_link_down(std::string_view name, std::string_view why) override {
+        if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", name, why));
+    }
+    void on_notice(std::string_view text) override { say(common_, text); }
+
+    const Common& common_;
+};
+
+// What the relay did: as log lines, and as one JSON object.
+void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
+                const feed::RelayOutcome& outcome) {
+    say_sums(common, destinations);
+    say(common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
+                            c.reencoded.value(), c.passed_untouched.value()));
+    const auto unless_zero = [&](std::string_view name, std::uint64_t count, std::string_view noun,
+                                 std::string_view rest) {
+        if (count != 0) say(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
+    };
+    unless_zero("rewrapped", c.rewrapped.value(), "frame", "without full definition, with a new header and checksum");
+    unless_zero("filtered", c.filtered.value(), "frame", "that --only leaves out");
+    unless_zero("rate_limited", c.rate_limited.value(), "frame", "over --max-rate");
+    unless_zero("not_v1", c.not_v1.value(), "frame", "that MAVLink 1 cannot carry");
+    unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
+    unless_zero("signature_removed", c.signature_removed.value(), "changed frame",
+                "now without signature (--sign gives a new one)");
+    unless_zero("unheard_answers", outcome.unheard_answers, "answer", "from the far side for which there was no source");
+    say_losses(common, outcome.totals);
+}
+
+std::string summary(const feed::Destinations& destinations, const edit::Counters& c, const feed::RelayOutcome& outcome) {
+    return stats_line({{"destinations", sums_json(destinations)},
+                       {"edit",
+                        {{"frames", c.frames.value()},
+                         {"reencoded", c.reencoded.value()},
+                         {"rewrapped", c.rewrapped.value()},
+                         {"passed_untouched", c.passed_untouched.value()},
+                         {"filtered", c.filtered.value()},
+                         {"rate_limited", c.rate_limited.value()},
+                         {"not_v1", c.not_v1.value()},
+                         {"not_signed", c.not_signed.value()},
+                         {"signature_removed", c.signature_removed.value()},
+                         {"backward", c.backward.value()},
+                         {"unheard_answers", outcome.unheard_answers}}},
+                       {"totals", losses_json(outcome.totals)}});
+}
+
+Exit status_of(const feed::RelayOutcome& outcome, Exit printed) {
+    if (outcome.write_error) return fail(*outcome.write_error);
+    if (printed != Exit::done) return printed;
+    if (outcome.is_incomplete || outcome.reached_nobody) return Signals::status(Exit::mismatch);
+    if (outcome.read_error) return fail(*outcome.read_error);
+    return Signals::status(Exit::done);
+}
+
+SetupResult<void> check_words(Options& options) {
+    if (options.as_v1) options.edit.as_version = wire::Version::v1;
+    if (options.as_v2) options.edit.as_version = wire::Version::v2;
+    if (!options.sign_file.empty()) {
+        auto key = wire::SigningKey::load(options.sign_file);
+        if (!key) return tl::unexpected(std::move(key.error()).within("--sign"));
+        options.edit.sign_key = *key;
+    }
+    if (!options.duration.empty())
+        if (auto time = endpoint::parse_duration(options.duration); !time)
+            return tl::unexpected(std::move(time.error()).within("--for"));
+    return {};
+}
+
+bool is_sent_to(const endpoint::Endpoint& ring, const std::vector<std::string>& to) {
+    return std::ranges::any_of(to, [&](const std::string& text) {
+        const auto endpoint = endpoint::parse_endpoint(text);
+        return endpoint && endpoint->scheme == endpoint::Scheme::shm && endpoint->path == ring.path;
+    });
+}
+
+SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
+    for (const auto& text : options.sources) {
+        auto endpoint = endpoint::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
+        if (endpoint->scheme == endpoint::Scheme::shm && is_sent_to(*endpoint, options.to))
+            return setup_error(SetupCode::usage, fmt::format("--to {} would send the ring its own records; choose "
+                                                             "another destination",
+                                                             endpoint->label()));
+        const bool is_ring = endpoint->scheme == endpoint::Scheme::shm;
+        if (is_ring && !endpoint->options.lossless) endpoint->options.lossless = true;
+        if (auto added = sources.add(*endpoint, mono_now()); !added) return tl::unexpected(std::move(added.error()));
+    }
+    return {};
+}
+
+// Whether `host` is a name of this machine, as far as that is known without a lookup.
+bool is_own_name(const std::string& host) {
+    std::array<char, HOST_NAME_MAX + 1> own{};
+    return ::gethostname(own.data(), own.size() - 1) == 0 && host == own.data();
+}
+
+// Whether a socket bound to `bound` receives what is sent to `host`. A socket on 0.0.0.0 receives no IPv6; one on ::
+// receives both.
+bool hears(const std::string& bound, const std::string& host, bool broadcast) {
+    const auto here = net::Address::parse(bound, 0);
+    const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
+    if (!there) return is_own_name(host);
+    if (!here) return true;
+    if (!here->is_any()) return *here == *there;
+    if (here->is_v4() && !there->is_v4()) return false;
+    return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
+}
+
+// Whether frames sent to `to` would arrive at `source` again.
+bool leads_back(const link::EndpointInfo& source, const endpoint::Endpoint& to) {
+    using endpoint::Scheme;
+    const auto in = source.endpoint.scheme;
+    const bool broadcast = to.scheme == Scheme::udpbcast;
+    const bool same_kind = (in == Scheme::udpin && (to.scheme == Scheme::udpout || broadcast)) ||
+                           (in == Scheme::tcpin && to.scheme == Scheme::tcpout);
+    return same_kind && source.local_port == to.address.port &&
+           hears(source.endpoint.address.host, to.address.host, broadcast);
+}
+
+SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, const std::vector<std::string>& to) {
+    for (const auto& text : to) {
+        const auto endpoint = endpoint::parse_endpoint(text);
+        const auto loop = std::ranges::find_if(
+            sources, [&](const auto& source) { return endpoint && leads_back(source, *endpoint); });
+        if (loop != sources.end())
+            return setup_error(
+                SetupCode::usage,
+                fmt::format("--to {} is where {} listens: every frame would loop forever; choose another "
+                            "port",
+                            endpoint->label(), loop->label()));
+    }
+    return {};
+}
+
+Exit relay(const Common& common, Options& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    if (auto checked = check_words(options); !checked) return fail(checked.error());
+    auto stage = edit::Stage::create(*dialect, options.edit);
+    if (!stage) return fail(stage.error());
+    for (const auto& warning : (*stage)->warnings()) say(common, warning);
+    auto sources = feed::Sources::create(*dialect, feed::Copies::left_out);
+    if (!sources) return fail(sources.error());
+    if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());
+    if (auto good = check_no_loop(sources->links().endpoints(), options.to); !good) return fail(good.error());
+    const Signals signals([](void* s) noexcept { static_cast<feed::Sources*>(s)->wake(); }, &*sources);
+    say_ports(common, sources->links().endpoints());
+    auto destinations = open_destinations(common, options.to, sources->links());
+    if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
+    const auto end = options.duration.empty() ? MonoTime::max()
+                                              : mono_now() + *endpoint::parse_duration(options.duration);
+    Events events(common);
+    using Signing = feed::Relay::Signing;
+    feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
+    const auto outcome = relaying.run(end);
+    const auto& counters = (*stage)->counters();
+    say_report(common, *destinations, counters, outcome);
+    const auto printed = options.json ? print_at_end(summary(*destinations, counters, outcome), Exit::done) : Exit::done;
+    return status_of(outcome, printed);
+}
+
+}  // namespace
+
+Run declare_relay(Arguments command, const Common& common) {
+    auto options = std::make_shared<Options>();
+    auto& edit = options->edit;
+    command.add_option("source", options->sources, "where to receive").required().type_name("SOURCE");
+    command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
+    command.add_option("--set", edit.set, "give a field this value: ATTITUDE.roll=0.1; may be repeated")
+        .type_name("MESSAGE.FIELD=VALUE");
+    command
+        .add_option("--remap-system", edit.remap_system,
+                    "change system id A to B, and back in answers from the far side")
+        .type_name("A=B");
+    command.add_option("--only", edit.only, "only these messages: names or ids, separated by commas")
+        .delimiter(',')
+        .type_name("NAMES");
+    command
+        .add_option("--max-rate", edit.max_rate,
+                    "at most this many a second of a message from each source; * is all telemetry: ATTITUDE:10,*:50")
+        .delimiter(',')
+        .type_name("MESSAGE:HZ");
+    auto v1 = command.add_flag("--as-v1", options->as_v1,
+                               "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
+    command.add_flag("--as-v2", options->as_v2, "send MAVLink 2").excludes(v1);
+    auto sign = command.add_option("--sign", options->sign_file,
+                                   "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)");
+    sign.type_name("FILE").excludes(v1);
+    command.add_option("--sign-link-id", edit.sign_link_id, "the link id in the signatures of --sign, 0 to 255")
+        .default_str(std::to_string(edit.sign_link_id))
+        .type_name("N")
+        .range(0, 255)
+        .needs(sign);
+    command.add_flag("--resequence", edit.resequence, "new sequence numbers, so that a filtered stream shows no loss");
+    command.add_flag("--json", options->json,
+                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
+    command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
+    command.footer(
+        "Without options, the output is byte for byte the input. Answers from the far side go back to the "
+        "sources. A ring is read losslessly unless ?lossless=false.\n\nExamples:\n"
+        "  mavloom relay udpin://0.0.0.0:14540 --to udpout://192.168.1.20:14550\n"
+        "  mavloom relay shm://px4 --to udpout://127.0.0.1:14550\n"
+        "  mavloom relay flight.tlog?speed=1 --to udpout://127.0.0.1:14550 --only ATTITUDE --resequence");
+    return [options, &common] { return relay(common, *options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "sending.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "counted.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+void say_renamed(const Common& common, const record::RotatingWriter& file) {
+    if (const auto old = file.renamed_to(); !old.empty())
+        say(common, fmt::format("{} exists and is now {}", file.path().string(), old.string()));
+}
+
+void say_sums(const Common& common, const feed::Delivery& sums) {
+    const auto frames = [&](std::uint64_t count, std::string_view what) {
+        if (count != 0) say(common, fmt::format("{}: {} {}", sums.name, counted(count, "frame"), what));
+    };
+    say(common, fmt::format("{}: {}, {} sent", sums.name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
+    frames(sums.dropped, "dropped: the far side was too slow or disconnected");
+    frames(sums.refused, "refused: no program listens there, or the host cannot be reached");
+    frames(sums.not_sent, "not sent: the system refused them");
+    frames(sums.nobody_there, "not sent: there was no peer");
+    if (sums.queued_bytes != 0)
+        say(common,
+            fmt::format("{}: {} still queued at the end, not sent", sums.name, counted(sums.queued_bytes, "byte")));
+}
+
+}  // namespace
+
+SetupResult<record::RotatingWriter> create_recording(const Common& common, const endpoint::Endpoint& endpoint,
+                                                     std::string_view option) {
+    auto file = feed::create_recording(endpoint);
+    if (!file) return tl::unexpected(std::move(file.error()).within(option));
+    say_renamed(common, *file);
+    return file;
+}
+
+SetupResult<feed::Destinations> open_destinations(const Common& common, const std::vector<std::string>& addresses,
+                                                  link::Links& links) {
+    std::vector<endpoint::Endpoint> endpoints;
+    for (const auto& address : addresses) {
+        auto endpoint = endpoint::parse_endpoint(address);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within("--to"));
+        endpoints.push_back(std::move(*endpoint));
+    }
+    auto all = feed::Destinations::open(endpoints, links, [&](const auto& file) { say_renamed(common, file); });
+    if (!all) return tl::unexpected(std::move(all.error()).within("--to"));
+    for (const auto& info : links.endpoints())
+        if (all->has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)
+            say(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
+    return all;
+}
+
+void say_sums(const Common& common, const feed::Destinations& destinations) {
+    for (const auto& sums : destinations.deliveries()) say_sums(common, sums);
+    for (const auto& file : destinations.files()) say_recorded(common, file);
+}
+
+Json sums_json(const feed::Destinations& destinations) {
+    auto all = Json::array();
+    for (const auto& sums : destinations.deliveries())
+        all.push_back({{"endpoint", sums.name},
+                       {"frames", sums.frames},
+                       {"bytes", sums.bytes},
+                       {"dropped", sums.dropped},
+                       {"refused", sums.refused},
+                       {"not_sent", sums.not_sent},
+                       {"nobody_there", sums.nobody_there},
+                       {"queued_bytes", sums.queued_bytes}});
+    for (const auto& file : destinations.files()) all.push_back(recorded_json(file));
+    return all;
+}
+
+void say_recorded(const Common& common, const record::RotatingWriter& file) {
+    const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
+    say(common, fmt::format("{}: {}, {} written{}", file.path().string(), counted(file.written_records(), "frame"),
+                            counted(file.written_bytes(), "byte"), files));
+    if (file.lost_records() != 0)
+        say(common, fmt::format("{}: {} not written", file.path().string(), counted(file.lost_records(), "frame")));
+}
+
+Json recorded_json(const record::RotatingWriter& file) {
+    return {{"endpoint", file.path().string()},
+            {"frames", file.written_records()},
+            {"bytes", file.written_bytes()},
+            {"not_written", file.lost_records()},
+            {"files", file.segments()}};
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The output side of relay, replay and record: opens what --to and --output name, and prints what became of the frames.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command.hpp"
+#include "mavloom/feed/destinations.hpp"
+
+namespace mavloom::app {
+
+using Json = nlohmann::ordered_json;
+
+// Creates the recording of a tlog:// destination. Logs the new name of a file that was there. Error texts begin with
+// `option`.
+[[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const Common& common,
+                                                                   const endpoint::Endpoint& endpoint,
+                                                                   std::string_view option);
+// Opens the addresses of --to; `links` must outlive the result. Logs the ports that the system chose.
+[[nodiscard]] SetupResult<feed::Destinations> open_destinations(const Common& common,
+                                                                const std::vector<std::string>& addresses,
+                                                                link::Links& links);
+
+// Logs "udpout://…: 40087 frames, 1834899 bytes sent" for each destination, and how many frames were lost and why.
+void say_sums(const Common& common, const feed::Destinations& destinations);
+// Returns the same totals as a JSON array. docs/guide/relay.md lists the keys.
+[[nodiscard]] Json sums_json(const feed::Destinations& destinations);
+
+// The same for one recording: "x.tlog: 12 frames, 348 bytes written".
+void say_recorded(const Common& common, const record::RotatingWriter& file);
+[[nodiscard]] Json recorded_json(const record::RotatingWriter& file);
+
+}  // namespace mavloom::app

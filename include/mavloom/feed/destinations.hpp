@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// The outputs of `relay` and `replay`: live endpoints and recordings. Destinations sends each frame to all of them. It
+// reports whether they have peers, how much room their queues have, and what each one sent and lost.
+//
+// One owner, on the thread that drives the links. A file that cannot be written does not stop the other destinations:
+// `failed` reports it, and `close` returns the error.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mavloom/link/links.hpp"
+#include "mavloom/record/rotating_writer.hpp"
+
+namespace mavloom::feed {
+
+// Creates the recording of a tlog:// destination. It rotates as the endpoint's options say.
+[[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const endpoint::Endpoint& endpoint);
+
+// What became of the frames for one live destination, including those on links that are gone. docs/guide/relay.md
+// explains the counts.
+struct Delivery {
+    std::string name;
+    std::uint64_t frames = 0, bytes = 0;  // sent
+    std::uint64_t dropped = 0;            // whole frames, from a queue
+    std::uint64_t refused = 0, not_sent = 0;
+    std::uint64_t nobody_there = 0;  // frames for which there was no link
+    std::uint64_t send_errors = 0;   // datagrams that were refused or rejected
+    std::uint64_t queued_bytes = 0;  // not sent yet
+
+    [[nodiscard]] bool lost_any() const noexcept {
+        return dropped != 0 || nobody_there != 0 || send_errors != 0 || queued_bytes != 0;
+    }
+};
+
+class Destinations {
+public:
+    using OnFile = std::function<void(const record::RotatingWriter&)>;
+
+    // Opens the endpoints; `links` must outlive the object. Files come last, because creating one renames an existing
+    // file: that does not happen if a link cannot be opened. `on_file` is called for each file that was created, also
+    // if a later one fails.
+    [[nodiscard]] static SetupResult<Destinations> open(std::span<const endpoint::Endpoint> endpoints,
+                                                        link::Links& links, const OnFile& on_file = {});
+
+    // Queues the frame for every peer of every endpoint, and writes it to the files with `time`. Returns false if no
+    // peer and no file took it.
+    bool send(const wire::FrameView& frame, WallTime time);
+    // How many frames of maximum length still fit into every queue. A source that can wait delivers no more than that.
+    [[nodiscard]] std::size_t room_in_frames() const;
+    // Whether every endpoint has at least one link that is up.
+    [[nodiscard]] bool all_up() const;
+    [[nodiscard]] bool has(link::EndpointId endpoint) const noexcept;
+
+    // How many frames were passed to `send`, and how many of them a peer or file took.
+    [[nodiscard]] std::uint64_t given() const noexcept { return given_; }
+    [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
+    // One entry for each live endpoint, in the order of `open`.
+    [[nodiscard]] std::vector<Delivery> deliveries() const;
+    [[nodiscard]] std::span<const record::RotatingWriter> files() const noexcept { return files_; }
+    // Whether a live endpoint lost frames: dropped, refused, without a peer, or still queued.
+    [[nodiscard]] bool lost_any() const;
+    // Whether there are no files and no frame was sent to any peer.
+    [[nodiscard]] bool reached_nobody() const;
+
+    // Whether a file could not be written. The command must then end.
+    [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }
+    // Writes what the files still buffer and closes them. Returns the first error of any file, including earlier ones.
+    [[nodiscard]] SetupResult<void> close();
+
+private:
+    struct Output {
+        link::EndpointId endpoint;
+        std::size_t queue_bytes = 0;
+        std::uint64_t nobody_there = 0;
+    };
+
+    explicit Destinations(link::Links& links) : links_(&links) {}
+    [[nodiscard]] SetupResult<void> add_link(const endpoint::Endpoint& endpoint);
+    [[nodiscard]] SetupResult<void> add_file(const endpoint::Endpoint& endpoint, const OnFile& on_file);
+    void keep(SetupResult<void> result);
+
+    link::Links* links_;
+    std::vector<Output> outputs_;
+    std::vector<record::RotatingWriter> files_;
+    std::optional<SetupError> failure_;
+    std::uint64_t given_ = 0, sent_ = 0;
+};
+
+}  // namespace mavloom::feed

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The loop of `mavloom relay`: frames of the sources pass the editing stage and go to the destinations; answers of the
+// destinations go back to the sources. docs/guide/relay.md describes what a user sees.
+//
+// Recordings wait until every destination has a peer; live sources do not wait. If a queue is full, recordings and
+// lossless rings are paused, so that nothing is dropped; a lossless ring then holds its writer.
+//
+// One owner thread, which also drives the links. All objects that are passed to the constructor must outlive the relay.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "mavloom/edit/stage.hpp"
+#include "mavloom/feed/destinations.hpp"
+#include "mavloom/feed/sources.hpp"
+#include "mavloom/feed/totals.hpp"
+
+namespace mavloom::feed {
+
+// What a relay reports while it runs. It calls these functions on its own thread.
+class RelayHandler {
+public:
+    virtual ~RelayHandler() = default;
+    // Called before each turn; true ends the relay. To end a turn that waits, call Sources::wake.
+    virtual bool should_stop() { return false; }
+    // A recording waits because a destination has no peer yet; and the wait is over.
+    virtual void on_waiting() {}
+    virtual void on_started() {}
+    virtual void on_link_up(std::string_view /*name*/) {}
+    virtual void on_link_down(std::string_view /*name*/, std::string_view /*why*/) {}
+    // LinkHandler::on_notice.
+    virtual void on_notice(std::string_view /*text*/) {}
+};
+
+struct RelayOutcome {
+    Totals totals;                      // of the sources
+    std::uint64_t unheard_answers = 0;  // answers for which there was no source
+    bool is_incomplete = false;         // all sources were recordings and ended, and a destination lost frames
+    bool reached_nobody = false;        // there were frames, or recordings that waited, and no destination took any
+    std::optional<SetupError> write_error, read_error;  // of the first file or recording that failed
+};
+
+class Relay : private link::LinkHandler {
+public:
+    // `on`: the stage signs. Only then does the relay read the clock for each frame.
+    enum class Signing : bool { off, on };
+
+    Relay(Sources& sources, Destinations& destinations, edit::Stage& stage, RelayHandler& handler,
+          Signing signing = Signing::off)
+        : sources_(sources), destinations_(destinations), stage_(stage), handler_(handler), signing_(signing) {}
+
+    // Relays until `end`, `should_stop`, the end of all recordings or the failure of a file. Then it delivers what had
+    // arrived, sends what is queued (for at most 5 s) and closes the files. Call it once.
+    [[nodiscard]] RelayOutcome run(MonoTime end);
+
+private:
+    void on_frame(const link::RxFrame& rx) override;
+    void on_link_up(LinkId, link::EndpointId, std::string_view name) override { handler_.on_link_up(name); }
+    void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {
+        handler_.on_link_down(sources_.links().link_name(link), why);
+    }
+    void on_notice(link::EndpointId, std::string_view text) override { handler_.on_notice(text); }
+
+    void turn(MonoTime end);
+    void wait_for_peers();
+    [[nodiscard]] std::size_t room() const;
+    [[nodiscard]] RelayOutcome finish();
+
+    Sources& sources_;
+    Destinations& destinations_;
+    edit::Stage& stage_;
+    RelayHandler& handler_;
+    Signing signing_;
+    std::uint64_t unheard_answers_ = 0;
+    bool has_started_ = false;  // every destination had a peer
+    bool has_waited_ = false;
+};
+
+}  // namespace mavloom::feed

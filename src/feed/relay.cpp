@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/feed/relay.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mavloom/link/flush.hpp"
+
+namespace mavloom::feed {
+
+static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
+static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
+static constexpr std::chrono::milliseconds look_for_room{1};  // a socket may have taken everything by then
+
+RelayOutcome Relay::run(MonoTime end) {
+    while (!handler_.should_stop() && mono_now() < end && !destinations_.failed() && !sources_.finished()) turn(end);
+    sources_.drain(*this, [this] { return Room(0, room(), frames_a_turn); });
+    link::flush(sources_.links(), *this, longest_flush);
+    return finish();
+}
+
+void Relay::turn(MonoTime end) {
+    if (!has_started_) wait_for_peers();
+    const std::size_t of_recordings = has_started_ ? room() : 0;
+    const Nanoseconds longest = of_recordings == 0 ? Nanoseconds{look_for_room} : Nanoseconds{longest_turn};
+    sources_.turn(*this, std::min(end, mono_now() + longest), {of_recordings, room(), frames_a_turn});
+}
+
+void Relay::wait_for_peers() {
+    has_started_ = destinations_.all_up();
+    if (has_started_ && has_waited_) handler_.on_started();
+    if (!has_started_ && sources_.has_recordings() && !std::exchange(has_waited_, true)) handler_.on_waiting();
+}
+
+void Relay::on_frame(const link::RxFrame& rx) {
+    if (destinations_.has(rx.endpoint)) {
+        const auto outcome = stage_.backward(rx.frame);
+        if (outcome.verdict == edit::Verdict::forward && sources_.send(outcome.frame) == 0) ++unheard_answers_;
+        return;
+    }
+    const auto outcome = stage_.forward(rx.frame, rx.time, signing_ == Signing::on ? wall_now() : WallTime{});
+    if (outcome.verdict == edit::Verdict::forward) destinations_.send(outcome.frame, rx.time);
+}
+
+std::size_t Relay::room() const { return std::min(frames_a_turn, destinations_.room_in_frames()); }
+
+RelayOutcome Relay::finish() {
+    RelayOutcome outcome;
+    sources_.add_to(outcome.totals);
+    if (auto closed = destinations_.close(); !closed) outcome.write_error = std::move(closed.error());
+    if (const auto* error = sources_.error()) outcome.read_error = *error;
+    outcome.unheard_answers = unheard_answers_;
+    outcome.is_incomplete = sources_.finished() && destinations_.lost_any();
+    const bool had_any = destinations_.given() != 0 || (has_waited_ && !has_started_);
+    outcome.reached_nobody = had_any && destinations_.reached_nobody();
+    return outcome;
+}
+
+}  // namespace mavloom::feed
