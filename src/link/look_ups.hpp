@@ -53,6 +53,10 @@ private:
     LookUps& look_ups_;
 };
 
+// How long an endpoint waits for the address of the host that it calls.
+[[nodiscard]] constexpr std::chrono::milliseconds look_up_limit(bool required) noexcept {
+    return std::chrono::milliseconds(required ? 5000 : 250);
+}
 // The error after a look-up that took 5 s.
 [[nodiscard]] SetupError no_answer(const endpoint::HostPort& host);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "mavloom/link/flush.hpp"
 #include "mavloom/ring/tap.hpp"
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
@@ -127,8 +128,7 @@ void Router::finish(Nanoseconds limit) {
     for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty; ++turns)
         empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;
     recordings_->publish();
-    const MonoTime end = mono_now() + limit;
-    while (links_->pending() && mono_now() < end) links_->turn(*this, std::min(end, mono_now() + Nanoseconds{5ms}));
+    link::flush(*links_, *this, limit);
     recordings_->stop();
     while (!posted_->empty()) posted_->run_one();
     endpoints_->remove_inlet();

@@ -35,8 +35,7 @@ public:
 
     // Resolves the host and connects, in the background.
     void begin() {
-        if (auto answer = look_up_now(info.endpoint.address, std::chrono::milliseconds(250)))
-            on_resolved(std::move(*answer));
+        if (auto answer = look_up_now(info.endpoint.address, look_up_limit(false))) on_resolved(std::move(*answer));
     }
     // Resolves the host and connects, and waits for the result.
     SetupResult<void> begin_and_wait();
@@ -141,7 +140,7 @@ void TcpOut::on_up_timer(MonoTime now) {
 }
 
 SetupResult<void> TcpOut::begin_and_wait() {
-    auto answer = look_up_now(info.endpoint.address, required_limit);
+    auto answer = look_up_now(info.endpoint.address, look_up_limit(true));
     if (!answer) return tl::unexpected(no_answer(info.endpoint.address));
     if (!*answer) return tl::unexpected(std::move(answer->error()));
     SetupError last{SetupCode::not_found, 0, "the host has no address of the family of bind="};

@@ -108,8 +108,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
     if (!local) return tl::unexpected(std::move(local).error());
     const bool required = endpoint.options.required && !core.running();
     auto opened = std::make_unique<UdpBroadcast>(opening, *local);
-    const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
-    auto answer = opened->look_up_now(endpoint.address, limit);
+    auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
     if (!answer && !required) return opened;
     if (!answer) return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
     auto done = opened->start(*answer);

@@ -161,8 +161,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
     if (!local) return tl::unexpected(std::move(local).error());
     const bool required = endpoint.options.required;
     auto opened = std::make_unique<UdpOut>(opening, *local);
-    const auto limit = required ? std::chrono::milliseconds(5000) : std::chrono::milliseconds(250);
-    auto answer = opened->look_up_now(endpoint.address, limit);
+    auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
     if (!answer) {
         if (!required || core.running()) return opened;
         return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
