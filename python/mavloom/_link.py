@@ -39,8 +39,8 @@ class Link:
     of its own.
     """
 
-    def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
-                 buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
+    def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
+                 dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
         """Opens what can be opened at once. Raises SystemFailure if, for example, the port is in use.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
@@ -67,8 +67,9 @@ class Link:
         """Returns the next message, or None after `timeout` seconds (0 polls, None waits for ever)."""
         return self._reader.recv(timeout)
 
-    def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None, blocking: bool = False,
-                   timeout: float | None = None, system: int | None = None, component: int | None = None) -> Message | None:
+    def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None,
+                   blocking: bool = False, timeout: float | None = None, system: int | None = None,
+                   component: int | None = None) -> Message | None:
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
 
         `type` takes names or classes of mavloom.messages. An unknown name is a ValueError, which suggests the nearest
@@ -76,15 +77,16 @@ class Link:
         """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
-    def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None) -> Subscription:
+    def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None,
+                  component: int | None = None) -> Subscription:
         """Returns a new reader of the messages that arrive from now on.
 
         Each reader gets every message. A reader keeps the link open as long as it exists.
         """
         return self._port.subscribe(type, system, component)
 
-    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None, instance: int | str | None = None,
-               max_age: float | None = None) -> Message | None:
+    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None,
+               instance: int | str | None = None, max_age: float | None = None) -> Message | None:
         """Returns the newest message of this type; None if none arrived, or none in the last `max_age` seconds.
 
         Takes no message away from `recv`.
@@ -218,7 +220,8 @@ class Link:
         for what, number in (("system", system), ("component", component)):
             if number is not None and not 0 <= number <= 255:
                 raise UsageError(f"{what}: {number} is out of range, 0 to 255")
-        chosen = [source for source in self.stats.sources if system in (None, source.sys) and component in (None, source.comp)]
+        chosen = [source for source in self.stats.sources if system in (None, source.sys)
+                  and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
         return 100.0 * lost / max(lost + sum(source.received - source.duplicate for source in chosen), 1)
 
@@ -232,7 +235,8 @@ class Latest(Mapping[str, Message]):
     def __getitem__(self, key: str) -> Message:
         name, bracket, rest = key.partition("[")
         instance: int | str | None = rest.rstrip("]") if bracket else None
-        if instance is not None and not any(field.instance and field.type == "char" for field in self._link.dialect[name].fields):
+        if instance is not None and not any(field.instance and field.type == "char"
+                                            for field in self._link.dialect[name].fields):
             with contextlib.suppress(ValueError):
                 instance = int(instance)
         message = self._link.latest(name, system=self._link.target_system or None, instance=instance)
@@ -275,10 +279,11 @@ class Sender:
         return run
 
 
-def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
-            buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
+def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
+            dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
     """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`.
 
     Also accepts pymavlink's spelling, `udpin:HOST:PORT`. With `version=1` the link sends MAVLink 1.
     """
-    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer, version=version)
+    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer,
+                version=version)

@@ -73,12 +73,18 @@ def ring_name(text: str) -> str:
 
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory; sends back what readers answer.",
-                                     epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
-    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
-    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
-    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring, and send by its socket (0600)")
+    parser = argparse.ArgumentParser("python -m mavloom.hear",
+                                     description="Hears MAVLink on a link and writes it to a ring in shared memory; "
+                                                 "sends back what readers answer.", epilog=EPILOG,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: "
+                                                   "udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
+    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME",
+                        help="letters, digits, _ and -, at most 64")
+    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE",
+                        help="bytes of a new ring, a power of two: 64k to 64G (8M)")
+    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL",
+                        help="who may open a new ring, and send by its socket (0600)")
     end = parser.add_mutually_exclusive_group()
     end.add_argument("--keep", action="store_true", help="leave the ring at the end, for the next writer")
     end.add_argument("--remove", action="store_true", help="take the ring away at the end, as it does unless --keep")
@@ -144,10 +150,12 @@ class Answers:
         stats = self._link.stats
         if stats.unheard_answers and not self._told_nobody:
             self._told_nobody = True
-            self._say(f"nobody is there on {self._link.name} for what readers of the ring send; it is counted and dropped")
+            self._say(f"nobody is there on {self._link.name} for what readers of the ring send; "
+                      "it is counted and dropped")
         if stats.refused and not self._told_refused:
             self._told_refused = True
-            self._say(f"a peer of {self._link.name} is gone: what readers of the ring send is refused there, and counted")
+            self._say(f"a peer of {self._link.name} is gone: what readers of the ring send is refused there, "
+                      "and counted")
 
 
 def hear(link: Link, ring: Ring, answers: Answers, signals: Signals, say: Callable[[str], None]) -> None:
@@ -161,11 +169,16 @@ def hear(link: Link, ring: Ring, answers: Answers, signals: Signals, say: Callab
 
 def summary(link: Link, name: str, written: int) -> str:
     stats = link.stats
-    losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
-              "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
-              "wrongly signed": stats.bad_signature, "sent back by readers of the ring": stats.answers, "of these had no peer to go to": stats.unheard_answers,
+    losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop,
+              "missed: the ring was full": stats.missed,
+              "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written,
+                                                                             0),
+              "with a wrong checksum": stats.crc_error, "wrongly signed": stats.bad_signature,
+              "sent back by readers of the ring": stats.answers, "of these had no peer to go to": stats.unheard_answers,
               "refused by a peer that is gone": stats.refused}
-    return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
+    return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}"
+                                                                                  for what, count in losses.items()
+                                                                                  if count)
 
 
 def run(options: argparse.Namespace, signals: Signals) -> int:
@@ -179,7 +192,8 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
             name = ring.writer.name
             answers = Answers(link, say)
             answers.serve(name, options.mode)
-            say(f"hearing on {link.name}, writing to ring {name}{'' if ring.writer.created else ', which was there before'}")
+            say(f"hearing on {link.name}, writing to ring "
+                f"{name}{'' if ring.writer.created else ', which was there before'}")
             hear(link, ring, answers, signals, say)
             say(summary(link, name, ring.written))
         finally:
@@ -195,7 +209,8 @@ def main(words: list[str] | None = None) -> int:
     try:
         return run(options, signals)
     except Error as error:
-        print(f"mavloom.hear: {error.strerror if isinstance(error, OSError) and error.strerror else error}", file=sys.stderr)
+        print(f"mavloom.hear: {error.strerror if isinstance(error, OSError) and error.strerror else error}",
+              file=sys.stderr)
         return 2 if isinstance(error, UsageError) else 3 if isinstance(error, InputError) else 1
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and editors see them."""
+"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and
+editors see them."""
 import pathlib
 import sys
 
