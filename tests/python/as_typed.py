@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What users type, for type checkers: the acceptance examples that docs/guide/python.md lists, which run in the tests that name them."""
+"""What users type, for type checkers: the acceptance examples that docs/guide/python.md lists, which run in the tests
+that name them."""
 import asyncio
 import os
 
