@@ -31,6 +31,7 @@ from pymavlink import mavutil  # after frames, which says that it is MAVLink 2
 pytestmark = pytest.mark.short
 
 GCS, VEHICLE = (255, 190), (1, 1)
+CLOCK_STEP_S = 0.02  # the router reads its clock once a turn of its loop
 
 
 @pytest.fixture
@@ -114,13 +115,21 @@ def test_a_group_has_one_mode(net, ctl, run, udp_port):
 def test_ctl_routes_are_what_was_heard(net, ctl):
     sut = net(("udpout", "tcpin"))
     sut.hears(1, VEHICLE)
+    begin = time.monotonic()
     sut.hears(1, VEHICLE)
+    heard = time.monotonic()
+    harness.wait_for(lambda: time.monotonic() > heard + 0.2, what="an age")
     sut.hears(2, GCS)
+    asked = time.monotonic()
     routes = lines_of(ctl(sut.router, "routes"))
+    now = time.monotonic()
 
-    assert {(r["sys"], r["comp"], r["frames"]) for r in routes} == {(1, 1, 2), (255, 190, 1)}
-    assert next(r["link"] for r in routes if r["sys"] == 1) == "A"
-    assert all(r["kind"] == "route" and 0 <= r["age_s"] < harness.DEFAULT_TIMEOUT_S for r in routes)
+    assert {(r["kind"], r["sys"], r["comp"], r["frames"]) for r in routes} == {
+        ("route", 1, 1, 2), ("route", 255, 190, 1)}
+    vehicle, station = sorted(routes, key=lambda route: route["sys"])
+    assert vehicle["link"] == "A"
+    assert asked - heard - CLOCK_STEP_S <= vehicle["age_s"] <= now - begin + CLOCK_STEP_S
+    assert 0 <= station["age_s"] <= now - heard - 0.2 + CLOCK_STEP_S
 
 
 def test_ctl_stats_has_sources_messages_and_unknown_targets(net, ctl):
@@ -155,12 +164,36 @@ def test_stats_keep_what_a_link_had_that_is_gone(net):
     assert gone["endpoint"] == had["endpoint"]
 
 
+VERDICTS = ("forwarded", "nowhere", "filtered", "rate_limited", "duplicate", "echo", "unknown_target", "consumed", "tap",
+            "private_link")
+
+
 def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
-    sut = net(("udpout", "udpout", "udpout"), options={2: "tap=true", 3: "private=true"})
-    for end in (2, 3):
-        sut[end].send(attitude((7, end)))
-    sut.router.wait_counter(sut[2], "tap", 1)
-    sut.router.wait_counter(sut[3], "private_link", 1)
+    sut = net(("udpout", "udpout", "udpout", "udpout"), rules={"dedup_ms": 60_000, "heartbeat": "7/191"},
+              options={2: "tap=true", 3: "private=true", 4: "in_block=ATTITUDE&max_rate=HEARTBEAT:0.01"})
+    sent = attitude(VEHICLE)
+    wanted = {number: dict.fromkeys(VERDICTS, 0) for number in (1, 2, 3, 4)}
+    for number, frame, verdict in (
+            (1, heartbeat(VEHICLE), "forwarded"), (1, heartbeat(VEHICLE), "rate_limited"), (1, sent, "forwarded"),
+            (1, sent, "duplicate"), (4, sent, "filtered"), (1, command(GCS, VEHICLE), "nowhere"),
+            (1, command(GCS, (66, 6)), "unknown_target"), (1, command(GCS, (7, 191)), "consumed"),
+            (2, attitude((7, 2)), "tap"), (3, attitude((7, 3)), "private_link")):
+        sut[number].send(frame)
+        wanted[number][verdict] += 1
+        sut.router.wait_counter(sut[number], verdict, wanted[number][verdict])
+    there = command(GCS, (5, 5))
+    sut[4].send(heartbeat((5, 5)))
+    wanted[4]["forwarded"] += 1
+    sut.router.wait_counter(sut[4], "forwarded", 1)
+    for number, verdict in ((1, "forwarded"), (4, "echo")):  # out to the only link that has its target, and back
+        sut[number].send(there)
+        wanted[number][verdict] += 1
+        sut.router.wait_counter(sut[number], verdict, wanted[number][verdict])
+
+    for number, verdicts in wanted.items():
+        link = sut.link(number)
+        assert {verdict: link[verdict] for verdict in VERDICTS} == verdicts
+        assert link["frames_in"] == sum(verdicts.values())
 
 
 def test_ctl_add_and_remove_while_it_runs(net, ctl):
