@@ -16,7 +16,7 @@ from measure import Kit, Load, measure  # noqa: E402
 
 
 class Pipeline(routers.Mavloom):
-    """The writer; the relay runs beside it. What is counted as CPU is the writer's."""
+    """The writer; the relay runs beside it. The CPU figure is the writer's alone."""
 
     def __init__(self, program, name, writer):
         super().__init__(program, name)

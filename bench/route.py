@@ -109,7 +109,7 @@ def spread(ratios):
 
 
 def wrongs(taken, name):
-    """What arrived and should not have, and what the load itself did not manage, over all rounds."""
+    """Lists unwanted arrivals and shortfalls of the load itself, over all rounds."""
     all_of = [results[name] for results in taken if name in results]
     words = [f"{what} {sum(result[what] for result in all_of)}"
              for what in ("damaged", "duplicates", "echoes", "reordered", "lost_at_sink")

@@ -25,7 +25,7 @@ class Missing(Exception):
 
 
 def run(command, what=None):
-    """What a program prints. `what`: an installer, whose failure is a missing peer."""
+    """Returns what a program prints. `what`: an installer, whose failure is a missing peer."""
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode == 0:
         return done.stdout

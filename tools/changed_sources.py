@@ -14,7 +14,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def changed_since(base: str) -> list[str]:
-    """Committed or not; files that nobody has told git about too."""
+    """Committed or not; files that are not added to git, too."""
     differing = subprocess.run(["git", "diff", "--name-only", base], cwd=ROOT, check=True, capture_output=True,
                                text=True).stdout.split()
     untracked = subprocess.run(["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, check=True,

@@ -231,12 +231,12 @@ def run(options, folder):
 
 
 def sent_by(replay):
-    """How many frames replay says it sent to each of its destinations (the fewest of them)."""
+    """The number of frames that replay reports as sent to each destination (the fewest of them)."""
     return min(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) frames, \d+ bytes sent", line)))
 
 
 def damaged_in(replay):
-    """In how many places of the flight replay says that it found damage, or a frame that nobody may pass on."""
+    """The number of places of the flight where replay reports damage, or a frame that may not be forwarded."""
     return sum(int(found[1]) for line in replay.talk
                if (found := re.search(r": (\d+) (damaged place|frames? not sent: an unknown)", line)))
 

@@ -8,9 +8,9 @@ is added to the file of the same name. Kept: names, ids, values, types, units, d
 bounds, dates and names of deprecation. Dropped: descriptions, comments, print formats, work-in-progress marks. The
 output depends on nothing but the two inputs.
 
-    tools/import_dialect.py                                     fetch both (cargo, pip) into a temporary folder
-    tools/import_dialect.py --upstream DIR --wheel FILE.whl     use what is there
-    tools/import_dialect.py --check                             change nothing; exit 4 if dialects/ differs from the result
+    tools/import_dialect.py                                   fetch both (cargo, pip) into a temporary folder
+    tools/import_dialect.py --upstream DIR --wheel FILE.whl   use these
+    tools/import_dialect.py --check                           change nothing; exit 4 if dialects/ would change
 """
 
 import argparse
@@ -28,7 +28,7 @@ TOP = "all.xml"
 DEFINITIONS_IN_CRATE = "mavlink/message_definitions/v1.0"
 DEFINITIONS_IN_WHEEL = "pymavlink/dialects/v20/"
 
-# What is kept of each element, in the order in which it is written.
+# The attributes of each element that are kept, in the order in which they are written.
 ATTRIBUTES = {
     "enum": ["name", "bitmask"],
     "entry": ["value", "name", "hasLocation", "isDestination", "hasAltitudeOnly"],

@@ -48,7 +48,7 @@ class NoAnswer(Exception):
 
 def heartbeat(system, number):
     """A HEARTBEAT (id 0, CRC_EXTRA 50) of component 1 that no other equals: `number` is its custom_mode.
-    Tells when a router is up."""
+    Its arrival shows that a router is up."""
     body = struct.pack("<BBBBBB3xIBBBBB", 9, 0, 0, number & 0xFF, system, 1, number, 2, 12, 81, 4, 3)
     crc = 0xFFFF
     for byte in body + b"\x32":
@@ -80,7 +80,7 @@ def dropped_by(sock):
 
 
 def cpu_seconds(pid):
-    """What all threads of a process have run, user and system."""
+    """CPU time of all threads of a process, user and system."""
     return sum(int((task / "schedstat").read_text().split()[0])
                for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
 

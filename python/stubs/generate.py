@@ -18,7 +18,7 @@ def python_type(field):
 
 
 def class_of(info):
-    # What Message has itself stands; the field is an item then.
+    # A field with the name of an attribute of Message is an item only.
     fields = [field for field in info.fields if not hasattr(mavloom.Message, field.name)]
     lines = [f"    @property\n    def {field.name}(self) -> {python_type(field)}: ..." for field in fields]
     return "\n".join([f"class {info.name}(Message):", *(lines or ["    ..."])])

@@ -67,7 +67,7 @@ def test_change_of_the_definitions_rebuilds_what_uses_them(installed, tmp_path):
 
 
 def attitude_lines(flight, peer):
-    """What the attitudes among these frames make, by pymavlink's module."""
+    """The lines expected for the attitudes among these frames, by pymavlink's module."""
     for message in map(peer.MAVLink(None).decode, map(bytearray, flight)):
         if message.get_type() == "ATTITUDE":
             values = " ".join(f"{value:.6f}" for value in (message.roll, message.pitch, message.yaw))

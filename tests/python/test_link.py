@@ -288,7 +288,7 @@ def test_rows_4_and_5_example_6_a_slow_consumer(peer):
 
 
 def test_row_5_the_bound_is_in_bytes(peer):
-    """What is kept fits into `buffer`: 20 bytes of frame and 16 beside it, rounded up to 48."""
+    """The kept messages fit into `buffer`: 20 bytes of frame and 16 beside it, rounded up to 48."""
     with mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 17) as link:
         vehicle = Vehicle(peer, link.port)
         mine = link.subscribe()
@@ -739,7 +739,7 @@ def test_row_29_numbers_that_do_not_fit_are_value_errors(link):
 
 
 def test_what_is_required_and_absent_raises(link, tmp_path):
-    """With another link open, whose loop nobody holds up."""
+    """With another link open, whose loop is not blocked."""
     with socket.socket() as closed:
         closed.bind(("127.0.0.1", 0))
         port = closed.getsockname()[1]

@@ -47,7 +47,7 @@ def numbers(link, count):
 def test_records_are_messages_with_their_time_link_and_verdict(ring, writer):
     writer.write(beat(1), time_ns=1_700_000_000_000_000_123, link=7, kind=1, verdict=FORWARDED)
     writer.write(beat(2), time_ns=5_000, link=8, kind=1, verdict=DUPLICATE)
-    writer.write(beat(3), link=8)  # by one who says nothing of it
+    writer.write(beat(3), link=8)  # without a kind
     writer.write(b"of another kind", kind=300)
     writer.write(b"\x55" * 30, kind=1)
     with mavloom.connect(f"shm://{ring}?from=oldest") as link:

@@ -160,7 +160,7 @@ def test_a_ground_station_completes_everything(start, ring, port, how):
     assert sorted(parameters) == [*range(PARAMETERS), 65535]
     assert mission == (0, 6) and result == 0 and vehicle.unanswered == []
     assert [done.status for done in ends] == [130] * len(running)
-    assert "had no peer to go to" not in ends[-1].stderr and "lost on the way here" not in ends[-1].stderr, ends[-1]
+    assert "without a peer" not in ends[-1].stderr and "lost before" not in ends[-1].stderr, ends[-1]
 
 
 def test_a_recorded_session_passes_both_ways_byte_for_byte(pipeline):
@@ -205,7 +205,7 @@ def test_what_readers_send_goes_to_every_peer(pipeline):
         pipeline.ground.sendto(answer, relay_address)
         pipeline.vehicle.settimeout(harness.DEFAULT_TIMEOUT_S)
         assert (pipeline.vehicle.recv(65536), second.recv(65536)) == (answer, answer)
-    assert "1 sent back by readers of the ring" in hear.stop().stderr
+    assert "1 sent by readers of the ring" in hear.stop().stderr
     relay.stop()
 
 
@@ -218,13 +218,13 @@ def test_an_answer_for_nobody_is_counted_and_said_once(start, ring, port, child_
         for _ in range(2):
             subprocess.run([PROGRAM, "replay", answers, "--to", f"shm://{ring}", "--speed", "max"], check=True,
                            env=child_environment, capture_output=True)
-            hear.wait_output("nobody is there on .* for what readers of the ring send", stream="err")
+            hear.wait_output(".* has no peer: frames that readers of the ring send", stream="err")
     finally:
         answers.unlink()
     done = hear.stop()
 
-    assert done.stderr.count("nobody is there on") == 1
-    assert "6 sent back by readers of the ring; 6 of these had no peer to go to" in done.stderr
+    assert done.stderr.count("has no peer") == 1
+    assert "6 sent by readers of the ring; 6 of these without a peer" in done.stderr
 
 
 def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_said_once(pipeline):
@@ -239,11 +239,11 @@ def test_an_answer_to_a_vehicle_that_is_gone_is_counted_and_said_once(pipeline):
 
     def told():
         pipeline.ground.sendto(next(answers), relay_address)
-        return "what readers of the ring send is refused there" in hear.stderr
+        return "frames that readers of the ring send to it are refused" in hear.stderr
     harness.wait_for(told, what="the refusal to be told")
     done = hear.stop()
 
-    assert done.stderr.count("is refused there") == 1 and "refused by a peer that is gone" in done.stderr
+    assert done.stderr.count("send to it are refused") == 1 and "refused by a peer that is gone" in done.stderr
     relay.stop()
 
 
@@ -302,7 +302,7 @@ def test_the_script_ends_when_the_port_is_taken(start, ring, ground, flight):
 
 def test_the_script_ends_with_ctrl_c_at_its_terminal(start, ring, port, ground):
     """A signal to all of its processes: the relay ends, mavloom.hear was started to ignore it, and the script ends
-    that, which still says what it heard."""
+    that, which still prints its summary."""
     script = start(SCRIPT, MAVLOOM_PROGRAM=str(PROGRAM), PYTHON=sys.executable, LISTEN=f"udpin://127.0.0.1:{port}",
                    RING=ring, TO=f"udpout://127.0.0.1:{ground.getsockname()[1]}")
     script.wait_output("writing to ring", stream="err")

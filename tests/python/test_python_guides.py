@@ -55,7 +55,7 @@ def test_examples_run(page, flight, tmp_path, child_environment):
 
 
 def numbers_in_names(word):
-    """What the names of this package's tests say they are about: {"17", "3.16", ...} of test_row_17_...,
+    """The numbers in the names of this package's tests: {"17", "3.16", ...} of test_row_17_...,
     test_rows_3_4_and_3_6_..."""
     found = set()
     for path in (ROOT / "tests" / "python").glob("test_*.py"):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`. "Row 3.N": the pitfalls of shared memory
-listed in docs/guide/python.md; other rows and examples: the wishes there. What is not here, or not all of it:
+"""RingWriter, RingReader and mavloom.hear, beside the program's `mavloom shm`.
+
+test_row_N_... covers row N of the table in docs/guide/python.md. Some rows are tested elsewhere, or not only here:
 
     3.4, 3.6  a writer killed at each step of a commit   tests/system/test_shm.py, test_a_writer_killed_at_*
     3.8       across PID namespaces                      tests/system/test_shm.py, test_locks_are_seen_from_*
@@ -104,7 +105,7 @@ def program(*words, **options):
 
 
 def status_of(name):
-    """What `mavloom shm stat` says."""
+    """Returns the output of `mavloom shm stat`."""
     return json.loads(program("shm", "stat", name, "--json"))
 
 
@@ -881,7 +882,7 @@ def test_example_10_the_program_writes_and_python_reads(writer, ring, lossless):
     assert found == lines if lossless else set(found) <= set(lines)
 
 
-# ---- losses that are told
+# ---- losses that are reported
 
 def test_row_5_a_lapped_reader_is_told_by_how_many(writer, ring):
     reader, sent, found = mavloom.RingReader(ring), 0, []
@@ -1358,7 +1359,7 @@ def test_a_signal_handler_that_raises_costs_no_record(ring, start, read, lossles
 @pytest.mark.parametrize("lossless", [False, True])
 @pytest.mark.parametrize("reads", ["filter(None, [reader.read(0)])", "next(reader.batches(0), ())"])
 def test_a_signal_handler_that_reads_the_same_reader_costs_no_record(ring, start, reads, lossless):
-    """What its caller had in hand comes first, once and whole."""
+    """The records that its caller had already taken come first, once and whole."""
     for read in ("[*filter(None, [reader.read()])]", "next(reader.batches(), ())"):
         code = SIGNALLED.replace("HANDLER", reads).replace("READ", read).replace("DEADLINE", str(DEADLINE_S))
         process = start(code, ring, lossless)
@@ -1728,7 +1729,7 @@ def test_row_17_threads_share_a_lossless_reader(writer, ring, batches):
 
 
 def in_thread(call):
-    """What a call gives, or raises, in a thread of its own."""
+    """Returns or raises what `call` does, in a thread of its own."""
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         return pool.submit(call).result(DEADLINE_S)
 
@@ -1961,7 +1962,7 @@ def test_pump_waits_for_the_claim_of_another_thread(ring, frames, full):
 @pytest.fixture
 def hear(child_environment, ring):
     """hear(words) -> a running `python -m mavloom.hear` that listens, and its port.
-    Ended before the ring is taken away, which it would make anew."""
+    Ended before the ring is removed, because it would create the ring again."""
     processes = []
 
     def call(*words, url=None, **options):
@@ -2048,7 +2049,7 @@ def test_hear_makes_a_ring_anew_that_somebody_takes_away(hear, ring, frames, tak
         assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[:100]
     for again in range(1, 3):
         take_away(ring)
-        assert process.stderr.readline() == f"ring {ring} was removed, and is made anew\n"
+        assert process.stderr.readline() == f"ring {ring} was removed; it is created again\n"
         with mavloom.RingReader(ring, lossless=True) as reader:
             send(port, frames[again * 100:][:100])
             assert [bytes(reader.read(DEADLINE_S).data) for _ in range(100)] == frames[again * 100:][:100]
@@ -2065,7 +2066,8 @@ def test_hear_tells_what_it_missed(hear, ring, frames):
         process.send_signal(signal.SIGINT)
         status, _, talk = ended(process)
         written = len([None for _ in iter(lambda: reader.read(0), None)])
-        assert status == 130 and f"; {1000 - written} not written: the ring was full" in talk and 100 < written < 1000
+        assert status == 130 and f"; {1000 - written} not written because the ring was full" in talk
+        assert 100 < written < 1000
 
 
 def test_hear_says_what_is_wrong(hear, writer, ring):

@@ -66,7 +66,7 @@ def test_row_25_mypy_knows_the_types_of_fields(mypy):
 
 
 def pyright(folder, version, *include):
-    """What it finds, as file:line: text. Packages without types are unknown, not guessed at."""
+    """Returns its findings, as file:line: text. Packages without types are unknown, not guessed at."""
     settings = {"include": include, "pythonVersion": version, "useLibraryCodeForTypes": False,
                 "reportMissingModuleSource": False}
     (folder / "pyrightconfig.json").write_text(json.dumps(settings))

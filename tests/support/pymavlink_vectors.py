@@ -152,13 +152,12 @@ def message_of(message_class, values: dict):
 
 
 def values_from(message, message_class) -> dict:
-    """What pymavlink decoded, text as the raw bytes it keeps: its str is ASCII, ends at the first NUL and has lost the
-    rest."""
+    """The values that pymavlink decoded. Text is the raw bytes, because its str is ASCII and ends at the first NUL."""
     return {field.name: getattr(message, f"_{field.name}_raw") if field.is_text else getattr(message, field.name)
             for field in fields_of(message_class)}
 
 
-# ---- the JSON form (DESIGN.md section 5)
+# ---- the JSON form (docs/guide/listen.md)
 
 def number_text(kind: str, value) -> str:
     """A number as JSON must show it: the shortest digits (numpy's, for float32), laid out as Python does."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the system tests share: running the program under a deadline, waiting for a condition, free ports.
+"""Helpers of the system tests: run the program under a deadline, wait for a condition, find free ports.
 Fixtures are in conftest.py."""
 import atexit
 import contextlib
@@ -38,7 +38,7 @@ RUN = _run_folder()
 
 
 def environment(more=None) -> dict:
-    """What the program gets: ours without what only tests know, and `more`, where None takes a variable away."""
+    """The program's environment: ours without the tests' own variables, plus `more`, where None removes a variable."""
     own = {name: value for name, value in os.environ.items()
            if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")}
     return {name: value for name, value in (own | (more or {})).items() if value is not None}
@@ -84,8 +84,8 @@ _ports = random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500)
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:
-    """A port nobody has bound a moment ago, never the same twice in a run.
-    Prefer port 0 where the program tells the port it got."""
+    """A port that was free a moment ago, never the same twice in a run.
+    Prefer port 0 if the program prints the port it got."""
     while True:
         port = _ports.pop()
         with socket.socket(socket.AF_INET, kind) as sock:
@@ -208,7 +208,7 @@ class Running:
 
 
 def end(processes):
-    """Kills what still runs, and takes away what a killed router leaves of its sockets."""
+    """Kills what still runs, and removes the sockets that a killed router leaves."""
     for process in processes:
         process.kill()
         if process.process.returncode != -signal.SIGKILL:

@@ -2,7 +2,7 @@
 """A bad network in user space, for UDP and TCP on this machine: delay, jitter, reordering, duplication, loss, all from
 one seed.
 
-What happens to the n-th datagram of a direction depends on the seed and on n only, never on when it came.
+The fate of the n-th datagram of a direction depends on the seed and on n only, never on when it came.
 Tests give the generator of the fixture `rng`, which prints MAVLOOM_SEED and takes it."""
 import contextlib
 import dataclasses

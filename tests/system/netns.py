@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Two machines side by side: network namespaces with a cable between them. For root with iproute2;
-elsewhere the tests skip and say so."""
+"""Two machines side by side: network namespaces with a cable between them. Needs root and iproute2;
+elsewhere the tests are skipped with that reason."""
 import ctypes
 import os
 import shutil

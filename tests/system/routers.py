@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A running `mavloom route` and the far ends of its links, for the system tests. A Net is a router with the ends 1, 2,
-3, ... around it, over any kind of link; it tells exactly which ends a frame reached, without waiting for what does not
-come."""
+3, ... around it, over any kind of link; it finds exactly which ends a frame reached, without waiting for frames that do
+not come."""
 import collections
 import itertools
 import json
@@ -84,7 +84,7 @@ def unknown(source=(1, 1), message_id=70371) -> bytes:
 
 class End:
     """The far end of a link: send(bytes), next() -> the next whole frame that came.
-    What comes must be frames and nothing else."""
+    Only whole frames may come."""
 
     def __init__(self, label=None):
         self.label = label  # of the router's endpoint; None: one of several links of an endpoint
@@ -107,7 +107,7 @@ class End:
         self.close()
 
     def until(self, last: bytes) -> list[bytes]:
-        """What came before this frame."""
+        """The frames that came before this one."""
         before = []
         while (frame := self.next()) != last:
             before.append(frame)
@@ -117,7 +117,7 @@ class End:
         return [self.next() for _ in range(number)]
 
     def now(self) -> list[bytes]:
-        """What is there now."""
+        """The frames that are there now."""
         while select.select([self], [], [], 0)[0]:
             self._take(self._read())
         there = list(self.got)
@@ -379,12 +379,12 @@ class Net:
             self.settle()
 
     def settle(self):
-        """Takes away what is on its way."""
+        """Receives and drops the frames that are on their way."""
         self._mark(1, range(1, len(self.ends) + 1))
 
     def _mark(self, start, watched) -> dict:
-        """What each watched end gets before a broadcast from `start`, and `start` itself before one from another
-        end."""
+        """The frames that each watched end gets before a broadcast from `start`, and `start` itself before one from
+        another end."""
         got = {}
         mark = heartbeat((0, 0))
         self[start].send(mark)

@@ -198,7 +198,7 @@ def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
 
     options = {(scheme, row[0]): row[2].removesuffix(" for udp*") for row in rows("endpoints.md") if len(row) == 4
                for scheme in urls if takes(row[1], scheme)}
-    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide says in words that TCP has no default
+    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide states in words that TCP has no default
     found = {(v["endpoint"].split(":")[0], v["key"]): v["value"] or "" for v in effective if v["section"] == "endpoint"
              and v["key"] != "url"}
     assert (found.pop(("tcpin", "idle")), found.pop(("tcpout", "idle"))) == ("", "")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What every command does with a line that is not right, and the words it uses: nothing is passed over in silence,
-nothing raw reaches the terminal."""
+"""Every command reports a wrong command line: no word is ignored silently, and no control character reaches the
+terminal."""
 import json
 import os
 import pathlib

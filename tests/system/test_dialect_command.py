@@ -88,7 +88,7 @@ def test_check_names_file_and_line_of_a_fault(run, tmp_path):
     (tmp_path / "mine.xml").write_text(MINE.replace("uint64_t", "uint65_t"))
     done = run("dialect", "check", "mine.xml", cwd=tmp_path)
     assert (done.status, done.stdout) == (3, "")
-    assert done.stderr.startswith("mavloom: mine.xml:2: type \"uint65_t\" of field 'flags'; expected ")
+    assert done.stderr.startswith("mavloom: mine.xml:3: type \"uint65_t\" of field 'flags'; expected ")
     assert run("dialect", "check", "none.xml", cwd=tmp_path).status == 3
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The files of examples/: each is a good configuration, and does what its comments say, on free ports in a copy."""
+"""The files of examples/: each is a good configuration, and does what its comments promise, on free ports in a copy."""
 import re
 import select
 import threading
@@ -60,8 +60,8 @@ class Stub:
 
 
 class Px4(Stub):
-    """Sends to the ground station's usual port until somebody speaks to it;
-    whoever that is first is its only partner from then on."""
+    """Sends to the ground station's usual port until it is spoken to;
+    the first speaker is its only partner from then on."""
 
     def __init__(self, sock, ground_port):
         self.ground, self.sequence, self.strangers = ("127.0.0.1", ground_port), 0, 0
@@ -82,7 +82,7 @@ class Px4(Stub):
 
 
 class Qgc(Stub):
-    """Answers whoever speaks to it with its heartbeat and a command for the vehicle."""
+    """Answers every sender with its heartbeat and a command for the vehicle."""
 
     def __init__(self, sock, system=255):
         self.sender = frames.sender(system, 190)
@@ -154,7 +154,7 @@ def test_px4_qgc_router_is_first_and_everybody_gets_everything(spawn, stubs, bri
 
 
 def test_px4_qgc_a_ground_station_that_was_there_before_the_router_spoke_gets_px4_alone(spawn, stubs, bridge, wait_for):
-    """What the file warns of, and the cure that it names."""
+    """The trouble that the file warns of, and the cure that it gives."""
     file, sockets, own_port = bridge
     qgc = stubs(Qgc(sockets["qgc"]))
     px4 = stubs(Px4(sockets["px4"], sockets["qgc"].getsockname()[1]))

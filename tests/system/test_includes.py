@@ -30,7 +30,7 @@ def names(cell: str) -> set:
 
 
 def module_table() -> dict:
-    """{module: (modules it may use, libraries it may use)} as the document says."""
+    """{module: (modules it may use, libraries it may use)} from the document."""
     rows = re.findall(r"^\| `(\w+)` \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "docs/design/modules.md").read_text(),
                       re.MULTILINE)
     return {module: (names(uses), names(libraries)) for module, uses, libraries in rows}

@@ -23,7 +23,7 @@ import pymavlink_vectors as vectors  # noqa: E402
 
 pytestmark = pytest.mark.short
 
-# What is not compared, and why: faults of pymavlink 2.4.50, each found by running it.
+# Not compared, because of faults of pymavlink 2.4.50, each found by running it.
 PEER_FAULTS = {
     "str of text fields": "pymavlink decodes text as ASCII and stops at the first NUL; "
                           "its raw bytes are compared instead",
@@ -116,7 +116,7 @@ def report(differences: list[str]):
     assert not differences, f"{len(differences)} differences, the first of them:\n{shown}"
 
 
-# ---- what JSON must say
+# ---- the expected JSON
 
 def expected_text(value: bytes) -> str:
     return value.rstrip(b"\0").decode("utf-8", errors="replace")

@@ -16,7 +16,7 @@ def beat(autopilot, system, sequence):
 
 
 def heard(sock, until):
-    """Decoded frames up to the one that `until` says is the last."""
+    """Decoded frames up to the first for which `until` is true."""
     parser, got = mavlink.MAVLink(None), []
     while not (got and until(got)):
         got += [parser.decode(bytearray(frame)) for frame in frames.split_frames(sock.recv(65536))]

@@ -445,7 +445,7 @@ def test_g6_a_chain_of_routers_keeps_every_byte(spawn, between):
     far.send(heartbeat((12, 1)))  # so that the first one knows the second
     near.next()
     flight = [record for _, record in frames.read_tlog(frames.FLIGHT)][:2000]
-    # What is for somebody whom nobody has heard goes nowhere; the two of the recording make themselves known first.
+    # Frames for a target that was not heard go nowhere, so the two of the recording are heard first.
     for number in range(0, len(flight), 20):
         near.send(b"".join(flight[number:number + 20]))
     harness.wait_for(lambda: first.link_of(near)["frames_in"] == len(flight), what="all frames")

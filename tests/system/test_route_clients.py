@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Real clients at the router: pymavlink, MAVProxy and MAVSDK load parameters, change one and move missions through it,
-to and from a vehicle that is made with pymavlink. What is for one of them reaches no other."""
+to and from a vehicle that is made with pymavlink. A frame for one of them reaches no other."""
 import json
 import os
 import subprocess

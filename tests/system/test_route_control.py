@@ -26,7 +26,7 @@ import harness
 import routers
 from frames import mavlink
 from routers import Net, Router, UdpEnd, attitude, command, damaged, heartbeat, unknown
-from pymavlink import mavutil  # after frames, which says that it is MAVLink 2
+from pymavlink import mavutil  # after frames, which sets MAVLink 2
 
 pytestmark = pytest.mark.short
 
@@ -164,8 +164,8 @@ def test_stats_keep_what_a_link_had_that_is_gone(net):
     assert gone["endpoint"] == had["endpoint"]
 
 
-VERDICTS = ("forwarded", "nowhere", "filtered", "rate_limited", "duplicate", "echo", "unknown_target", "consumed", "tap",
-            "private_link")
+VERDICTS = ("forwarded", "nowhere", "filtered", "rate_limited", "duplicate", "echo", "unknown_target", "consumed",
+            "tap", "private_link")
 
 
 def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
@@ -837,7 +837,7 @@ def test_reload_leaves_the_command_line_and_the_recording_alone(reloadable, tmp_
 
 
 def test_reload_keeps_a_groups_order_of_the_file(spawn, tmp_path):
-    """The first link of a `primary` group stays the first when it alone is opened anew."""
+    """The first link of a `primary` group stays the first when it alone is opened again."""
     first, second, station = (routers.UdpEnd(label=label) for label in ("first", "second", "station"))
     for end in (first, second, station):
         end.target = ("127.0.0.1", routers.udp_port())
@@ -1021,7 +1021,7 @@ def ticks_now():
 
 
 def unsigned_part(frame):
-    """What signing must not change: everything but the flag, the checksum and the signature."""
+    """The bytes that signing must not change: all but the flag, the checksum and the signature."""
     return frame[:2] + bytes([frame[2] & ~1]) + frame[3:10 + frame[1]]
 
 
@@ -1164,7 +1164,7 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
     sut.router.wait_counter(sut[3], "filtered", 1)
     sut[1].send(damaged())
     sut.router.wait_counter(sut[1], "crc_error", 1)
-    # What is there can be read while it goes on.
+    # The records can be read while the router runs.
     harness.wait_for(lambda: log.stat().st_size == sum(8 + len(frame) for frame in sent), what="the records")
     recording = harness.wait_for(lambda: (r := sut.router.stats("recording")[0])["frames"] == 6 and r,
                                  what="the counters")

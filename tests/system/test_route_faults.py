@@ -24,7 +24,7 @@ STRANGER_BYTES = 200
 
 
 def has_sanitizer(program) -> bool:
-    """Its allocator keeps what was freed: memory says nothing then."""
+    """Its allocator keeps freed memory, so that memory use proves nothing."""
     return any(mark in program.read_bytes() for mark in (b"__asan_init", b"__tsan_init"))
 
 
@@ -102,7 +102,7 @@ def noise(rng, size) -> bytes:
 
 
 def garbage(rng) -> bytes:
-    """What looks least like nothing: beginnings of frames, broken ones, noise."""
+    """Garbage that resembles frames: beginnings of frames, broken ones, noise."""
     good = routers.attitude((66, 66))
     broken = bytearray(good)
     broken[12] ^= 1 << rng.randrange(8)
@@ -143,7 +143,7 @@ def test_ten_thousand_peers_of_one_host_take_bounded_memory(pair, program):
             peer.bind((f"127.1.{number >> 8 & 255}.{number & 255}", 0))
             peer.sendto(routers.heartbeat((200, 1)), (LOCALHOST, net.port))
         if number % 10 == 0:
-            frame = net.say()  # at least once in any two seconds, as a vehicle does: it never gives way
+            frame = net.say()  # at least once in any two seconds, as a vehicle does: it is never evicted
         if number % 50 == 0:
             seen = harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"]
                                     + e["peers_refused"] >= number + 1 - most and e, what=f"{number} peers to be seen")
@@ -217,7 +217,7 @@ def fill_until_dropped(net, label, sent):
 
 
 def resumes_with_whole_frames(net, end, label, sent):
-    """What a reader gets who begins to read again: whole frames in order, and what is missing is counted."""
+    """A reader that begins to read again gets whole frames in order, and missing ones are counted."""
     last = net.say()
     sent.append(last)
     got = [*end.until(last), last]  # an End asserts that frame follows frame
@@ -341,7 +341,7 @@ class SmallLimit:
 
 
 class Tape:
-    """What is sent through a router, and what it says of its recording."""
+    """Sends frames through a router and reads the counters of its recording."""
 
     def __init__(self, net):
         self.net, self.sent = net, [net.first]
@@ -552,7 +552,7 @@ def test_a_loop_ends(spawn, make):
         sent = [routers.attitude() for _ in range(100)]
         for frame in sent:
             vehicle.send(frame)
-            vehicle.send(frame)  # a network that doubles, or a sender who repeats himself
+            vehicle.send(frame)  # a network that doubles, or a sender that repeats frames
         got = station.until(sent[-1])
 
         def moved():
@@ -712,7 +712,7 @@ def test_an_endpoint_that_hears_nothing_says_so_once(spawn):
         router = Router(spawn, f"udpout://{LOCALHOST}:{px4.port}?name=px4",
                         f"udpout://{LOCALHOST}:{copy.port}?name=copy&tap=true", rules={"heartbeat": "255/191"})
         told = router.process.wait_output(r"px4: nothing heard for 5 s; .*", stream="err")[0]
-        px4.count(60)  # it goes on
+        px4.count(60)  # it continues
 
     assert f"{LOCALHOST}:{px4.port}" in told and "PX4" in told
     assert router.process.stderr.count("nothing heard") == 1

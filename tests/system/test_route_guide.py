@@ -21,7 +21,7 @@ def keys_by_kind():
 
 @pytest.fixture
 def router(spawn, udp_port, udp_socket, tmp_path):
-    """(name, metrics URL) of a router that has something of every kind to tell."""
+    """(name, metrics URL) of a router whose answers contain every kind."""
     port = udp_port()
     name = f"guide-{port}"
     running = spawn("route", f"udpin://127.0.0.1:{port}", tmp_path / "all.tlog", "--name", name, "--metrics",
@@ -61,7 +61,7 @@ def test_every_key_is_explained():
                                "".join(re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| ", PAGE.split("| key | is |")[1],
                                                   re.MULTILINE))))
     undescribed = set().union(*keys_by_kind().values()) - explained
-    assert undescribed <= {"scheme", "up", "frames", "bytes"}  # the words say it
+    assert undescribed <= {"scheme", "up", "frames", "bytes"}  # the names explain themselves
 
 
 def test_metrics_have_the_documented_names(router):

@@ -110,8 +110,7 @@ class Sky:
         return [frame for frame in self.links[number].forth.delivered[since:] if frame[7] == ATTITUDE]
 
 
-# A link that brings the same bytes again has a sender who repeats himself, unless `dedup_ms` says otherwise
-# (docs/guide/routing.md).
+# The same bytes again on one link count as a sender's repetition, unless `dedup_ms` is set (docs/guide/routing.md).
 @pytest.mark.parametrize("profile, rules", [(BAD, None), (DOUBLING, {"dedup_ms": 1500})], ids=["losing", "doubling"])
 def test_of_two_bad_links_each_frame_comes_once(spawn, rng, profile, rules):
     with Sky(spawn, rng, "all", [profile, profile], rules) as sky:
@@ -177,7 +176,7 @@ class Flow:
         return harness.wait_for(stepped, what=what)
 
     def carries(self, *numbers, count=40):
-        """Goes on until one link of `numbers` alone has carried so much: which."""
+        """Continues until one link of `numbers` alone has carried so much: which."""
         marks = [len(link.forth.delivered) for link in self.sky.links]
         return self.until(lambda: [n for n in numbers if not self.moved(marks, 1 - n)
                                    and self.moved(marks, n) >= count], f"link {numbers} to carry")[0]
@@ -392,7 +391,7 @@ class Narrow:
 
 
 def in_machine(machine, make):
-    """What `make` makes, in the machine's network."""
+    """Calls `make` in the machine's network and returns its result."""
     made = []
 
     def run():

@@ -73,7 +73,7 @@ def records(name) -> list:
 
 class Tapped:
     """A router with a ring, a vehicle and a ground station;
-    a mark tells that all that was sent before is in the ring."""
+    a mark shows that all earlier frames are in the ring."""
 
     def __init__(self, spawn, ring, *extra, vehicle="", ground="", rules=None, options=("--ring",)):
         self.ring = ring
@@ -305,7 +305,7 @@ def test_killed_it_carries_on(tapped, spawn, run):
 
 
 def test_frames_of_a_killed_router_keep_the_names_of_its_links(tapped, run):
-    """Whoever lags behind reads them while the next router writes."""
+    """A reader that lags behind reads them while the next router writes."""
     net = tapped()
     first = [heartbeat(), attitude()]
     net.sent_by(net.vehicle, *first)
@@ -384,7 +384,7 @@ def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
     frame = heartbeat((30, 1))
     app(net.inlet).send(frame)
     assert next_from(net.vehicle) == frame
-    # Somebody else's is left alone, and told once.
+    # The socket of another program is left alone, and reported once.
     os.unlink(place)
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
         other.bind(place)
@@ -584,7 +584,7 @@ def test_a_command_reaches_the_vehicle_and_its_answer_is_in_the_ring(tapped, app
     names = harness.wait_for(lambda: len(found := net.names(run)) == 3 and found, what="three links")
     link, = {r.link for r in found if r.data == asked}
     assert names[link].startswith(f"shm://{net.ring}#@")
-    # Broadcasts go to the others, and nothing is sent to who reads the ring.
+    # Broadcasts go to the others, and nothing is sent to the readers of the ring.
     greeting = heartbeat(GCS)
     sender.send(greeting)
     assert next_from(net.ground) == greeting and next_from(net.vehicle) == greeting
@@ -615,8 +615,7 @@ def test_senders_are_links_by_their_address(tapped, app, run):
     bound.send(b"".join(several))
     harness.wait_for(lambda: several[-1] in [r.data for r in records(net.ring)], what="the last of several")
     assert [r.data for r in net.settled() if r.data in several] == several
-    # What one app sends another one finds in the ring; and a target that lives behind the inlet is known by what it
-    # sent.
+    # One program reads in the ring what another one sends. A target behind the inlet is known after it has sent.
     question = command((21, 1), (22, 1))
     bound.send(question)
     harness.wait_for(lambda: question in [r.data for r in records(net.ring)], what="the question")
@@ -691,7 +690,7 @@ def test_two_hundred_senders_come_and_go(tapped):
     harness.wait_for(lambda: sent[-1] in [r.data for r in records(net.ring)], what="the last one's frame")
     found = [r for r in net.settled() if r.data in sent]
     assert [r.data for r in found] == sent and len({r.link for r in found}) == 200
-    # Beyond 256 the longest idle gives way.
+    # Beyond 256 the longest idle is evicted.
     for number in range(200, 400):
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sock:
             sock.bind(f"\0{net.ring}-{number}")

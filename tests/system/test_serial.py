@@ -39,7 +39,7 @@ class Port:
             data = data[os.write(self.far, data):]
 
     def read(self):
-        """What is there now."""
+        """The bytes that are there now."""
         got = b""
         try:
             while chunk := os.read(self.far, 1 << 16):

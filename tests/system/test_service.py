@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The router as a service: what it tells a service manager (a socket of ours stands in for systemd's), and the unit
-that is installed."""
+"""The router as a service: its notifications to a service manager (a socket of ours stands in for systemd's), and the
+installed unit."""
 import os
 import re
 import shutil

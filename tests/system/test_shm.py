@@ -465,8 +465,8 @@ def test_the_hold_of_a_killed_reader_is_released(run, start, ring):
 
 
 def stopped_reader_holds(run, start, ring, seconds):
-    """Silence is never taken for death: the writer waits for a lossless reader that is stopped, and afterwards both go
-    on where they were."""
+    """Silence is never taken for death: the writer waits for a lossless reader that is stopped, and afterwards both
+    continue where they were."""
     writer = start("write", ring, "0", "wait")
     writer.wait_output("ready")
     reader = start("read", ring, "lossless", "0")

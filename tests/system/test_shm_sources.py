@@ -268,7 +268,7 @@ def test_a_lapped_listener_is_told_exactly_what_it_missed(run, spawn, feed, ring
     assert done.status == 130 and totals["lapped"] > 0
     assert totals["frames"] + totals["lapped"] == 10_000
     assert totals["frames"] == len(done.lines) - 1
-    # What the ring lost is not taken for loss of the link, though sequence numbers are missing.
+    # Records that the ring lost do not count as loss of the link, though sequence numbers are missing.
     assert [source["lost"] for source in stats_of(done)["sources"]] == [0]
 
 
@@ -436,7 +436,7 @@ def test_several_rings_and_a_socket_are_served_together(run, spawn, feed, ring, 
         wait_readers(run, ring)
         wait_readers(run, other)
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-            for n in range(10):  # each alone: whoever sleeps is woken by any of them
+            for n in range(10):  # each alone: any of them wakes a sleeping reader
                 one.write(numbered(1, n))
                 harness.wait_for(lambda n=n: len(listener.stdout.splitlines()) == 3 * n + 1, what="the first ring")
                 two.write(numbered(1, n))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A vehicle made with pymavlink that answers as an ArduPilot does: heartbeat, parameters, missions, commands.
-What has a target is sent to who asked."""
+A frame with a target goes to the sender that asked."""
 import threading
 import time
 
