@@ -41,8 +41,10 @@ def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[Reco
 async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None],
                most: int = MOST_AT_ONCE, timeout: float | None = None,
                look_again_s: float | None = None) -> AsyncGenerator[T, None]:
-    """Yields what `poll` returns, until it raises ClosedError.
-    If it returns None, waits for the source's descriptor."""
+    """Yields what `poll` returns, until it raises ClosedError or the source is silent for `timeout` seconds.
+
+    If `poll` returns None, waits for the source's descriptor, but calls `poll` again after `look_again_s` seconds.
+    """
     descriptor = source.event_fd()
     check_free(descriptor)
     loop = asyncio.get_running_loop()

@@ -41,7 +41,8 @@ class Link:
 
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
                  dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
-        """Opens what can be opened at once. Raises SystemFailure if, for example, the port is in use.
+        """Opens the endpoint at once. Raises SystemFailure if, for example, the port is in use, and UsageError for a
+        wrong address or option.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
         call waits for it for up to 5 s and then raises SystemFailure.
@@ -64,7 +65,10 @@ class Link:
             yield message
 
     def recv(self, timeout: float | None = None) -> Message | None:
-        """Returns the next message, or None after `timeout` seconds (0 polls, None waits for ever)."""
+        """Returns the next message, or None after `timeout` seconds (0 polls, None waits indefinitely).
+
+        Raises ClosedError if the link is closed, also while it waits.
+        """
         return self._reader.recv(timeout)
 
     def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None,
@@ -153,6 +157,7 @@ class Link:
 
     @property
     def dialect(self) -> Dialect:
+        """The definitions that this link decodes and encodes with."""
         return self._port.dialect
 
     def close(self) -> None:
@@ -196,7 +201,7 @@ class Link:
 
     @property
     def messages(self) -> Mapping[str, Message]:
-        """The newest messages of the target system, by name.
+        """The newest messages of the target system, by name. Raises KeyError for a message that was not received.
 
         For example link.messages["ATTITUDE"], or with an instance "BATTERY_STATUS[1]" or "NAMED_VALUE_FLOAT[name]".
         """
@@ -213,15 +218,15 @@ class Link:
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
-        """Returns the percentage of frames lost on the way here, from all sources or the selected ones.
+        """Returns the percentage of frames lost before they arrived, 0 to 100, from all sources or the selected ones.
 
         Late and duplicate frames do not count as lost. `stats.sources` has the figures of each source.
         """
         for what, number in (("system", system), ("component", component)):
             if number is not None and not 0 <= number <= 255:
                 raise UsageError(f"{what}: {number} is out of range, 0 to 255")
-        chosen = [source for source in self.stats.sources if system in (None, source.sys)
-                  and component in (None, source.comp)]
+        chosen = [source for source in self.stats.sources
+                  if system in (None, source.sys) and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
         return 100.0 * lost / max(lost + sum(source.received - source.duplicate for source in chosen), 1)
 
@@ -267,7 +272,7 @@ class Sender:
     def __getattr__(self, call: str) -> Callable[..., Any]:
         name, _, verb = call.rpartition("_")
         if verb not in ("send", "encode") or name.upper() not in self._port.dialect:
-            raise AttributeError(f"no message for {call}: NAME_send and NAME_encode, as heartbeat_send")
+            raise AttributeError(f"no message for {call}: use NAME_send or NAME_encode, for example heartbeat_send")
         info = self._port.dialect[name.upper()]
         act: Callable[..., Any] = self._port.send if verb == "send" else self._port.dialect.message
 

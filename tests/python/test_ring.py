@@ -227,6 +227,8 @@ LOOKS = {
     "ndarray": lambda record: numpy.ndarray(4, "u1", buffer=record.data),
     "ndarray of a slice": lambda record: numpy.ndarray(2, "u1", buffer=record.data[2:]),
 }
+# Parts of b"abcd" that some looks see; the others see all of it.
+PARTS = {"slice": b"bc", "slice of an array": b"cd", "ndarray of a slice": b"cd"}
 
 
 @pytest.fixture
@@ -284,14 +286,14 @@ def test_what_is_not_contiguous_is_refused(writer):
             writer.write(data)
 
 
-@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
+@pytest.mark.parametrize("look", LOOKS, ids=LOOKS)
 def test_row_3_16_and_3_17_whatever_looks_at_a_record_holds_the_reader(held, look):
-    seen = look(held.read(0))
+    seen = LOOKS[look](held.read(0))
     for go_on in (lambda: held.read(0), lambda: held.read(), lambda: next(held), lambda: next(held.batches()),
                   held.close):
         with pytest.raises(BufferError, match="still alive"):
             go_on()
-    assert bytes(b"abcd").startswith(bytes(seen)) or b"abcd".endswith(bytes(seen)) or bytes(seen) == b"bc"
+    assert bytes(seen) == PARTS.get(look, b"abcd")
     del seen
     gc.collect()
     assert held.read(0).position == 32
@@ -470,22 +472,22 @@ CLAIM_LOOKS = {
 }
 
 
-@pytest.mark.parametrize("look", CLAIM_LOOKS.values(), ids=CLAIM_LOOKS)
+@pytest.mark.parametrize("look", CLAIM_LOOKS, ids=CLAIM_LOOKS)
 def test_row_3_16_nothing_writes_into_a_record_that_is_committed(writer, ring, look):
-    """Whatever was made of a claim's view holds it: the record is not written, nor anything else by this thread, until
-    it is gone."""
+    """Any object made of a claim's view blocks it: until the object is gone, this thread writes neither the record nor
+    anything else."""
     reader = mavloom.RingReader(ring)
     claim = writer.claim(4)
     claim.data[:] = b"abcd"
-    seen = look(claim.data)
+    seen = CLAIM_LOOKS[look](claim.data)
     for go_on in (claim.commit, lambda: writer.write(b"x"), lambda: writer.claim(1), writer.close):
         with pytest.raises(BufferError, match="still alive|is open"):
             go_on()
-    assert reader.read(0) is None and bytes(b"abcd").find(bytes(seen)) >= 0
+    assert reader.read(0) is None and bytes(seen) == PARTS.get(look, b"abcd")
     del seen
     assert claim.commit() and reader.read(0).data == b"abcd"
     claim = writer.claim(4)
-    seen = look(claim.data)
+    seen = CLAIM_LOOKS[look](claim.data)
     claim.abandon()
     with pytest.raises(BufferError, match="is open"):
         writer.write(b"x")

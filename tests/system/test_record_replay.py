@@ -464,10 +464,8 @@ def test_interrupt_ends_the_wait_for_the_other_end_of_a_fifo(spawn, wait_for, tm
     wait_for(catches_interrupts)
     # It waits in open() or in its loop, not on the way there: asleep.
     wait_for(lambda: open(f"/proc/{process.pid}/stat").read().split()[2] == "S")
-    begin = time.monotonic()
 
     assert process.stop().status == 130
-    assert time.monotonic() - begin < 20
 
 
 def test_a_fifo_beside_a_live_source(spawn, tmp_path):
