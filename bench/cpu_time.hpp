@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The calling thread's processor time: whoever else runs on the core meanwhile does not count.
+// The calling thread's processor time: other threads on the core do not count.
 #pragma once
 
 #include <ctime>

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench listen: mavloom listen from UDP under load, every message printed. Counts what was sent against what was printed, and watches memory."""
+"""bench listen: mavloom listen from UDP under load, every message printed.
+Counts what was sent against what was printed, and watches memory."""
 import argparse
 import json
 import pathlib
@@ -19,7 +20,8 @@ def resident_kib(pid):
 
 
 def measure(program, load, flight, rate, seconds, form):
-    listen = subprocess.Popen([program, "listen", "udpin://127.0.0.1:0", *form], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    listen = subprocess.Popen([program, "listen", "udpin://127.0.0.1:0", *form], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE)
     port = int(re.search(rb"listening on port (\d+)", listen.stderr.readline())[1])
     counted = []
 
@@ -30,7 +32,8 @@ def measure(program, load, flight, rate, seconds, form):
         counted.append(lines)
     reader = threading.Thread(target=count, daemon=True)
     reader.start()
-    generator = subprocess.Popen([load, "127.0.0.1", str(port), flight, str(rate), str(seconds)], stdout=subprocess.PIPE)
+    generator = subprocess.Popen([load, "127.0.0.1", str(port), flight, str(rate), str(seconds)],
+                                 stdout=subprocess.PIPE)
     memory = []
     while generator.poll() is None:
         time.sleep(0.5)
@@ -42,9 +45,9 @@ def measure(program, load, flight, rate, seconds, form):
     talk = listen.stderr.read().decode()
     listen.wait()
     half = len(memory) // 2
-    return {"form": " ".join(form) or "text", "asked_per_s": rate, "sent": sent["sent"], "sent_per_s": sent["rate"], "printed": counted[0],
-            "lost": sent["sent"] - counted[0], "rss_kib_first_half": max(memory[:half] or [0]), "rss_kib_second_half": max(memory[half:] or [0]),
-            "said": talk.strip()}
+    return {"form": " ".join(form) or "text", "asked_per_s": rate, "sent": sent["sent"], "sent_per_s": sent["rate"],
+            "printed": counted[0], "lost": sent["sent"] - counted[0], "rss_kib_first_half": max(memory[:half] or [0]),
+            "rss_kib_second_half": max(memory[half:] or [0]), "said": talk.strip()}
 
 
 def main():

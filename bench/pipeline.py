@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench pipeline: UDP in, ring, decode, re-encode, UDP out: a writer of the ring and `mavloom relay` as processes of their own, once with `mavloom route --ring`
-as the writer and once with `python -m mavloom.hear`. Every frame that arrives is compared with what was sent. Status 4 where one was lost or differs."""
+"""bench pipeline: UDP in, ring, decode, re-encode, UDP out: a writer of the ring and `mavloom relay` as processes of
+their own, once with `mavloom route --ring` as the writer and once with `python -m mavloom.hear`. Every frame that
+arrives is compared with what was sent. Status 4 where one was lost or differs."""
 import argparse
 import json
 import os
@@ -15,7 +16,7 @@ from measure import Kit, Load, measure  # noqa: E402
 
 
 class Pipeline(routers.Mavloom):
-    """The writer; the relay runs beside it. What is counted as CPU is the writer's."""
+    """The writer; the relay runs beside it. The CPU figure is the writer's alone."""
 
     def __init__(self, program, name, writer):
         super().__init__(program, name)
@@ -43,7 +44,8 @@ PIPELINES = [("mavloom route --ring", by_route, 200_000), ("python -m mavloom.he
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/mavloom")
-    parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin", help="where route_generator and route_sink are")
+    parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin",
+                        help="where route_generator and route_sink are")
     parser.add_argument("--flight", type=pathlib.Path, default=ROOT / "tests/data/px4_gcs_flight.tlog")
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--rounds", type=int, default=3)
@@ -52,12 +54,15 @@ def main():
     kit, failed = Kit(options.tools.resolve(), options.flight.resolve()), False
     for name, writer, rate in PIPELINES:
         for _ in range(options.rounds):
-            got = measure(kit, Pipeline(options.program.resolve(), name, writer), Load("pipeline", name, rate), options.seconds)
+            got = measure(kit, Pipeline(options.program.resolve(), name, writer), Load("pipeline", name, rate),
+                          options.seconds)
             wrong = sum(got[what] for what in ("lost", "damaged", "duplicates", "reordered"))
             failed = failed or bool(wrong)
             print(json.dumps(got) if options.json else
-                  f"  {name:<24} sent {got['sent']:,} at {got['rate']:,.0f}/s, delivered {got['delivered']:,}; lost {got['lost']}, damaged {got['damaged']}, "
-                  f"duplicates {got['duplicates']}, reordered {got['reordered']}; median {got['median_us']} us", flush=True)
+                  f"  {name:<24} sent {got['sent']:,} at {got['rate']:,.0f}/s, delivered {got['delivered']:,}; "
+                  f"lost {got['lost']}, damaged {got['damaged']}, duplicates {got['duplicates']}, "
+                  f"reordered {got['reordered']}; median {got['median_us']} us",
+                  flush=True)
     return 4 if failed else 0
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench route: routers under load, whole processes, in turns: same sockets, same frames, every frame that arrives compared with what was sent.
-Ratios are to the bare loop of the same round. CPU is that of the router's process, user and system, for each frame delivered. Status 4 where mavloom
-lost what the bare loop of the same round delivered, or delivered what was not sent."""
+"""bench route: routers under load, whole processes, in turns: same sockets, same frames, every frame that arrives
+compared with what was sent. Ratios are to the bare loop of the same round. CPU is that of the router's process, user
+and system, for each frame delivered. Status 4 where mavloom lost what the bare loop of the same round delivered, or
+delivered what was not sent."""
 import argparse
 import json
 import os
@@ -23,8 +24,8 @@ LOADS = [
     Load("1to4", "1 to 4, 100,000 frames/s in", 100_000, outs=4),
     Load("1to16", "1 to 16, 100,000 frames/s in", 100_000, outs=16),
 ]
-LINKS = Load("links", "250 systems of 5 components on 64 links, 1,000 frames/s in, each to the 63 other links", 1_000, outs=0, links=64,
-             systems=250, components=5)
+LINKS = Load("links", "250 systems of 5 components on 64 links, 1,000 frames/s in, each to the 63 other links", 1_000,
+             outs=0, links=64, systems=250, components=5)
 TAP = Load("tap", "1 to 1, 100,000 single-frame datagrams/s, every frame into a ring as well", 100_000)
 HIGHEST = Load("highest", "1 to 1, highest rate of single-frame datagrams without loss", 50_000)
 HIGHEST_CEILING, PROBES = 1_600_000, 14
@@ -32,8 +33,8 @@ BARE, OURS = "bare loop", "mavloom"
 
 # Filters that every frame passes, of each kind, so that both routers deliver the same.
 FILTERS = ['in_block = "PARAM_VALUE,MISSION_ITEM_INT,FILE_TRANSFER_PROTOCOL,sys:251,sys:252,comp:200,comp:201"',
-           'in_allow = "HEARTBEAT,ATTITUDE,ATTITUDE_QUATERNION,LOCAL_POSITION_NED,GLOBAL_POSITION_INT,SERVO_OUTPUT_RAW,ATTITUDE_TARGET,'
-           'POSITION_TARGET_LOCAL_NED,ALTITUDE"',
+           'in_allow = "HEARTBEAT,ATTITUDE,ATTITUDE_QUATERNION,LOCAL_POSITION_NED,GLOBAL_POSITION_INT,'
+           'SERVO_OUTPUT_RAW,ATTITUDE_TARGET,POSITION_TARGET_LOCAL_NED,ALTITUDE"',
            'out_block = "STATUSTEXT,LOG_DATA,sys:253,comp:202"',
            'out_allow = "comp:1,comp:2,comp:3,comp:4,comp:5"']
 
@@ -108,9 +109,10 @@ def spread(ratios):
 
 
 def wrongs(taken, name):
-    """What arrived and should not have, and what the load itself did not manage, over all rounds."""
+    """Lists unwanted arrivals and shortfalls of the load itself, over all rounds."""
     all_of = [results[name] for results in taken if name in results]
-    words = [f"{what} {sum(result[what] for result in all_of)}" for what in ("damaged", "duplicates", "echoes", "reordered", "lost_at_sink")
+    words = [f"{what} {sum(result[what] for result in all_of)}"
+             for what in ("damaged", "duplicates", "echoes", "reordered", "lost_at_sink")
              if any(result[what] for result in all_of)]
     slowest = min((result["rate"] / result["asked_rate"] for result in all_of), default=1)
     if slowest < 0.99:
@@ -119,7 +121,8 @@ def wrongs(taken, name):
 
 
 def table(say, taken, peers, base):
-    say(f"  {'router':<28} {'CPU us/frame':>12} {'times ' + base + ' (lowest, highest)':>36} {'lost %':>9} {'median us':>10} {'p99 us':>10} "
+    say(f"  {'router':<28} {'CPU us/frame':>12} {'times ' + base + ' (lowest, highest)':>36} {'lost %':>9} "
+        f"{'median us':>10} {'p99 us':>10} "
         f"{'RssAnon KiB, growth':>20}  notes")
     for peer in peers:
         if not any(peer.name in results for results in taken):
@@ -129,16 +132,19 @@ def table(say, taken, peers, base):
         early, late = (median_of(taken, peer.name, what) for what in ("rss_anon_kib_early", "rss_anon_kib"))
         say(f"  {peer.name:<28} {cell(median_of(taken, peer.name, 'cpu_us_per_frame'), '.3f'):>12} "
             f"{spread(ratios_of(taken, peer.name, base, 'cpu_us_per_frame')):>36} "
-            f"{cell(median_of(taken, peer.name, 'loss_percent'), '.3f'):>9} {cell(median_of(taken, peer.name, 'median_us'), ',.0f'):>10} "
-            f"{cell(median_of(taken, peer.name, 'p99_us'), ',.0f'):>10} {late:>11,.0f}, {late - early:>+7,.0f}  {'; '.join(notes)}")
+            f"{cell(median_of(taken, peer.name, 'loss_percent'), '.3f'):>9} "
+            f"{cell(median_of(taken, peer.name, 'median_us'), ',.0f'):>10} "
+            f"{cell(median_of(taken, peer.name, 'p99_us'), ',.0f'):>10} {late:>11,.0f}, "
+            f"{late - early:>+7,.0f}  {'; '.join(notes)}")
 
 
 def print_ratios(load, taken, peers, base):
     for peer in peers:
         for what in ("cpu_us_per_frame", "median_us", "p99_us"):
             if peer.name != base and (ratios := ratios_of(taken, peer.name, base, what)):
-                print(json.dumps({"load": load.key, "peer": peer.name, "against": base, "of": what, "ratio": statistics.median(ratios),
-                                  "lowest": min(ratios), "highest": max(ratios)}), flush=True)
+                print(json.dumps({"load": load.key, "peer": peer.name, "against": base, "of": what,
+                                  "ratio": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}),
+                      flush=True)
 
 
 def run_table(bench, load, peers, base):
@@ -197,7 +203,8 @@ def find_highest(bench, peers, precision):
         rate = f"{search.low:,}/s" if search.low else f"below {search.high:,}/s" if search.high else "gave no answer"
         bench.say(f"  {search.peer.name:<28} {rate:>16} {ratio}{'; no more could be sent' if search.capped else ''}")
         if bench.as_json:
-            print(json.dumps({"load": HIGHEST.key, "peer": search.peer.name, "highest_rate": search.low, "at_least": search.capped}), flush=True)
+            print(json.dumps({"load": HIGHEST.key, "peer": search.peer.name, "highest_rate": search.low,
+                              "at_least": search.capped}), flush=True)
 
 
 # ---- the command
@@ -205,16 +212,23 @@ def find_highest(bench, peers, precision):
 def parse_options():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/mavloom")
-    parser.add_argument("--tools", type=pathlib.Path, help="folder of route_generator and the others; default beside the program's build")
-    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers", help="where peers are, or are installed")
+    parser.add_argument("--tools", type=pathlib.Path,
+                        help="folder of route_generator and the others; default beside the program's build")
+    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers",
+                        help="where peers are, or are installed")
     parser.add_argument("--flight", type=pathlib.Path, default=ROOT / "tests/data/px4_gcs_flight.tlog")
-    parser.add_argument("--quick", action="store_true", help="2 s and 2 rounds, the highest rate within 10 %%: a look, no figures to publish")
+    parser.add_argument("--quick", action="store_true",
+                        help="2 s and 2 rounds, the highest rate within 10 %%: a look, no figures to publish")
     parser.add_argument("--seconds", type=float, help="length of each load; default 10")
     parser.add_argument("--rounds", type=int, help="default 5")
-    parser.add_argument("--only", default="", help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{TAP.key},{HIGHEST.key}")
+    parser.add_argument("--only", default="",
+                        help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{TAP.key},{HIGHEST.key}")
     parser.add_argument("--without", default="", help="peers to leave out: mavrouter,mavproxy")
-    parser.add_argument("--nice", type=int, default=0, help="priority of load, routers and far side alike: -10 (root) on a machine that does other things")
-    parser.add_argument("--json", action="store_true", help="one JSON object a line: each measurement, then ratios; the tables on standard error")
+    parser.add_argument("--nice", type=int, default=0,
+                        help="priority of load, routers and far side alike: -10 (root) "
+                             "on a machine that does other things")
+    parser.add_argument("--json", action="store_true",
+                        help="one JSON object a line: each measurement, then ratios; the tables on standard error")
     options = parser.parse_args()
     options.program = options.program.resolve()  # routers run in a folder of their own
     options.tools = (options.tools or options.program.parent.parent / "bench" / "bin").resolve()

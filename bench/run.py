@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench [parse|decode|python|listen|inside|shm|pipeline|route ...]
-Options that are not known here go to the one benchmark that is named: ./run bench route --quick"""
+"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench
+[parse|decode|python|listen|inside|shm|pipeline|route ...] Options that are not known here go to the one benchmark that
+is named: ./run bench route --quick"""
 import argparse
 import pathlib
 import platform

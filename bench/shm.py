@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench shm: the ring beside Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core and a bare exchange of a cache line, in
-turns. Every record is compared with what was written, by all of them. Ratios are of the same round. Peers that are not here are left out, and named."""
+"""bench shm: the ring beside Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core and a
+bare exchange of a cache line, in turns. Every record is compared with what was written, by all of them. Ratios are of
+the same round. Peers that are not here are left out, and named."""
 import argparse
 import contextlib
 import json
@@ -24,7 +25,7 @@ class Missing(Exception):
 
 
 def run(command, what=None):
-    """What a program prints. `what`: an installer, whose failure is a missing peer."""
+    """Returns what a program prints. `what`: an installer, whose failure is a missing peer."""
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode == 0:
         return done.stdout
@@ -84,15 +85,16 @@ class Aeron:
         if not jar.exists():
             self.fetch(folder)
         run(["javac", "-cp", jar, "-d", classes, ROOT / "bench" / "shm" / "AeronIpc.java"], "javac")
-        self.command = [self.java, "-cp", f"{classes}:{jar}", "--add-opens", "java.base/jdk.internal.misc=ALL-UNNAMED", "--add-opens",
-                        "java.base/sun.nio.ch=ALL-UNNAMED", "AeronIpc"]
+        self.command = [self.java, "-cp", f"{classes}:{jar}", "--add-opens", "java.base/jdk.internal.misc=ALL-UNNAMED",
+                        "--add-opens", "java.base/sun.nio.ch=ALL-UNNAMED", "AeronIpc"]
 
     @staticmethod
     def fetch(folder):
         if not shutil.which("mvn"):
             raise Missing("no Maven to fetch it with (Debian: maven)")
         print("bench shm: fetching Aeron", file=sys.stderr, flush=True)
-        run(["mvn", "-q", "-B", "dependency:copy", f"-Dartifact=io.aeron:aeron-all:{AERON_VERSION}", f"-DoutputDirectory={folder}"], "mvn dependency:copy")
+        run(["mvn", "-q", "-B", "dependency:copy", f"-Dartifact=io.aeron:aeron-all:{AERON_VERSION}",
+             f"-DoutputDirectory={folder}"], "mvn dependency:copy")
 
     def __call__(self, readers, mode):
         return per_second(run([*self.command, mode, readers, self.records]).splitlines()[-1])
@@ -113,7 +115,8 @@ class Latency:
 def throughputs(tools, folder, scale, without, missing):
     """[(title, us, name of the peer, peer, readers, mode, target)]"""
     ring = Program(tools, "ring", 20_000_000 // scale)
-    peers = {"UDP on loopback": lambda: Program(tools, "udp", 600_000 // scale), "Aeron IPC": lambda: Aeron(folder, 20_000_000 // scale),
+    peers = {"UDP on loopback": lambda: Program(tools, "udp", 600_000 // scale),
+             "Aeron IPC": lambda: Aeron(folder, 20_000_000 // scale),
              "iceoryx": lambda: Iceoryx(tools, 1_000_000 // scale)}
     at_hand = {}
     for name, make in peers.items():
@@ -124,10 +127,15 @@ def throughputs(tools, folder, scale, without, missing):
         except Missing as why:
             missing.append(f"{name} is left out: {why}")
     as_aeron = Program(tools, f"ring{AERON_WINDOW_MIB}", 20_000_000 // scale)
-    aeron = [(us, readers, mode, "Aeron IPC", 1.5) for us in (as_aeron, ring) for readers in (1, 3) for mode in ("threads", "processes")]
+    aeron = [(us, readers, mode, "Aeron IPC", 1.5) for us in (as_aeron, ring) for readers in (1, 3)
+             for mode in ("threads", "processes")]
     wanted = [*aeron, (ring, 3, "processes", "iceoryx", 40), (ring, 3, "processes", "UDP on loopback", 50)]
-    rows = [(f"64 bytes, {readers} reader{'s' * (readers > 1)}, {mode}, {AERON_WINDOW_MIB if us is as_aeron else 8} MiB", us, name, at_hand[name], readers, mode,
-             target) for us, readers, mode, name, target in wanted if name in at_hand]
+    rows = []
+    for us, readers, mode, name, target in wanted:
+        if name in at_hand:
+            size_mib = AERON_WINDOW_MIB if us is as_aeron else 8
+            title = f"64 bytes, {readers} reader{'s' * (readers > 1)}, {mode}, {size_mib} MiB"
+            rows.append((title, us, name, at_hand[name], readers, mode, target))
     mixed = [Program(tools, transport, 20_000_000 // scale, FLIGHT) for transport in ("ring", "bare")]
     return [*rows, ("recorded mix, 1 reader, threads", mixed[0], "bare copy", mixed[1], 1, "threads", 0.8)]
 
@@ -147,10 +155,12 @@ class Bench:
         met = None if target is None else ratio <= target if at_most else ratio >= target
         goal = "" if met is None else f"target {target}{' at most' if at_most else ''}: {'met' if met else 'missed'}"
         if self.as_json:
-            print(json.dumps({"bench": f"shm {title}", "peer": peer, "unit": unit, OURS: us, "theirs": them, "ratio": ratio, "lowest": min(ratios),
-                              "highest": max(ratios), "target": target, "met": met}), flush=True)
+            print(json.dumps({"bench": f"shm {title}", "peer": peer, "unit": unit, OURS: us, "theirs": them,
+                              "ratio": ratio, "lowest": min(ratios), "highest": max(ratios), "target": target,
+                              "met": met}), flush=True)
         else:
-            print(f"  {title:<42} {OURS} {us:8.2f}   {peer:<16} {them:8.2f} {unit:<4} ratio {spread(ratios):<22} {goal}", flush=True)
+            print(f"  {title:<42} {OURS} {us:8.2f}   {peer:<16} {them:8.2f} {unit:<4} ratio {spread(ratios):<22} "
+                  f"{goal}", flush=True)
 
     def throughput(self, title, us, name, peer, readers, mode, target):
         ours, theirs = [], []
@@ -163,30 +173,37 @@ class Bench:
         """More turns than of the others, and shorter ones: a tail is soon another one's."""
         ours, theirs = zip(*((us(), peer()) for _ in range(3 * self.rounds)))
         for index, what in enumerate(("median", "99.9th percentile")):
-            self.tell(f"{title}, {what}", name, [value[index] for value in ours], [value[index] for value in theirs], target, at_most=True, unit="ns")
+            self.tell(f"{title}, {what}", name, [value[index] for value in ours], [value[index] for value in theirs],
+                      target, at_most=True, unit="ns")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin", help="where shm_throughput and its like are")
-    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers", help="where Aeron is, or will be put")
+    parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin",
+                        help="where shm_throughput and its like are")
+    parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers",
+                        help="where Aeron is, or will be put")
     parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument("--quick", action="store_true", help="one round of a tenth of the records: whether it works, not how fast it is")
+    parser.add_argument("--quick", action="store_true",
+                        help="one round of a tenth of the records: whether it works, not how fast it is")
     parser.add_argument("--without", default="", help="peers to leave out: aeron,iceoryx,udp")
     parser.add_argument("--json", action="store_true", help="one JSON object a line")
     options = parser.parse_args()
     options.tools, missing = options.tools.resolve(), []
     if options.quick:
         options.rounds = 1
-    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, options.without.split(","), missing)
+    rows = throughputs(options.tools, options.peers.resolve(), 10 if options.quick else 1, options.without.split(","),
+                       missing)
     run([options.tools / "shm_throughput", "ring", 1, "threads", 200_000, FLIGHT, "verify"])
     bench = Bench(options)
     print(f"shm: {options.rounds} rounds; every record was compared", file=sys.stderr, flush=True)
     for row in rows:
         bench.throughput(*row)
     times = 10 if options.quick else 1
-    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 300_000 // times), "cache line", Latency(options.tools, "line", 300_000 // times), 3)
-    bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // times), "pipe", Latency(options.tools, "pipe", 50_000 // times), None)
+    bench.latency("hand-over, spinning", Latency(options.tools, "ring", 300_000 // times), "cache line",
+                  Latency(options.tools, "line", 300_000 // times), 3)
+    bench.latency("hand-over, futex", Latency(options.tools, "futex", 50_000 // times), "pipe",
+                  Latency(options.tools, "pipe", 50_000 // times), None)
     for line in missing:
         print(f"  {line}", file=sys.stderr)
 

@@ -10,7 +10,8 @@ file(GLOB core_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/dialect/core
 add_library(mavloom_dialect_core ${core_sources})
 add_library(mavloom::dialect_core ALIAS mavloom_dialect_core)
 set_target_properties(mavloom_dialect_core PROPERTIES EXPORT_NAME dialect_core POSITION_INDEPENDENT_CODE ON)
-target_link_libraries(mavloom_dialect_core PUBLIC mavloom::wire PRIVATE pugixml::pugixml $<BUILD_INTERFACE:mavloom_warnings>)
+target_link_libraries(mavloom_dialect_core PUBLIC mavloom::wire PRIVATE pugixml::pugixml
+                      $<BUILD_INTERFACE:mavloom_warnings>)
 
 file(GLOB generator_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tools/dialectgen/*.cpp")
 add_executable(mavloom_dialectgen ${generator_sources})
@@ -23,7 +24,8 @@ set(generated "${PROJECT_BINARY_DIR}/generated")
 _mavloom_generate_dialect("${PROJECT_SOURCE_DIR}/dialects/all.xml" mavloom::msg "${generated}" --builtin)
 add_library(mavloom_dialect_builtin ${tables})
 add_library(mavloom::dialect_builtin ALIAS mavloom_dialect_builtin)
-set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin POSITION_INDEPENDENT_CODE ON CXX_CLANG_TIDY "")
+set_target_properties(mavloom_dialect_builtin PROPERTIES EXPORT_NAME dialect_builtin
+                      POSITION_INDEPENDENT_CODE ON CXX_CLANG_TIDY "")
 target_link_libraries(mavloom_dialect_builtin PUBLIC mavloom_dialect_core)
 target_link_libraries(mavloom_dialect INTERFACE mavloom_dialect_builtin mavloom_dialect_core)
 

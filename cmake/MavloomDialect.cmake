@@ -1,11 +1,12 @@
 # mavloom_add_dialect(<target> XML <file> [NAMESPACE <ns>])
 #
-# A library `<target>` from MAVLink definitions: `#include "acme/msg/attitude.hpp"` gives `acme::msg::Attitude`, `acme/msg/enums/mav_type.hpp` an enum,
-# `acme/msg/dialect.hpp` the function `acme::msg::dialect()`. NAMESPACE defaults to `<name of the file>::msg`. Works in this tree and behind
-# find_package(mavloom); a change of the file, or of one that it includes, builds again what depends on it.
+# A library `<target>` from MAVLink definitions: `#include "acme/msg/attitude.hpp"` gives `acme::msg::Attitude`,
+# `acme/msg/enums/mav_type.hpp` an enum, `acme/msg/dialect.hpp` the function `acme::msg::dialect()`. NAMESPACE defaults
+# to `<name of the file>::msg`. Works in this tree and behind find_package(mavloom). A change of the file, or of one
+# that it includes, builds again what depends on it.
 
-# The files that `xml` includes, itself first, and the names of messages and enums: what the generator reads and writes must be known before it runs.
-# Comments are cut out first; what is malformed is the generator's to report.
+# The files that `xml` includes, itself first, and the names of messages and enums: the inputs and outputs of the
+# generator must be known before it runs. Comments are cut out first. The generator reports malformed files.
 function(_mavloom_scan_dialect xml out_files out_messages out_enums)
   set(queue "${xml}")
   set(files "")
@@ -41,7 +42,8 @@ function(_mavloom_scan_dialect xml out_files out_messages out_enums)
   set(${out_enums} "${enums}" PARENT_SCOPE)
 endfunction()
 
-# Rules that run the generator into `out`; gives the tables' sources, the stamp of the headers, and what a library of either must depend on.
+# Rules that run the generator into `out`. Sets `tables`, the tables' sources, and `headers_stamp`, the stamp of the
+# headers; a library of either must depend on them.
 function(_mavloom_generate_dialect xml namespace out options)
   _mavloom_scan_dialect("${xml}" files messages enums)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})

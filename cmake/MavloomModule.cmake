@@ -1,10 +1,10 @@
-# What nearly every file includes, compiled once (a third of a build's time). Only headers from outside, and files still include what they use: the
-# preset `tidy` compiles the library and the program without.
-set(mavloom_precompiled <algorithm> <array> <charconv> <chrono> <fmt/format.h> <functional> <memory> <optional> <span> <string> <string_view>
-    <tl/expected.hpp> <utility> <vector>)
+# Headers that nearly every file includes, compiled once, which saves a third of a build's time. Only headers from
+# outside. Files still include what they use: the preset `tidy` compiles the library and the program without.
+set(mavloom_precompiled <algorithm> <array> <charconv> <chrono> <fmt/format.h> <functional> <memory> <optional> <span>
+    <string> <string_view> <tl/expected.hpp> <utility> <vector>)
 
-# mavloom_precompile(<target> <owner> [<header>...]): `owner` makes the headers, others share them. All must be optimised alike: GCC 12 takes the level
-# from what was precompiled, or crashes.
+# mavloom_precompile(<target> <owner> [<header>...]): `owner` makes the headers, others share them. All must be
+# optimised alike: GCC 12 takes the level from what was precompiled, or crashes.
 function(mavloom_precompile target owner)
   if(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE ${mavloom_precompiled} ${ARGN})
@@ -13,19 +13,22 @@ function(mavloom_precompile target owner)
   endif()
 endfunction()
 
-# For what runs once or beside the work: optimised further it would compile half as long again and speed up nothing that counts.
+# For code that runs once or beside the work. Higher optimisation would add half to its compile time and speed up
+# nothing that counts.
 set(mavloom_occasional $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 
 # -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329).
 add_library(mavloom_warnings INTERFACE)
-target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wcast-align
+target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -Wcast-align
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
 # mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
-# A module without sources is an interface library. OCCASIONAL: sources (names without .cpp) to compile with mavloom_occasional.
+# A module without sources is an interface library. OCCASIONAL: sources (names without .cpp) to compile with
+# mavloom_occasional.
 function(mavloom_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;OCCASIONAL" ${ARGN})
   set(target mavloom_${name})
@@ -62,6 +65,7 @@ function(mavloom_module name)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_occasional>)
   endif()
   if(MAVLOOM_INSTALL)
-    install(TARGETS ${target} EXPORT mavloomTargets COMPONENT mavloom_development FILE_SET HEADERS COMPONENT mavloom_development)
+    install(TARGETS ${target} EXPORT mavloomTargets COMPONENT mavloom_development
+            FILE_SET HEADERS COMPONENT mavloom_development)
   endif()
 endfunction()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# tools/aarch64.sh FOLDER [GTEST OPTION...]: the module shm and its unit tests compiled into FOLDER for 64-bit Arm, whose memory orders are weaker than
-# x86's, and run under qemu. Beside packages of ./run test: apt-get install --no-install-recommends g++-aarch64-linux-gnu qemu-user
+# tools/aarch64.sh FOLDER [GTEST OPTION...]: compiles the module shm and its unit tests into FOLDER for 64-bit Arm,
+# whose memory orders are weaker than x86's, and runs them under qemu. Needs the packages of ./run test, and these:
+#   apt-get install --no-install-recommends g++-aarch64-linux-gnu qemu-user
 set -euo pipefail
 folder=$(realpath -m "$1")
 shift
@@ -11,7 +12,8 @@ mkdir -p "$folder/outside"
 for name in fmt tl readerwriterqueue; do ln -sfn "/usr/include/$name" "$folder/outside/$name"; done
 readonly google=/usr/src/googletest
 flags=(-std=c++20 -O1 -g1 -Wall -Wextra -DFMT_HEADER_ONLY -Iinclude -Isrc -Itests -isystem "$folder/outside"
-       -isystem $google/googletest/include -isystem $google/googlemock/include -I$google/googletest -I$google/googlemock)
+       -isystem $google/googletest/include -isystem $google/googlemock/include
+       -I$google/googletest -I$google/googlemock)
 
 object_of() { echo "$folder/$(tr / _ <<<"${1#/}").o"; }
 compile() { # SOURCE

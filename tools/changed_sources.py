@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that differ from the commit BASE, or include,
-directly or through others, a header that does. Status 3: something differs that every file depends on (the build, the dialects, clang-tidy's rules),
-so that all have to be looked at."""
+"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that differ from
+the commit BASE, or include, directly or through others, a header that does. Status 3: something differs that every file
+depends on (the build, the dialects, clang-tidy's rules), so that all have to be looked at."""
 import pathlib
 import re
 import subprocess
@@ -14,9 +14,11 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def changed_since(base: str) -> list[str]:
-    """Committed or not; files that nobody has told git about too."""
-    differing = subprocess.run(["git", "diff", "--name-only", base], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
-    untracked = subprocess.run(["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    """Committed or not; files that are not added to git, too."""
+    differing = subprocess.run(["git", "diff", "--name-only", base], cwd=ROOT, check=True, capture_output=True,
+                               text=True).stdout.split()
+    untracked = subprocess.run(["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, check=True,
+                               capture_output=True, text=True).stdout.split()
     return differing + untracked
 
 

@@ -5,10 +5,11 @@
     recorded PX4 flight --replay--> +--> mavloom listen   (decoded, shown here)
                                     +--> mavloom relay    (decoded, re-encoded) --> ground-station port (recorded)
 
-Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte what the vehicle sent. Then the way
-through shared memory, there and back:
+Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte
+what the vehicle sent. Then the way through shared memory, there and back:
 
-    vehicle --> python -m mavloom.hear --ring--> mavloom relay --> ground station --(its frames of the flight)--> relay --inlet--> hear --> vehicle
+    vehicle --> python -m mavloom.hear --ring--> mavloom relay --> ground station --(its frames of the flight)--> relay
+    --inlet--> hear --> vehicle
 
 Exit status: 0 all bytes agree, 4 they do not, 1 a program failed.
 """
@@ -38,7 +39,8 @@ class Program:
 
     def __init__(self, *args):
         self.args = args
-        self.process = subprocess.Popen([*map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace")
+        self.process = subprocess.Popen([*map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                        errors="replace")
         self.talk = []
         self.thread = threading.Thread(target=self._read_talk, daemon=True)
         self.thread.start()
@@ -153,7 +155,8 @@ def way_back(options):
             hear = Program(sys.executable, "-m", "mavloom.hear", "udpin://127.0.0.1:0", "--ring", ring)
             started.append(hear)
             port = int(hear.said(r"hearing on udpin://127.0.0.1:(\d+)")[1])
-            started.append(Program(options.program, "relay", f"shm://{ring}?from=oldest", "--to", f"udpout://127.0.0.1:{station.port}"))
+            started.append(Program(options.program, "relay", f"shm://{ring}?from=oldest", "--to",
+                                   f"udpout://127.0.0.1:{station.port}"))
             vehicle.socket.sendto(flight[0], ("127.0.0.1", port))
             _, relay = station.receive(len(flight[0]))
             if relay is None:
@@ -169,7 +172,8 @@ def way_back(options):
             for program in reversed(started):
                 program.stop(2)
     agree = got == b"".join(answers)
-    print(f"demo: the way back: {len(answers)} frames of the ground station sent, {len(got)} of {sum(map(len, answers))} bytes reached the vehicle "
+    print(f"demo: the way back: {len(answers)} frames of the ground station sent, "
+          f"{len(got)} of {sum(map(len, answers))} bytes reached the vehicle "
           f"through mavloom relay, the ring's inlet and python -m mavloom.hear")
     return agree
 
@@ -177,7 +181,8 @@ def way_back(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "bin" / "mavloom"))
-    parser.add_argument("--for", dest="duration", default=None, metavar="TIME", help="only this much of the flight, for example 20s (default: all of it, 108 s)")
+    parser.add_argument("--for", dest="duration", default=None, metavar="TIME",
+                        help="only this much of the flight, for example 20s (default: all of it, 108 s)")
     parser.add_argument("--speed", default="1", metavar="N", help="times the recorded pace (default 1)")
     parser.add_argument("--flight", default=str(FLIGHT), metavar="FILE.tlog", help="another recording")
     options = parser.parse_args()
@@ -198,7 +203,8 @@ def run(options, folder):
         started.append(listen)
         show = Show(listen.process.stdout)
         bound = ["--for", options.duration] if options.duration else []
-        print(f"demo: replaying {pathlib.Path(options.flight).name} to mavloom listen (port {listen.port()}) and through mavloom relay (port {relay.port()}) "
+        print(f"demo: replaying {pathlib.Path(options.flight).name} to mavloom listen (port {listen.port()}) and "
+              f"through mavloom relay (port {relay.port()}) "
               f"to a ground station (port {station.port()})\n", flush=True)
         replay = Program(mavloom, "replay", options.flight, "--speed", options.speed, *bound,
                          "--to", f"udpout://127.0.0.1:{listen.port()}", "--to", f"udpout://127.0.0.1:{relay.port()}")
@@ -225,18 +231,20 @@ def run(options, folder):
 
 
 def sent_by(replay):
-    """How many frames replay says it sent to each of its destinations (the fewest of them)."""
+    """The number of frames that replay reports as sent to each destination (the fewest of them)."""
     return min(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) frames, \d+ bytes sent", line)))
 
 
 def damaged_in(replay):
-    """In how many places of the flight replay says that it found damage, or a frame that nobody may pass on."""
-    return sum(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) (damaged place|frames? not sent: an unknown)", line)))
+    """The number of places of the flight where replay reports damage, or a frame that may not be forwarded."""
+    return sum(int(found[1]) for line in replay.talk
+               if (found := re.search(r": (\d+) (damaged place|frames? not sent: an unknown)", line)))
 
 
 def compare(options, received, shown, count, damaged):
     got = frames_of(received)
-    print(f"\ndemo: {len(got)} frames reached the ground station, {sum(map(len, got))} bytes; mavloom listen showed {shown} messages")
+    print(f"\ndemo: {len(got)} frames reached the ground station, {sum(map(len, got))} bytes; "
+          f"mavloom listen showed {shown} messages")
     agreeing, gaps = follow(got, pathlib.Path(options.flight).read_bytes(), to_its_end=not options.duration)
     if count == len(got) == agreeing == shown and got and gaps <= damaged:
         if not way_back(options):
@@ -250,7 +258,8 @@ def compare(options, received, shown, count, damaged):
 
 
 def follow(got, flight, to_its_end):
-    """How many frames of `got` stand in the flight in its order, and in how many places bytes are left out that are no record's time."""
+    """How many frames of `got` stand in the flight in its order, and in how many places bytes are left out that are no
+    record's time."""
     at = gaps = 0
     for i, frame in enumerate(got):
         found = flight.find(frame, at)

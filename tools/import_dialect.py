@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: MIT
 """Writes dialects/*.xml: the facts of MAVLink's public message set, without its prose.
 
-Two sources. The upstream definitions travel in the Rust crate `mavlink`; they are taken as they are. The pymavlink wheel carries ArduPilot's
-copy; what it alone has (messages, enums and enum entries that collide with nothing upstream) is added to the file of the same name.
-Kept: names, ids, values, types, units, display hints, parameter labels and bounds, dates and names of deprecation. Dropped: descriptions, comments,
-print formats, work-in-progress marks. The output depends on nothing but the two inputs.
+Two sources. The upstream definitions travel in the Rust crate `mavlink`; they are taken as they are. The pymavlink
+wheel carries ArduPilot's copy; what it alone has (messages, enums and enum entries that collide with nothing upstream)
+is added to the file of the same name. Kept: names, ids, values, types, units, display hints, parameter labels and
+bounds, dates and names of deprecation. Dropped: descriptions, comments, print formats, work-in-progress marks. The
+output depends on nothing but the two inputs.
 
-    tools/import_dialect.py                                     fetch both (cargo, pip) into a temporary folder
-    tools/import_dialect.py --upstream DIR --wheel FILE.whl     use what is there
-    tools/import_dialect.py --check                             change nothing; exit 4 where dialects/ differs from what would be written
+    tools/import_dialect.py                                   fetch both (cargo, pip) into a temporary folder
+    tools/import_dialect.py --upstream DIR --wheel FILE.whl   use these
+    tools/import_dialect.py --check                           change nothing; exit 4 if dialects/ would change
 """
 
 import argparse
@@ -27,13 +28,15 @@ TOP = "all.xml"
 DEFINITIONS_IN_CRATE = "mavlink/message_definitions/v1.0"
 DEFINITIONS_IN_WHEEL = "pymavlink/dialects/v20/"
 
-# What is kept of each element, in the order in which it is written.
+# The attributes of each element that are kept, in the order in which they are written.
 ATTRIBUTES = {
     "enum": ["name", "bitmask"],
     "entry": ["value", "name", "hasLocation", "isDestination", "hasAltitudeOnly"],
-    "param": ["index", "label", "units", "multiplier", "enum", "minValue", "maxValue", "increment", "default", "reserved"],
+    "param": ["index", "label", "units", "multiplier", "enum", "minValue", "maxValue", "increment", "default",
+              "reserved"],
     "message": ["id", "name"],
-    "field": ["type", "name", "units", "multiplier", "enum", "display", "instance", "invalid", "default", "minValue", "maxValue", "increment"],
+    "field": ["type", "name", "units", "multiplier", "enum", "display", "instance", "invalid", "default", "minValue",
+              "maxValue", "increment"],
     "extensions": [],
     "deprecated": ["since", "replaced_by"],
     "superseded": ["since", "replaced_by"],
@@ -57,15 +60,17 @@ def fetch_upstream(folder):
     (project / "src").mkdir(parents=True)
     (project / "src/lib.rs").touch()
     (project / "Cargo.toml").write_text(
-        f'[package]\nname = "fetch"\nversion = "0.0.0"\nedition = "2021"\n[dependencies]\nmavlink = "={CRATE_VERSION}"\n')
+        '[package]\nname = "fetch"\nversion = "0.0.0"\nedition = "2021"\n[dependencies]\n'
+        f'mavlink = "={CRATE_VERSION}"\n')
     vendor = folder / "vendor"
-    subprocess.run(["cargo", "vendor", "--quiet", "--versioned-dirs", str(vendor)], cwd=project, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cargo", "vendor", "--quiet", "--versioned-dirs", str(vendor)], cwd=project, check=True,
+                   stdout=subprocess.DEVNULL)
     return vendor / f"mavlink-{CRATE_VERSION}" / DEFINITIONS_IN_CRATE
 
 
 def fetch_wheel(folder):
-    subprocess.run([sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--dest", str(folder),
-                    f"pymavlink=={WHEEL_VERSION}"], check=True)
+    subprocess.run([sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--dest",
+                    str(folder), f"pymavlink=={WHEEL_VERSION}"], check=True)
     return next(folder.glob("pymavlink-*.whl"))
 
 
@@ -116,7 +121,8 @@ def add_messages(root, extra, known, log):
         if message.get("name") in known.messages:
             continue
         if int(message.get("id")) in known.ids:
-            sys.exit(f"{message.get('name')}: only the wheel has it, and its id {message.get('id')} is another message's upstream")
+            sys.exit(f"{message.get('name')}: only the wheel has it, and its id {message.get('id')} is another "
+                     "message's upstream")
         part(root, "messages").append(message)
         log.append(f"message {message.get('name')}")
 
@@ -124,12 +130,14 @@ def add_messages(root, extra, known, log):
 def add_enums(root, extra, known, log):
     for enum in extra.iterfind("enums/enum"):
         names, values = known.enums.get(enum.get("name"), (set(), set()))
-        entries = [e for e in enum.iterfind("entry") if e.get("name") not in names and number(e.get("value")) not in values]
+        entries = [e for e in enum.iterfind("entry") if e.get("name") not in names
+                   and number(e.get("value")) not in values]
         if not entries:
             continue
         target = root.find(f"enums/enum[@name='{enum.get('name')}']")
         if target is None:
-            target = ET.SubElement(part(root, "enums"), "enum", {k: v for k, v in enum.attrib.items() if k in ATTRIBUTES["enum"]})
+            target = ET.SubElement(part(root, "enums"), "enum",
+                                   {k: v for k, v in enum.attrib.items() if k in ATTRIBUTES["enum"]})
         for entry in entries:
             target.append(entry)
             log.append(f"entry {enum.get('name')}.{entry.get('name')}")
@@ -147,7 +155,8 @@ def add_from_wheel(roots, extras):
 
 def element(node, depth):
     """The lines of one element with what is kept of its inside."""
-    attributes = "".join(f" {key}={quoteattr(node.get(key))}" for key in ATTRIBUTES[node.tag] if node.get(key) is not None)
+    attributes = "".join(f" {key}={quoteattr(node.get(key))}" for key in ATTRIBUTES[node.tag]
+                         if node.get(key) is not None)
     head, indent = f"<{node.tag}{attributes}", "  " * depth
     lines = [line for child in node if child.tag in CHILDREN.get(node.tag, []) for line in element(child, depth + 1)]
     return [f"{indent}{head}>", *lines, f"{indent}</{node.tag}>"] if lines else [f"{indent}{head}/>"]
@@ -181,7 +190,8 @@ def make(options, folder):
 
 def compare(out, files):
     present = {path.name for path in out.glob("*.xml")}
-    wrong = sorted(present ^ files.keys()) + sorted(n for n in present & files.keys() if (out / n).read_text("utf-8") != files[n])
+    wrong = sorted(present ^ files.keys()) + sorted(n for n in present & files.keys()
+                                                    if (out / n).read_text("utf-8") != files[n])
     for name in wrong:
         print(f"{out / name}: differs", file=sys.stderr)
     return 4 if wrong else 0

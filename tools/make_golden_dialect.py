@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes tests/golden/dialect_all.tsv: what pymavlink's generator makes of dialects/all.xml, for comparison with our reader.
+"""Writes tests/golden/dialect_all.tsv: what pymavlink's generator makes of dialects/all.xml, for comparison with our
+reader.
 
-pymavlink is an independent implementation: wire order, lengths, CRC_EXTRA, offsets and merged enums in the output are its own. Run it again
-after tools/import_dialect.py:
+pymavlink is an independent implementation: wire order, lengths, CRC_EXTRA, offsets and merged enums in the output are
+its own. Run it again after tools/import_dialect.py:
 
-    python3 -m venv /tmp/golden && /tmp/golden/bin/pip install pymavlink==2.4.50 && /tmp/golden/bin/python tools/make_golden_dialect.py
+    python3 -m venv /tmp/golden && /tmp/golden/bin/pip install pymavlink==2.4.50
+    /tmp/golden/bin/python tools/make_golden_dialect.py
 
 Lines: M id name crc_extra min_length max_length target_system_offset target_component_offset (255: none)
-       F name type array_length wire_offset extension instance bitmask_display units enum     (of the M above, in wire order)
-       E name bitmask                                                                        (enums by name)
-       V name value                                                                          (of the E above, by rising value)
+       F name type array_length wire_offset extension instance bitmask_display units enum  (of M, in wire order)
+       E name bitmask                                                                      (enums by name)
+       V name value                                                                        (of E, by rising value)
 """
 
 import contextlib
@@ -40,8 +42,10 @@ def parse_closure(top):
 
 def message_lines(message):
     system = message.target_system_ofs if message.message_flags & mavparse.FLAG_HAVE_TARGET_SYSTEM else NO_TARGET
-    component = message.target_component_ofs if message.message_flags & mavparse.FLAG_HAVE_TARGET_COMPONENT else NO_TARGET
-    yield ["M", message.id, message.name, message.crc_extra, message.wire_min_length, message.wire_length, system, component]
+    component = (message.target_component_ofs if message.message_flags & mavparse.FLAG_HAVE_TARGET_COMPONENT
+                 else NO_TARGET)
+    yield ["M", message.id, message.name, message.crc_extra, message.wire_min_length, message.wire_length, system,
+           component]
     for place, field in enumerate(message.ordered_fields):
         yield ["F", field.name, field.type, field.array_length, field.wire_offset, int(place >= message.base_fields()),
                int(field.instance == "true"), int(field.display == "bitmask"), field.units.strip("[]"), field.enum]

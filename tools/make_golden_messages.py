@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes tests/golden/messages.tsv: for every message of dialects/all.xml a few sets of values as pymavlink encodes them. One line a case:
-name, case, frame in hexadecimal (MAVLink 2), and the fields as the JSON form must print them. Run it after a change of the definitions,
-with pymavlink installed: `build/venv/bin/python tools/make_golden_messages.py`."""
+"""Writes tests/golden/messages.tsv: for every message of dialects/all.xml a few sets of values as pymavlink encodes
+them. One line a case: name, case, frame in hexadecimal (MAVLink 2), and the fields as the JSON form must print them.
+Run it after a change of the definitions, with pymavlink installed: `build/venv/bin/python
+tools/make_golden_messages.py`."""
 import json
 import pathlib
 import sys

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The C++ half of bench/decode.py: parses the frames of a recording and decodes each into its generated struct. Every message of the recording
-// must be among the structs named here, else it fails: a figure for part of the traffic would say nothing.
+// The C++ half of bench/decode.py: parses the frames of a recording and decodes each into its generated struct. Every
+// message of the recording must be among the structs named here, else it fails: a figure for part of the traffic would
+// be meaningless.
 // usage: decode_bench FILE.tlog [TURNS]; prints one JSON object with the median messages a second.
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// bench inside: what a frame costs between the system calls, step by step as the router takes them: parse, watch its sequence, count, route,
-// queue, gather. On frames of a recorded flight, one vehicle on one link and one ground station on another, with no socket and no kernel, and
-// without the look-ups by which Links finds a link, its counters and a message's class. Every frame must come out as it went in, checked before
-// any time is taken. Prints nanoseconds of processor time a frame, in the fastest turn: what disturbs a turn is not the router.
+// bench inside: what a frame costs between the system calls, step by step as the router takes them: parse, watch its
+// sequence, count, route, queue, gather. On frames of a recorded flight, one vehicle on one link and one ground station
+// on another, with no socket and no kernel, and without the look-ups by which Links finds a link, its counters and a
+// message's class. Every frame must come out as it went in, checked before any time is taken. Prints nanoseconds of
+// processor time a frame, in the fastest turn: what disturbs a turn is not the router.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The load of `bench listen` and of the router's figures: sends recorded frames to a UDP port at a steady rate, in batches by sendmmsg, as
-// thin as it can be. Prints how many frames it sent, and how long it took.
+// The load of `bench listen` and of the router's figures: sends recorded frames to a UDP port at a steady rate, in
+// batches by sendmmsg, as thin as it can be. Prints how many frames it sent, and how long it took.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <sys/socket.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// bench parse: our stream parser beside the C library's mavlink_parse_char, on the same bytes of a recorded flight, in turns. The answers (how
-// many frames, which, in which order) are compared before any time is taken. Prints bytes per second
-// of processor time for each, and the ratio turn by turn.
+// bench parse: our stream parser beside the C library's mavlink_parse_char, on the same bytes of a recorded flight, in
+// turns. The answers (how many frames, which, in which order) are compared before any time is taken. Prints bytes per
+// second of processor time for each, and the ratio turn by turn.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The floor of `bench route`: reads datagrams from one port and sends them to others, by recvmmsg and sendmmsg, and looks at nothing. With
-// `gather` the datagrams of a turn share datagrams of up to 1280 bytes, as a router may that knows where frames end.
+// The floor of `bench route`: reads datagrams from one port and sends them to others, by recvmmsg and sendmmsg, and
+// looks at nothing. With `gather` the datagrams of a turn share datagrams of up to 1280 bytes, as a router may that
+// knows where frames end.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -50,7 +51,7 @@ public:
         return count;
     }
 
-    // What was received as datagrams to send; how many they are.
+    // Arranges the received frames as datagrams to send. Returns their number.
     std::size_t arrange(std::size_t received) {
         std::size_t datagrams = 0, bytes = 0;
         for (std::size_t i = 0; i < received; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The load of `bench route`: sends numbered frames through sockets that the harness has connected to the router, at a rate kept by absolute
-// deadlines, in batches by sendmmsg. Every TICK_US microseconds leave the frames that are due, never early, none left out. Prints what it sent.
+// The load of `bench route`: sends numbered frames through sockets that the harness has connected to the router, at a
+// rate kept by absolute deadlines, in batches by sendmmsg. Every TICK_US microseconds leave the frames that are due,
+// never early, none left out. Prints what it sent.
 #include <fmt/format.h>
 #include <sys/socket.h>
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""One measurement of `bench route`: a router as a process of its own between the load and its far side. Sockets of both sides are opened here and
-handed to them, so that ports are the kernel's choice and every router gets the same."""
+"""One measurement of `bench route`: a router as a process of its own between the load and its far side. Sockets of both
+sides are opened here and handed to them, so that ports are the kernel's choice and every router gets the same."""
 import dataclasses
 import json
 import math
@@ -20,7 +20,8 @@ START_DEADLINE_S = 30
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """`links` senders; `outs` receivers, or none: then the senders are the receivers, and each gets what the others sent."""
+    """`links` senders; `outs` receivers, or none: then the senders are the receivers, and each gets what the others
+    sent."""
     key: str
     title: str
     rate: int
@@ -46,7 +47,8 @@ class NoAnswer(Exception):
 
 
 def heartbeat(system, number):
-    """A HEARTBEAT (id 0, CRC_EXTRA 50) of component 1 that no other equals: `number` is its custom_mode. Tells when a router is up."""
+    """A HEARTBEAT (id 0, CRC_EXTRA 50) of component 1 that no other equals: `number` is its custom_mode.
+    Its arrival shows that a router is up."""
     body = struct.pack("<BBBBBB3xIBBBBB", 9, 0, 0, number & 0xFF, system, 1, number, 2, 12, 81, 4, 3)
     crc = 0xFFFF
     for byte in body + b"\x32":
@@ -78,8 +80,9 @@ def dropped_by(sock):
 
 
 def cpu_seconds(pid):
-    """What all threads of a process have run, user and system."""
-    return sum(int((task / "schedstat").read_text().split()[0]) for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
+    """CPU time of all threads of a process, user and system."""
+    return sum(int((task / "schedstat").read_text().split()[0])
+               for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
 
 
 def anonymous_kib(pid):
@@ -104,7 +107,8 @@ def wait_until_up(router, senders, receivers):
     silent, number = set(receivers), 0
     while silent:
         if router.poll() is not None or time.monotonic() > deadline:
-            raise NoAnswer(f"status {router.returncode}" if router.poll() is not None else f"nothing within {START_DEADLINE_S} s")
+            raise NoAnswer(f"status {router.returncode}" if router.poll() is not None
+                           else f"nothing within {START_DEADLINE_S} s")
         for system, sock in enumerate(senders, 1):
             number += 1
             try:
@@ -137,7 +141,8 @@ def run_load(kit, load, rate, seconds, pid, senders, receivers):
                stdin=subprocess.PIPE, stdout=subprocess.PIPE) as sink:
         sink.stdout.readline()
         dropped, cpu = sum(map(dropped_by, receivers)), cpu_seconds(pid)
-        with start([kit.tools / "route_generator", descriptors(senders), *shape, rate, frames, load.per_datagram, load.tick_us], senders,
+        with start([kit.tools / "route_generator", descriptors(senders), *shape, rate, frames, load.per_datagram,
+                    load.tick_us], senders,
                    stdout=subprocess.PIPE) as generator:
             time.sleep(seconds / 4)
             early_kib = anonymous_kib(pid)
@@ -151,11 +156,13 @@ def run_load(kit, load, rate, seconds, pid, senders, receivers):
 
 def summary(load, sent, arrived, cpu, dropped, early_kib, late_kib):
     delivered = sum(arrived["distinct"])
-    # In a mesh a sender does not hear itself: everybody's frames once, times all but one, however many frames each has sent.
+    # In a mesh a sender does not hear itself: everybody's frames once, times all but one, however many frames each has
+    # sent.
     expected = sent["frames"] * (load.outs or load.links - 1)
-    return {"sent": sent["frames"], "rate": sent["rate"], "expected": expected, "delivered": delivered, "lost": expected - delivered,
-            "lost_at_sink": dropped, "loss_percent": round(100 * (expected - delivered) / expected, 4),
-            "cpu_s": round(cpu, 4), "cpu_us_per_frame": round(1e6 * cpu / delivered, 4) if delivered else None,
+    return {"sent": sent["frames"], "rate": sent["rate"], "expected": expected, "delivered": delivered,
+            "lost": expected - delivered, "lost_at_sink": dropped,
+            "loss_percent": round(100 * (expected - delivered) / expected, 4), "cpu_s": round(cpu, 4),
+            "cpu_us_per_frame": round(1e6 * cpu / delivered, 4) if delivered else None,
             "datagrams": arrived["datagrams"], "median_us": arrived["median_us"], "p99_us": arrived["p99_us"],
             "duplicates": arrived["duplicates"], "reordered": arrived["reordered"], "echoes": arrived["echoes"],
             "damaged": arrived["damaged"], "foreign": arrived["foreign"], "generator_latest_us": sent["latest_us"],
@@ -163,7 +170,8 @@ def summary(load, sent, arrived, cpu, dropped, early_kib, late_kib):
 
 
 def measure(kit, peer, load, seconds, rate=None):
-    """Starts the router, waits until it forwards, runs the load and ends the router. Raises NoAnswer where it never forwards."""
+    """Starts the router, waits until it forwards, runs the load and ends the router.
+    Raises NoAnswer where it never forwards."""
     rate, seconds = rate or load.rate, min(seconds, load.longest_s)
     in_port = free_port()
     senders = [udp_socket() for _ in range(load.links)]
@@ -173,10 +181,12 @@ def measure(kit, peer, load, seconds, rate=None):
     with tempfile.TemporaryDirectory(prefix="bench-route-") as folder:
         out_ports = [sock.getsockname()[1] for sock in receivers] if load.outs else []
         log = open(pathlib.Path(folder, "log"), "w+")
-        router = start(peer.command(in_port, out_ports, folder), cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        router = start(peer.command(in_port, out_ports, folder), cwd=folder, stdin=subprocess.DEVNULL, stdout=log,
+                       stderr=log)
         beside = []
         try:
-            beside = [start(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log) for command in peer.beside()]
+            beside = [start(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log)
+                      for command in peer.beside()]
             wait_until_up(router, senders, receivers)
             measured = run_load(kit, load, rate, seconds, router.pid, senders, receivers)
             if router.poll() is not None:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The routers of `bench route`: how each is got and how it is started. Peers are programs of their own; nothing of them is linked or copied."""
+"""The routers of `bench route`: how each is got and how it is started. Peers are programs of their own;
+nothing of them is linked or copied."""
 import os
 import pathlib
 import shutil
@@ -16,7 +17,8 @@ class Missing(Exception):
 
 
 class Peer:
-    """A router. command() -> argv of a process that reads UDP datagrams at in_port and sends what it forwards to each of out_ports."""
+    """A router. command() -> argv of a process that reads UDP datagrams at in_port and sends what it forwards to each
+    of out_ports."""
     note = ""
 
     def __init__(self, name):
@@ -49,7 +51,8 @@ class Mavloom(Peer):
     def route(self, *arguments):
         """A name of its own, where the program knows names, keeps it apart from a router that runs on this machine."""
         help_text = subprocess.run([str(self.program), "route", "--help"], capture_output=True, text=True).stdout
-        return [self.program, "route", *(("--name", f"bench-{os.getpid()}") if "--name" in help_text else ()), *arguments]
+        return [self.program, "route", *(("--name", f"bench-{os.getpid()}") if "--name" in help_text else ()),
+                *arguments]
 
     def command(self, in_port, out_ports, folder):
         return self.route(f"udpin://127.0.0.1:{in_port}", *(f"udpout://127.0.0.1:{port}" for port in out_ports))
@@ -70,7 +73,8 @@ class MavloomWithRing(Mavloom):
 
 
 class MavloomConfigured(Mavloom):
-    """`mavloom route` for the many links: every peer of one udpin endpoint is a link; `router` and `endpoint` are lines of TOML."""
+    """`mavloom route` for the many links: every peer of one udpin endpoint is a link;
+    `router` and `endpoint` are lines of TOML."""
 
     def __init__(self, program, name, router, endpoint):
         super().__init__(program, name)
@@ -110,8 +114,8 @@ class Mavproxy(Peer):
         self.python = python
 
     def command(self, in_port, out_ports, folder):
-        return [self.python, self.python.with_name("mavproxy.py"), "--daemon", "--non-interactive", "--no-state", "--default-modules=",
-                "--force-connected", "--nowait", f"--master=udpin:127.0.0.1:{in_port}",
+        return [self.python, self.python.with_name("mavproxy.py"), "--daemon", "--non-interactive", "--no-state",
+                "--default-modules=", "--force-connected", "--nowait", f"--master=udpin:127.0.0.1:{in_port}",
                 *(f"--out=udpout:127.0.0.1:{port}" for port in out_ports)]
 
 
@@ -129,7 +133,8 @@ def mavrouter(folder):
         cargo = shutil.which("cargo")
         if not cargo:
             raise Missing("no cargo to build it with (Debian: cargo-web)")
-        run_quietly([cargo, "install", "mavrouter", "--version", MAVROUTER_VERSION, "--locked", "--root", folder / "mavrouter"],
+        run_quietly([cargo, "install", "mavrouter", "--version", MAVROUTER_VERSION, "--locked", "--root",
+                     folder / "mavrouter"],
                     "cargo install mavrouter, which takes some minutes")
     return Mavrouter(program)
 
@@ -138,15 +143,16 @@ def mavproxy(folder):
     python = folder / "mavproxy" / "bin" / "python"
     if not python.with_name("mavproxy.py").is_file():
         run_quietly([sys.executable, "-m", "venv", folder / "mavproxy"], f"Python environment {folder / 'mavproxy'}")
-        run_quietly([python, "-m", "pip", "install", "--quiet", "--no-input", "--no-deps", "-r", ROOT / "packaging" / "python-bench.txt"],
+        run_quietly([python, "-m", "pip", "install", "--quiet", "--no-input", "--no-deps", "-r",
+                     ROOT / "packaging" / "python-bench.txt"],
                     "pip install MAVProxy")
     return Mavproxy(python)
 
 
 def at_hand(program, tools, folder, without=()):
     """(peers in the order of the table, why the others are missing)."""
-    peers = [BareLoop("bare loop", tools / "route_bare_loop", "single"), BareLoop("bare loop, gathering", tools / "route_bare_loop", "gather"),
-             Mavloom(program)]
+    peers = [BareLoop("bare loop", tools / "route_bare_loop", "single"),
+             BareLoop("bare loop, gathering", tools / "route_bare_loop", "gather"), Mavloom(program)]
     missing = [NOT_AT_HAND]
     for name, find in (("mavrouter", mavrouter), ("MAVProxy", mavproxy)):
         if name.lower() in without:

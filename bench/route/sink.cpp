@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The far side of `bench route`: receives on sockets that the harness opened, proves of each frame that it is one that the generator sent, whole
-// and unchanged, and counts each number once per socket. When standard input has ended and nothing came for a while it prints what it saw.
+// The far side of `bench route`: receives on sockets that the harness opened, proves of each frame that it is one that
+// the generator sent, whole and unchanged, and counts each number once per socket. When standard input has ended and
+// nothing came for a while it prints what it saw.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/epoll.h>
@@ -151,7 +152,8 @@ bool input_ended() {
     return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-// Until the input has ended and all is there, or nothing comes any more. After each look it rests, so that a fast load wakes it in batches.
+// Until the input has ended and all is there, or nothing comes any more. After each look it rests, so that a fast load
+// wakes it in batches.
 void receive(Sink& sink, std::vector<Port>& ports, useconds_t rest_us) {
     const int epoll = ::epoll_create1(EPOLL_CLOEXEC);
     for (std::size_t i = 0; i < ports.size(); ++i) {

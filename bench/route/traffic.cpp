@@ -17,8 +17,9 @@ constexpr std::size_t header_bytes = 10, checksum_bytes = 2, time_bytes = 8;
 constexpr std::size_t number_at = header_bytes, sent_at = number_at + 8, carried_until = sent_at + 8;
 constexpr std::size_t pattern_count = 512;
 
-// ATTITUDE, ATTITUDE_QUATERNION, LOCAL_POSITION_NED, GLOBAL_POSITION_INT, SERVO_OUTPUT_RAW, ATTITUDE_TARGET, POSITION_TARGET_LOCAL_NED,
-// ALTITUDE: no target, and nothing but numbers in the first 16 bytes (a router that decodes must not stumble over an enumeration's value).
+// ATTITUDE, ATTITUDE_QUATERNION, LOCAL_POSITION_NED, GLOBAL_POSITION_INT, SERVO_OUTPUT_RAW, ATTITUDE_TARGET,
+// POSITION_TARGET_LOCAL_NED, ALTITUDE: no target, and nothing but numbers in the first 16 bytes (a router that decodes
+// must not stumble over an enumeration's value).
 constexpr std::array<std::uint32_t, 8> suitable{30, 31, 32, 33, 36, 83, 85, 141};
 
 std::uint32_t id_of(const std::uint8_t* frame) noexcept {

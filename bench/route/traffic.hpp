@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The frames of `bench route`: frames of the recorded flight that carry a number and their send time in the first 16 bytes of the payload, with
-// the right checksum. Whoever has the same recording can tell from a received frame whether it arrived whole and unchanged. Immutable after
-// load(), safe from any thread; allocates in load() only.
+// The frames of `bench route`: frames of the recorded flight that carry a number and their send time in the first 16
+// bytes of the payload, with the right checksum. A program with the same recording can check that a received frame
+// arrived whole and unchanged. Immutable after load(), safe from any thread; allocates in load() only.
 #pragma once
 
 #include <time.h>
@@ -23,21 +23,22 @@ inline constexpr std::size_t max_frame_bytes = 64;
 struct Received {
     enum class Kind : std::uint8_t { whole, damaged, foreign };
     Kind kind = Kind::damaged;
-    std::size_t size = 0;  // what the frame takes of the datagram; the rest of it where nothing can be told
+    std::size_t size = 0;  // the frame's bytes of the datagram; all that remain if it is not recognised
     std::uint64_t number = 0;
     std::uint64_t sent_ns = 0;
 };
 
 class Traffic {
 public:
-    // `systems` times `components` sources take turns; 1 times 1 is the recorded vehicle alone. System s speaks on link s modulo `links`.
+    // `systems` times `components` sources take turns; 1 times 1 is the recorded vehicle alone. System s speaks on link
+    // s modulo `links`.
     [[nodiscard]] static std::optional<Traffic> load(const char* flight, unsigned systems, unsigned components,
                                                      unsigned links);
 
     // Frame `number`; its size.
     std::size_t write(std::span<std::uint8_t, max_frame_bytes> out, std::uint64_t number,
                       std::uint64_t time_ns) const noexcept;
-    // What `bytes`, the unread rest of a datagram, begins with.
+    // Returns the frame at the start of `bytes`, the unread rest of a datagram.
     [[nodiscard]] Received check(ByteView bytes) const noexcept;
     [[nodiscard]] unsigned link_of(std::uint64_t number) const noexcept {
         return static_cast<unsigned>(number % sources() % systems_ % links_);

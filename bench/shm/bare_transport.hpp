@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The least that moves records from one core to another: each is copied, behind 24 bytes of tags as a ring's
-// record has them, into memory that both see, and told by one store. One reader.
+// record has them, into memory that both see, and published by one store. One reader.
 #pragma once
 
 #include <sched.h>

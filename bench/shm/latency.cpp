@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// shm_latency line|ring|futex|pipe ROUNDS: how long 64 bytes take from one core to the other, as half of a round trip between two threads that are kept
-// on two cores; of `line` a single word does, which is the least there is. Prints median and 99.9th percentile in ns.
+// shm_latency line|ring|futex|pipe ROUNDS: how long 64 bytes take from one core to the other, as half of a round trip
+// between two threads that are kept on two cores; of `line` a single word does, which is the least there is. Prints
+// median and 99.9th percentile in ns.
 #include <pthread.h>
 #include <unistd.h>
 

@@ -32,7 +32,8 @@ private:
     mutable std::array<std::uint64_t, bytes / sizeof(std::uint64_t)> record_{};  // of the one writer
 };
 
-// The frames of a recording, over and over. Each record is copied out by its reader, as the copy is that this is measured against; `verify` compares all bytes.
+// The frames of a recording, over and over. Each record is copied out by its reader, as the copy is that this is
+// measured against; `verify` compares all bytes.
 class RecordedFrames {
 public:
     RecordedFrames(std::vector<ByteView> frames, bool verify) : frames_(std::move(frames)), verify_(verify) {}

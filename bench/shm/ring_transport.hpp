@@ -16,7 +16,7 @@
 
 namespace mavloom::bench {
 
-// What cannot be opened ends the program.
+// Ends the program if it cannot be opened.
 template <class Opened>
 auto or_exit(Opened opened) {
     if (opened) return std::move(*opened);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How many records a second go from one writer to some readers, in threads or in processes. The same for every transport, which is a type with
+// How many records a second go from one writer to some readers, in threads or in processes. The same for every
+// transport, which is a type with
 //     Writer: void write(const Shared&, ByteView record);  void flush(const Shared&);
 //     Reader: void poll(each);     each(ByteView) for the records that are there, in order; none may be missing
-// that gives its sides by `writer()` and `reader(number)`, each called in the thread or process that uses it. Every record is compared, in its first and
-// last word or as a whole, with what it must be.
+// that gives its sides by `writer()` and `reader(number)`, each called in the thread or process that uses it. Every
+// record is compared, in its first and last word or as a whole, with what it must be.
 #pragma once
 
 #include <sched.h>
@@ -33,7 +34,7 @@ struct Plan {
     std::uint64_t before = 1'000'000;  // that the clock does not see
 };
 
-// What the sides know of each other, beside what they measure.
+// The state that both sides share, apart from the measured transport.
 struct Shared {
     struct alignas(128) Reader {
         std::atomic<std::uint64_t> taken{0};
@@ -64,7 +65,7 @@ inline Shared& make_shared_page(unsigned readers) {
     return shared;
 }
 
-// `taken` is told now and then: a shared line for each record would be what is measured.
+// `taken` is published only now and then: with a shared cache line for each record, that would be measured.
 template <class Transport, class Records>
 void read_all(Transport& transport, const Records& records, unsigned number, Shared::Reader& self, const Plan& plan) {
     auto reader = transport.reader(number);

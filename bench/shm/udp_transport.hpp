@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// UDP on loopback at its best: 64 datagrams a system call, never more on the way than the receive buffer holds, so that none is lost.
+// UDP on loopback at its best: 64 datagrams a system call, never more on the way than the receive buffer holds, so that
+// none is lost.
 #pragma once
 
 #include <arpa/inet.h>

@@ -18,7 +18,10 @@ mavloom=${MAVLOOM_PROGRAM:-$here/build/release/bin/mavloom}
 python=${PYTHON:-$here/build/venv/bin/python}
 listen=${LISTEN:-udpin://127.0.0.1:5058} to=${TO:-udpout://127.0.0.1:14550} ring=${RING:-px4}
 
-[ -x "$mavloom" ] && [ -x "$python" ] || { echo "type ./run build first: $mavloom or $python is not there" >&2; exit 1; }
+if ! [ -x "$mavloom" ] || ! [ -x "$python" ]; then
+  echo "type ./run build first: $mavloom or $python is not there" >&2
+  exit 1
+fi
 log=$(mktemp)
 
 # Ctrl-C reaches every process of the script. This subshell ignores it, to pass on the last messages of mavloom.hear.

@@ -10,13 +10,15 @@ import atexit as _atexit
 
 from . import _errors, enums, messages
 from ._columns import Columns, columns, tables
-from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Record, RecordBatch, Recording, RecordingStats, RingClaim, RingReader,
-                    RingWriter, SourceStats, Subscription, remove_ring, rings, stop_all, version)
+from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Record, RecordBatch, Recording,
+                    RecordingStats, RingClaim, RingReader, RingWriter, SourceStats, Subscription, remove_ring, rings,
+                    stop_all, version)
 from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
 from ._link import Link, connect
 
 # Tracebacks and pickles use the names that users import.
-for _name in ("Error", "UsageError", "InputError", "SystemFailure", "NotFoundError", "PermissionDeniedError", "ClosedError"):
+for _name in ("Error", "UsageError", "InputError", "SystemFailure", "NotFoundError", "PermissionDeniedError",
+              "ClosedError"):
     getattr(_errors, _name).__module__ = "mavloom"
 
 __version__ = version()
@@ -24,7 +26,9 @@ read = Recording
 _atexit.register(stop_all)
 
 __all__ = [
-    "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message", "MessageInfo", "NotFoundError",
-    "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription",
-    "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings", "tables",
+    "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message",
+    "MessageInfo", "NotFoundError", "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording",
+    "RecordingStats", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription",
+    "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring",
+    "rings", "tables",
 ]

@@ -38,9 +38,13 @@ def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[Reco
     return each(source, source.poll, most=1, timeout=timeout, look_again_s=LOOK_FOR_RING_S)
 
 
-async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None], most: int = MOST_AT_ONCE, timeout: float | None = None,
+async def each(source: Subscription | RingReader | RecordBatches, poll: Callable[[], T | None],
+               most: int = MOST_AT_ONCE, timeout: float | None = None,
                look_again_s: float | None = None) -> AsyncGenerator[T, None]:
-    """Yields what `poll` returns, until it raises ClosedError. If it returns None, waits for the source's descriptor."""
+    """Yields what `poll` returns, until it raises ClosedError or the source is silent for `timeout` seconds.
+
+    If `poll` returns None, waits for the source's descriptor, but calls `poll` again after `look_again_s` seconds.
+    """
     descriptor = source.event_fd()
     check_free(descriptor)
     loop = asyncio.get_running_loop()
@@ -66,7 +70,8 @@ async def each(source: Subscription | RingReader | RecordBatches, poll: Callable
 
 def check_free(descriptor: int) -> None:
     if descriptor in waiting:
-        raise UsageError("another task waits on this reader: give each task its own (link.subscribe(), or another RingReader)")
+        raise UsageError("another task waits on this reader: give each task its own (link.subscribe(), "
+                         "or another RingReader)")
 
 
 async def readable(descriptor: int, timeout: float | None) -> None:

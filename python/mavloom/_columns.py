@@ -82,7 +82,8 @@ class Columns:
         except ImportError as error:
             raise ImportError("to_arrow() needs pyarrow: pip install 'mavloom[arrow]'") from error
         arrays = [self._arrow_array(pyarrow, name) for name in self._arrays]
-        fields = [pyarrow.field(name, array.type, metadata=self._metadata(name)) for name, array in zip(self._arrays, arrays)]
+        fields = [pyarrow.field(name, array.type, metadata=self._metadata(name))
+                  for name, array in zip(self._arrays, arrays)]
         return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata={"message": self.name}))
 
     def _metadata(self, name: str) -> dict[str, str]:
@@ -141,8 +142,8 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
     return _made(info, parts, junk_bytes)
 
 
-def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
-           dialect: Dialect | None = None) -> dict[str, Columns]:
+def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, system: int | None = None,
+           component: int | None = None, dialect: Dialect | None = None) -> dict[str, Columns]:
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns the messages that occur; with it, those that it names. Messages without a definition are

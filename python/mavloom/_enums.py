@@ -20,7 +20,7 @@ def make(dialect: Dialect, name: str) -> EnumClass:
     if key not in _made:
         bitmask, entries = dialect.enum_entries(name)
         base: Any = enum.IntFlag if bitmask else enum.IntEnum
-        return _made.setdefault(key, base(name, entries, module="mavloom.enums"))  # another thread may have been faster
+        return _made.setdefault(key, base(name, entries, module="mavloom.enums"))  # another thread may have created it
     return _made[key]
 
 

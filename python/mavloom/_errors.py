@@ -10,7 +10,7 @@ class Error(Exception):
 
 
 class UsageError(Error, ValueError):
-    """A name, value, address or option is wrong. The text says what to use instead."""
+    """A name, value, address or option is wrong. The text states what to use instead."""
 
 
 class InputError(Error, ValueError):
@@ -18,7 +18,7 @@ class InputError(Error, ValueError):
 
 
 class SystemFailure(Error, OSError):
-    """The operating system refused an operation. If a system call failed, `errno` says why."""
+    """The operating system refused an operation. If a system call failed, `errno` is its error number."""
 
 
 class NotFoundError(SystemFailure, FileNotFoundError):

@@ -39,9 +39,10 @@ class Link:
     of its own.
     """
 
-    def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
-                 buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
-        """Opens what can be opened at once. Raises SystemFailure if, for example, the port is in use.
+    def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
+                 dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
+        """Opens the endpoint at once. Raises SystemFailure if, for example, the port is in use, and UsageError for a
+        wrong address or option.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
         call waits for it for up to 5 s and then raises SystemFailure.
@@ -64,11 +65,15 @@ class Link:
             yield message
 
     def recv(self, timeout: float | None = None) -> Message | None:
-        """Returns the next message, or None after `timeout` seconds (0 polls, None waits for ever)."""
+        """Returns the next message, or None after `timeout` seconds (0 polls, None waits indefinitely).
+
+        Raises ClosedError if the link is closed, also while it waits.
+        """
         return self._reader.recv(timeout)
 
-    def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None, blocking: bool = False,
-                   timeout: float | None = None, system: int | None = None, component: int | None = None) -> Message | None:
+    def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None,
+                   blocking: bool = False, timeout: float | None = None, system: int | None = None,
+                   component: int | None = None) -> Message | None:
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
 
         `type` takes names or classes of mavloom.messages. An unknown name is a ValueError, which suggests the nearest
@@ -76,15 +81,16 @@ class Link:
         """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
-    def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None) -> Subscription:
+    def subscribe(self, type: MessageTypes | None = None, *, system: int | None = None,
+                  component: int | None = None) -> Subscription:
         """Returns a new reader of the messages that arrive from now on.
 
         Each reader gets every message. A reader keeps the link open as long as it exists.
         """
         return self._port.subscribe(type, system, component)
 
-    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None, instance: int | str | None = None,
-               max_age: float | None = None) -> Message | None:
+    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None,
+               instance: int | str | None = None, max_age: float | None = None) -> Message | None:
         """Returns the newest message of this type; None if none arrived, or none in the last `max_age` seconds.
 
         Takes no message away from `recv`.
@@ -151,6 +157,7 @@ class Link:
 
     @property
     def dialect(self) -> Dialect:
+        """The definitions that this link decodes and encodes with."""
         return self._port.dialect
 
     def close(self) -> None:
@@ -194,7 +201,7 @@ class Link:
 
     @property
     def messages(self) -> Mapping[str, Message]:
-        """The newest messages of the target system, by name.
+        """The newest messages of the target system, by name. Raises KeyError for a message that was not received.
 
         For example link.messages["ATTITUDE"], or with an instance "BATTERY_STATUS[1]" or "NAMED_VALUE_FLOAT[name]".
         """
@@ -211,14 +218,15 @@ class Link:
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
-        """Returns the percentage of frames lost on the way here, from all sources or the selected ones.
+        """Returns the percentage of frames lost before they arrived, 0 to 100, from all sources or the selected ones.
 
         Late and duplicate frames do not count as lost. `stats.sources` has the figures of each source.
         """
         for what, number in (("system", system), ("component", component)):
             if number is not None and not 0 <= number <= 255:
                 raise UsageError(f"{what}: {number} is out of range, 0 to 255")
-        chosen = [source for source in self.stats.sources if system in (None, source.sys) and component in (None, source.comp)]
+        chosen = [source for source in self.stats.sources
+                  if system in (None, source.sys) and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
         return 100.0 * lost / max(lost + sum(source.received - source.duplicate for source in chosen), 1)
 
@@ -232,7 +240,8 @@ class Latest(Mapping[str, Message]):
     def __getitem__(self, key: str) -> Message:
         name, bracket, rest = key.partition("[")
         instance: int | str | None = rest.rstrip("]") if bracket else None
-        if instance is not None and not any(field.instance and field.type == "char" for field in self._link.dialect[name].fields):
+        if instance is not None and not any(field.instance and field.type == "char"
+                                            for field in self._link.dialect[name].fields):
             with contextlib.suppress(ValueError):
                 instance = int(instance)
         message = self._link.latest(name, system=self._link.target_system or None, instance=instance)
@@ -263,7 +272,7 @@ class Sender:
     def __getattr__(self, call: str) -> Callable[..., Any]:
         name, _, verb = call.rpartition("_")
         if verb not in ("send", "encode") or name.upper() not in self._port.dialect:
-            raise AttributeError(f"no message for {call}: NAME_send and NAME_encode, as heartbeat_send")
+            raise AttributeError(f"no message for {call}: use NAME_send or NAME_encode, for example heartbeat_send")
         info = self._port.dialect[name.upper()]
         act: Callable[..., Any] = self._port.send if verb == "send" else self._port.dialect.message
 
@@ -275,10 +284,11 @@ class Sender:
         return run
 
 
-def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1], dialect: Dialect | None = None,
-            buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
+def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
+            dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> Link:
     """Opens a Link: `mavloom.connect("udpin://0.0.0.0:14550")`.
 
     Also accepts pymavlink's spelling, `udpin:HOST:PORT`. With `version=1` the link sends MAVLink 1.
     """
-    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer, version=version)
+    return Link(url, source_system=source_system, source_component=source_component, dialect=dialect, buffer=buffer,
+                version=version)

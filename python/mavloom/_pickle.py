@@ -8,7 +8,8 @@ import os
 from . import _core
 
 
-def restore_message(dialect: _core.Dialect, frame: bytes, time_ns: int, link: int, link_name: str, verdict: int) -> _core.Message:
+def restore_message(dialect: _core.Dialect, frame: bytes, time_ns: int, link: int, link_name: str,
+                    verdict: int) -> _core.Message:
     return _core.restore_message(dialect, frame, time_ns, link, link_name, verdict)
 
 

@@ -18,21 +18,29 @@ from ._values import mode, size
 LOOK_AT_SIGNALS_S = 0.1
 LOOK_AT_ANSWERS_S = 1.0
 
-EPILOG = """\
-The ring has a way back: programs that read it send to the socket RUN/NAME.in (`mavloom relay shm://NAME` and `mavloom.connect("shm://NAME").send` do), and
-every peer of URL gets what comes there.
+DESCRIPTION = "Writes the frames of a link to a ring in shared memory, and sends the answers of its readers."
 
-Each record is one good frame, byte for byte, of kind 1, with its receive time (the kernel's) and the number of its link; the verdict is 0 unsigned,
-16 signed and not checked, 32 signed and verified (verify= in URL). Other processes read it from there at memory speed:
+EPILOG = """\
+Each record is one valid frame, byte for byte, of kind 1. It has the kernel's receive time and the number of its link.
+Its verdict is 0 for unsigned, 16 for signed but not checked, 32 for signed and verified (verify= in URL). Other
+processes read the ring at memory speed:
 
   python -m mavloom.hear udpin://0.0.0.0:14550 --ring px4
   mavloom shm read px4 --json
   python -c 'import mavloom; print(mavloom.RingReader("px4").read())'
 
-While a lossless reader holds the ring full, frames wait in a buffer of 16 MiB; what is overwritten there is "missed". A ring that is there
-already is carried on, one of another capacity replaced, if nobody writes to it; one that somebody removes is made anew. Ctrl-C or SIGTERM ends
-it cleanly (status 130, 143) and takes ring and socket away, the ring not with --keep; a signal that it was started to ignore (by nohup, or as a job that a script runs
-in the background) does not: use SIGTERM there. Status: 1 failed, 2 wrong use, 3 a file that is no ring, 4 with frames missed.
+Programs that read the ring can answer. `mavloom relay shm://NAME` and `mavloom.connect("shm://NAME").send` send to the
+socket RUN/NAME.in, and every peer of URL gets these frames.
+
+While a lossless reader keeps the ring full, frames wait in a buffer of 16 MiB. If that is full too, the oldest frame is
+overwritten and counted as missed. An existing ring is continued. One of another capacity is replaced, unless another
+process writes to it. If the ring is removed, it is created again.
+
+Ctrl-C or SIGTERM ends the program cleanly (status 130, 143). It then removes the socket, and the ring unless --keep is
+given. Signals that were ignored at start stay ignored, for example under nohup or in the background of a script: use
+SIGTERM there.
+
+Status: 1 failed, 2 wrong use, 3 the file is not a ring, 4 frames were missed.
 """
 
 
@@ -52,20 +60,24 @@ class Signals:
 
 def ring_name(text: str) -> str:
     if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is no name of a ring: letters, digits, _ and -, at most 64")
+        raise argparse.ArgumentTypeError(f"{text!r} is no name of a ring: use letters, digits, _ and -, at most 64")
     return text
 
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser("python -m mavloom.hear", description="Hears MAVLink on a link and writes it to a ring in shared memory; sends back what readers answer.",
-                                     epilog=EPILOG, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-    parser.add_argument("url", metavar="URL", help="where to listen, as every command takes it: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
-    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME", help="letters, digits, _ and -, at most 64")
-    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE", help="bytes of a new ring, a power of two: 64k to 64G (8M)")
-    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL", help="who may open a new ring, and send by its socket (0600)")
+    parser = argparse.ArgumentParser("python -m mavloom.hear", description=DESCRIPTION, epilog=EPILOG,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
+    parser.add_argument("url", metavar="URL",
+                        help="the link, as for every command: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
+    parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME",
+                        help="letters, digits, _ and -, at most 64")
+    parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE",
+                        help="bytes of a new ring, a power of two: 64k to 64G (8M)")
+    parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL",
+                        help="who may open a new ring, and send by its socket (0600)")
     end = parser.add_mutually_exclusive_group()
-    end.add_argument("--keep", action="store_true", help="leave the ring at the end, for the next writer")
-    end.add_argument("--remove", action="store_true", help="take the ring away at the end, as it does unless --keep")
+    end.add_argument("--keep", action="store_true", help="keep the ring at the end, for the next writer")
+    end.add_argument("--remove", action="store_true", help="remove the ring at the end (the default)")
     parser.add_argument("-q", "--quiet", action="store_true", help="print errors only")
     return parser.parse_args(words)
 
@@ -93,7 +105,7 @@ class Ring:
             if not self.writer.removed:
                 raise
 
-    def made_anew(self) -> bool:
+    def create_again_if_removed(self) -> bool:
         """Creates the ring again if it was removed. Returns whether it was."""
         if not self.writer.removed:
             return False
@@ -112,7 +124,7 @@ class Answers:
     def __init__(self, link: Link, say: Callable[[str], None]) -> None:
         self._link, self._say = link, say
         self._look_due = 0.0
-        self._told_nobody = self._told_refused = False
+        self._reported_no_peer = self._reported_refused = False
 
     def serve(self, ring: str, mode: int) -> None:
         try:
@@ -126,30 +138,35 @@ class Answers:
             return
         self._look_due = now + LOOK_AT_ANSWERS_S
         stats = self._link.stats
-        if stats.unheard_answers and not self._told_nobody:
-            self._told_nobody = True
-            self._say(f"nobody is there on {self._link.name} for what readers of the ring send; it is counted and dropped")
-        if stats.refused and not self._told_refused:
-            self._told_refused = True
-            self._say(f"a peer of {self._link.name} is gone: what readers of the ring send is refused there, and counted")
+        if stats.unheard_answers and not self._reported_no_peer:
+            self._reported_no_peer = True
+            self._say(f"{self._link.name} has no peer: frames that readers of the ring send are dropped and counted")
+        if stats.refused and not self._reported_refused:
+            self._reported_refused = True
+            self._say(f"a peer of {self._link.name} is gone: frames that readers of the ring send to it are refused "
+                      "and counted")
 
 
 def hear(link: Link, ring: Ring, answers: Answers, signals: Signals, say: Callable[[str], None]) -> None:
     while not signals.received:
         ring.fill_from(link, LOOK_AT_SIGNALS_S)
         answers.look(time.monotonic())
-        if ring.made_anew():
-            say(f"ring {ring.writer.name} was removed, and is made anew")
+        if ring.create_again_if_removed():
+            say(f"ring {ring.writer.name} was removed; it is created again")
     ring.fill_from(link, 0)
 
 
 def summary(link: Link, name: str, written: int) -> str:
     stats = link.stats
-    losses = {"lost on the way here": stats.lost, "dropped by the kernel": stats.kernel_drop, "missed: the ring was full": stats.missed,
-              "not written: the ring was full, or they came at the end": max(stats.frames_in - stats.missed - written, 0), "with a wrong checksum": stats.crc_error,
-              "wrongly signed": stats.bad_signature, "sent back by readers of the ring": stats.answers, "of these had no peer to go to": stats.unheard_answers,
+    not_written = max(stats.frames_in - stats.missed - written, 0)
+    counts = {"lost before they arrived": stats.lost, "dropped by the kernel": stats.kernel_drop,
+              "missed because the ring was full": stats.missed,
+              "not written because the ring was full or the program ended": not_written,
+              "with a wrong checksum": stats.crc_error, "with a wrong signature": stats.bad_signature,
+              "sent by readers of the ring": stats.answers, "of these without a peer": stats.unheard_answers,
               "refused by a peer that is gone": stats.refused}
-    return f"{name}: {stats.frames_in} frames heard, {written} written" + "".join(f"; {count} {what}" for what, count in losses.items() if count)
+    listed = "".join(f"; {count} {what}" for what, count in counts.items() if count)
+    return f"{name}: {stats.frames_in} frames heard, {written} written{listed}"
 
 
 def run(options: argparse.Namespace, signals: Signals) -> int:
@@ -163,7 +180,8 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
             name = ring.writer.name
             answers = Answers(link, say)
             answers.serve(name, options.mode)
-            say(f"hearing on {link.name}, writing to ring {name}{'' if ring.writer.created else ', which was there before'}")
+            existing = "" if ring.writer.created else ", which was there before"
+            say(f"hearing on {link.name}, writing to ring {name}{existing}")
             hear(link, ring, answers, signals, say)
             say(summary(link, name, ring.written))
         finally:
@@ -179,7 +197,8 @@ def main(words: list[str] | None = None) -> int:
     try:
         return run(options, signals)
     except Error as error:
-        print(f"mavloom.hear: {error.strerror if isinstance(error, OSError) and error.strerror else error}", file=sys.stderr)
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        print(f"mavloom.hear: {reason}", file=sys.stderr)
         return 2 if isinstance(error, UsageError) else 3 if isinstance(error, InputError) else 1
 
 

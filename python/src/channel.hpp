@@ -28,7 +28,7 @@ namespace mavloom::python {
 
 class Consumer;
 
-// What each source lost on each link. The key holds the name of the link.
+// The loss of each source on each link. The key holds the name of the link.
 using Losses = std::map<std::tuple<std::string, Source>, wire::SequenceStats>;
 void add_to(Losses& losses, std::string link, const wire::SequenceStats& stats);
 

@@ -40,8 +40,8 @@ public:
     static void stop_all();
     // Installs the fork handler, so that a forked child begins with nothing open. Call it before anything else.
     static void watch_forks();
-    // The number of forks between the first process and this one. What was opened under a smaller number must not be
-    // used.
+    // The number of forks between the first process and this one. An object that was opened under a smaller number must
+    // not be used.
     [[nodiscard]] static std::uint64_t forks() noexcept;
 
     ~Hub() override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // PyRingWriter: the Python class RingWriter, a writer that several threads may share.
-// Any thread. Call with the GIL held unless a comment says otherwise; a call that waits releases it meanwhile.
+// Any thread. Call with the GIL held unless a comment states otherwise; a call that waits releases it meanwhile.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and editors see them."""
+"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and
+editors see them."""
 import pathlib
 import sys
 
@@ -17,7 +18,7 @@ def python_type(field):
 
 
 def class_of(info):
-    # What Message has itself stands; the field is an item then.
+    # A field with the name of an attribute of Message is an item only.
     fields = [field for field in info.fields if not hasattr(mavloom.Message, field.name)]
     lines = [f"    @property\n    def {field.name}(self) -> {python_type(field)}: ..." for field in fields]
     return "\n".join([f"class {info.name}(Message):", *(lines or ["    ..."])])

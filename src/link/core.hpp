@@ -136,7 +136,7 @@ public:
     Coalescing coalescing;
     KeyStates key_states;
     SigningIds signing_ids;
-    // Whoever reads or writes a socket uses these during one call.
+    // Used during one call that reads or writes a socket.
     net::ReceiveBatch receive_batch;
     net::SendBatch send_batch;
     std::vector<std::uint8_t> stream_buffer;

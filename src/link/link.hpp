@@ -19,7 +19,7 @@ struct Link {
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
     virtual ~Link() = default;
-    // Tells the outlet that `queue` has new frames.
+    // Notifies the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
     LinkId id;  // Core::add_link sets this and `language`

@@ -9,7 +9,7 @@
 
 namespace mavloom::link::detail {
 
-// `Listener` has `open(addresses)`. A look-up that takes longer than a second goes on in the background.
+// `Listener` has `open(addresses)`. A look-up that takes longer than a second continues in the background.
 template <class Listener>
 SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
     constexpr std::chrono::seconds look_up_limit{1};

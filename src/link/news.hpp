@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tells the handler of links that come and go, and of events. Private to module link; single owner thread.
+// Notifies the handler of links that come and go, and of events. Private to module link; single owner thread.
 //
 // Inside a turn the handler hears of a change at once. Outside a turn, links that come up and events reach it at the
 // start of the next turn; a link that goes down is not reported.

@@ -35,7 +35,7 @@ public:
         return at == peers_.end() ? nullptr : at->get();
     }
 
-    // Makes the peer a link, and tells the handler.
+    // Makes the peer a link, and notifies the handler.
     Peer& add(std::unique_ptr<Peer> peer) {
         peer->signature = endpoint_.signature.get();
         core_.add_link(*peer);
@@ -43,7 +43,7 @@ public:
         core_.news.set_up(added);
         return added;
     }
-    // Tells the handler, adds the peer's counters to the endpoint's sums, and destroys it at the end of the turn.
+    // Notifies the handler, adds the peer's counters to the endpoint's sums, and destroys it at the end of the turn.
     void remove(Peer& peer, std::string_view why) {
         core_.remove_link(peer, why);
         endpoint_.count_gone(peer);
@@ -62,7 +62,7 @@ public:
         }
         return oldest + idle;
     }
-    // The peer that gives way to a newcomer: the longest idle of those heard once, else the longest idle of the rest.
+    // The peer that is evicted for a newcomer: the longest idle of those heard once, else the longest idle of the rest.
     // Null if that peer is protected. `Peer` has `datagrams`.
     [[nodiscard]] Peer* gives_way(MonoTime now) const {
         const auto rank = [](const auto& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };

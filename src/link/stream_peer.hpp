@@ -14,8 +14,8 @@
 
 namespace mavloom::link::detail {
 
-// Reads once per turn, and writes the queue in as few calls as possible. What the kernel does not accept stays in the
-// queue.
+// Reads once per turn, and writes the queue in as few calls as possible. Bytes that the kernel does not accept stay in
+// the queue.
 template <class Stream>
 class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
 public:

@@ -28,7 +28,7 @@ struct RoutedEndpoint {
 
 class RoutedEndpoints {
 public:
-    // `dialect` and `links` must outlive the object. `notice` is told of rates that are worth a warning.
+    // `dialect` and `links` must outlive the object. `notice` receives warnings about rates.
     RoutedEndpoints(const dialect::Dialect& dialect, link::Links& links, Notice notice)
         : dialect_(dialect), links_(links), notice_(std::move(notice)) {}
 
@@ -45,7 +45,7 @@ public:
     // Null if no endpoint has this label.
     [[nodiscard]] const RoutedEndpoint* find(std::string_view label) const;
     [[nodiscard]] bool has(const endpoint::Endpoint& endpoint) const;
-    // True if the endpoint is open as `wanted` says: with its options, the mode of its group and its keys' contents.
+    // True if the endpoint is open as in `wanted`: with its options, the mode of its group and its keys' contents.
     [[nodiscard]] bool is_as_wanted(const RoutedEndpoint& open, std::span<const endpoint::Endpoint> wanted) const;
     [[nodiscard]] std::span<const std::unique_ptr<RoutedEndpoint>> all() const noexcept { return endpoints_; }
     [[nodiscard]] std::optional<link::EndpointId> inlet() const noexcept;
@@ -54,7 +54,7 @@ public:
     // Orders the endpoints as `wanted`, and returns the new order of their links. Groups of mode `primary` prefer links
     // in the order of the configuration, not in the order of opening.
     [[nodiscard]] std::vector<route::GroupOrder> order_as(std::span<const endpoint::Endpoint> wanted);
-    // Refills the budgets of log lines, and tells how many lines were left out.
+    // Refills the budgets of log lines, and reports how many lines were left out.
     void refill_lines();
 
 private:

@@ -46,7 +46,7 @@ public:
     // heartbeat of each link is due at once and its sequence numbers restart.
     void configure(const config::RouterConfig& config);
 
-    // Adds a link that came up. `beats` says whether it gets heartbeats.
+    // Adds a link that came up. `beats`: whether it gets heartbeats.
     void add(LinkId link, bool beats, MonoTime now);
     void remove(LinkId link);
 
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] MonoTime next_due() const noexcept;
     void send_due(MonoTime now);
 
-    // Handles a received HEARTBEAT: requests the data streams of an ArduPilot, if the configuration says so.
+    // Handles a received HEARTBEAT: requests the data streams of an ArduPilot, if the configuration demands it.
     void on_heartbeat(LinkId link, const wire::FrameView& frame, MonoTime now);
 
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return heartbeats_sent_.value(); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a configuration of mavlink-router: no crash; what is refused has a message without control characters; what comes out is one of ours.
+// Any bytes as a configuration of mavlink-router: no crash; what is refused has a message without control characters;
+// what comes out is one of ours.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as an endpoint: no crash; what is refused has a message without control characters; what is taken has a label that is taken again.
+// Any bytes as an endpoint: no crash; what is refused has a message without control characters; what is taken has a
+// label that is taken again.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

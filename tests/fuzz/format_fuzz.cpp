@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any payload of any message, printed in all forms: JSON that a strict parser reads and that holds every field, one line of text without
-// control characters, CSV with as many columns as its header. Input: two bytes choose the message, one the length of the link's name, then
-// that name, then the payload.
+// Any payload of any message, printed in all forms: JSON that a strict parser reads and that holds every field, one
+// line of text without control characters, CSV with as many columns as its header. Input: two bytes choose the message,
+// one the length of the link's name, then that name, then the payload.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The main of a fuzz target in builds without a fuzzing engine: runs every file of the folders (or files) given as arguments, so that each
-// input that once broke something is tried in every test run. Fails when there is no input at all: an empty corpus proves nothing.
+// The main of a fuzz target in builds without a fuzzing engine: runs every file of the folders (or files) given as
+// arguments, so that each input that once broke something is tried in every test run. Fails when there is no input at
+// all: an empty corpus proves nothing.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -38,7 +39,7 @@ int main(int argc, char** argv) {
     std::size_t count = 0;
     for (int i = 1; i < argc; ++i) {
         for (const auto& path : inputs_under(argv[i])) {
-            // Named before it runs, and at once: after a crash the last line says which input it was.
+            // Named before it runs, and at once: after a crash the last line names the input.
             std::printf("%s\n", path.c_str());
             std::fflush(stdout);
             const auto content = content_of(path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as the life of a router: links come and go, frames of any content arrive on any link. The engine keeps its promises: nothing goes
-// back where it came from or twice to one link, only to links that are there; what explains agrees with what routes; every frame is counted.
+// Any bytes as the life of a router: links come and go, frames of any content arrive on any link. The engine keeps its
+// promises: nothing goes back where it came from or twice to one link, only to links that are there; what explains
+// agrees with what routes; every frame is counted.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -50,7 +51,7 @@ route::LinkPolicy policy_from(Input& in) {
     return policy;
 }
 
-// A frame of the two forms with the header and payload that the input says. Its checksum is nobody's business here.
+// A frame of the two forms with the header and payload that the input describes. Its checksum does not matter here.
 wire::FrameView frame_from(Input& in, std::vector<std::uint8_t>& bytes) {
     bytes.assign(wire::max_frame_length, 0);
     const bool v2 = (in.byte() & 1) != 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Any bytes laid over a good ring, also while it is read: readers, writers and who asks for its state give records within the mapping or an error with a
-// name, and end. An input is a list of patches: offset (4 bytes), length (1), bytes; those with the top bit of the offset set are made between reads.
+// Any bytes laid over a good ring, also while it is read: readers, writers and who asks for its state give records
+// within the mapping or an error with a name, and end. An input is a list of patches: offset (4 bytes), length (1),
+// bytes; those with the top bit of the offset set are made between reads.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>

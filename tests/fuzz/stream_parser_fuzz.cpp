@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Differential: the same bytes whole and in chunks (whose sizes come from the bytes) must give the same frames and count every byte once.
+// Differential: the same bytes whole and in chunks (whose sizes come from the bytes) must give the same frames and
+// count every byte once.
 #include <cstdint>
 #include <cstdlib>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a recording, through a file in memory: no crash, every byte accounted for, and the records found are the records of a file that holds only them.
+// Any bytes as a recording, through a file in memory: no crash, every byte accounted for, and the records found are the
+// records of a file that holds only them.
 #include <sys/mman.h>
 #include <unistd.h>
 

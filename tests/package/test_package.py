@@ -19,7 +19,8 @@ pytestmark = pytest.mark.timeout(600)
 
 
 def call(*command) -> str:
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)
     assert done.returncode == 0, f"{command}:\n{done.stdout[-6000:]}"
     return done.stdout
 
@@ -66,7 +67,7 @@ def test_change_of_the_definitions_rebuilds_what_uses_them(installed, tmp_path):
 
 
 def attitude_lines(flight, peer):
-    """What the attitudes among these frames make, by pymavlink's module."""
+    """The lines expected for the attitudes among these frames, by pymavlink's module."""
     for message in map(peer.MAVLink(None).decode, map(bytearray, flight)):
         if message.get_type() == "ATTITUDE":
             values = " ".join(f"{value:.6f}" for value in (message.roll, message.pitch, message.yaw))
@@ -81,13 +82,15 @@ def test_the_example_reads_a_ring(installed, tmp_path):
     lines = list(attitude_lines(flight, vectors.generate(tmp_path, "2.0")))
     assert len(flight) > 40_000 and len(lines) > 5_000
     name, program = f"package-{os.getpid()}", BUILD / "bin" / "mavloom"
-    subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in flight), text=True, check=True,
-                   stderr=subprocess.DEVNULL)
+    subprocess.run([program, "shm", "write", name, "--hex"], input="".join(frame.hex() + "\n" for frame in flight),
+                   text=True, check=True, stderr=subprocess.DEVNULL)
     def read():
-        return subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+        return subprocess.run([tmp_path / "ring_attitude", name], stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True)
     try:
         done = read()
-        with open(f"/dev/shm/mavloom.{name}", "r+b") as ring:  # the length of the record behind the first (docs/formats/ring.md)
+        # the length of the record behind the first (docs/formats/ring.md)
+        with open(f"/dev/shm/mavloom.{name}", "r+b") as ring:
             ring.seek(16384)
             first = (24 + int.from_bytes(ring.read(4), "little") + 7) // 8 * 8
             ring.seek(16384 + first)
@@ -107,9 +110,11 @@ def test_the_readme_s_program_compiles(installed, tmp_path):
     text = (ROOT / "README.md").read_text().split("```cpp\n")[1].split("```")[0]
     includes = "".join(line + "\n" for line in text.splitlines() if line.startswith("#"))
     body = "".join(line + "\n" for line in text.splitlines() if not line.startswith("#"))
-    (tmp_path / "readme.cpp").write_text(f"{includes}void use(float);\nvoid example(mavloom::ByteView bytes) {{\n{body}}}\n")
+    (tmp_path / "readme.cpp").write_text(f"{includes}void use(float);\nvoid example(mavloom::ByteView bytes) {{\n"
+                                         f"{body}}}\n")
     (tmp_path / "CMakeLists.txt").write_text(
-        "cmake_minimum_required(VERSION 3.25)\nproject(readme LANGUAGES CXX)\nfind_package(mavloom REQUIRED COMPONENTS wire dialect)\n"
+        "cmake_minimum_required(VERSION 3.25)\nproject(readme LANGUAGES CXX)\n"
+        "find_package(mavloom REQUIRED COMPONENTS wire dialect)\n"
         "add_library(readme OBJECT readme.cpp)\ntarget_link_libraries(readme PRIVATE mavloom::wire mavloom::dialect)\n")
     call("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
     call("cmake", "--build", tmp_path / "build")
@@ -117,7 +122,8 @@ def test_the_readme_s_program_compiles(installed, tmp_path):
 
 def test_components_that_do_not_exist_are_refused(installed, tmp_path):
     (tmp_path / "CMakeLists.txt").write_text(
-        "cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\nfind_package(mavloom REQUIRED COMPONENTS wire telepathy)\n")
+        "cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\n"
+        "find_package(mavloom REQUIRED COMPONENTS wire telepathy)\n")
     done = subprocess.run(["cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}"],
                           stdin=subprocess.DEVNULL, capture_output=True, text=True)
     assert done.returncode != 0 and "telepathy" in done.stderr
@@ -143,15 +149,19 @@ def test_every_installed_header_stands_alone(installed, tmp_path):
 @pytest.mark.long
 @pytest.mark.timeout(1800)
 def test_pip_install_from_the_checkout(tmp_path):
-    """In an environment of its own, with the build tools that pyproject.toml asks for; then the package and its stubs are used from there."""
+    """In an environment of its own, with the build tools that pyproject.toml asks for;
+    then the package and its stubs are used from there."""
     environment = tmp_path / "venv"
     call(sys.executable, "-m", "venv", environment)
     python = environment / "bin" / "python"
     call(python, "-m", "pip", "install", "--no-input", "--disable-pip-version-check", ROOT)
     flight = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
-    code = (f"import mavloom\nprint(sum(1 for _ in mavloom.read({str(flight)!r})), len(mavloom.columns({str(flight)!r}, 'ATTITUDE')))\n"
-            "import importlib.metadata, pathlib\nassert mavloom.__version__.startswith(importlib.metadata.version('mavloom'))\n"
+    code = (f"import mavloom\nprint(sum(1 for _ in mavloom.read({str(flight)!r})), "
+            f"len(mavloom.columns({str(flight)!r}, 'ATTITUDE')))\n"
+            "import importlib.metadata, pathlib\n"
+            "assert mavloom.__version__.startswith(importlib.metadata.version('mavloom'))\n"
             "found = {path.name for path in pathlib.Path(mavloom.__file__).parent.iterdir()}\n"
             "assert {'py.typed', '_core.pyi', 'messages.pyi', 'enums.pyi'} <= found, found\n")
-    done = subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""})
+    done = subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": ""})
     assert (done.returncode, done.stdout) == (0, "40087 5312\n"), done.stderr

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What users type, for type checkers: the acceptance examples that docs/guide/python.md lists, which run in the tests that name them."""
+"""Code as users type it, for type checkers. The examples also run in the tests whose names contain their numbers."""
 import asyncio
 import os
 

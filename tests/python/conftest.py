@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Fixtures of the Python package's tests. The package is the one of the build under test; the program beside it comes from MAVLOOM_PROGRAM or build/release."""
+"""Fixtures of the Python package's tests. The package is the one of the build under test;
+the program beside it comes from MAVLOOM_PROGRAM or build/release."""
 import os
 import signal
 import sys

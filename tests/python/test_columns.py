@@ -13,13 +13,14 @@ import mavloom
 import pymavlink_vectors as vectors
 from tlogs import frames_of, packer, record, write
 
-NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4", "uint64_t": "u8", "int64_t": "i8",
-         "float": "f4", "double": "f8", "uint8_t_mavlink_version": "u1"}
+NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4",
+         "uint64_t": "u8", "int64_t": "i8", "float": "f4", "double": "f8", "uint8_t_mavlink_version": "u1"}
 
 
 def expected_columns(peer, message_class, rows):
     """The same arrays, by pymavlink: rows are (time in µs, its message)."""
-    columns = {"time_ns": np.array([time * 1000 for time, _ in rows], "i8"), "sys": np.array([m.get_srcSystem() for _, m in rows], "u1"),
+    columns = {"time_ns": np.array([time * 1000 for time, _ in rows], "i8"),
+               "sys": np.array([m.get_srcSystem() for _, m in rows], "u1"),
                "comp": np.array([m.get_srcComponent() for _, m in rows], "u1")}
     for field in vectors.fields_of(message_class):
         if field.is_text:
@@ -68,7 +69,8 @@ def test_some_tables(flight):
 def test_every_message_of_the_dialect_with_extreme_values(peer, tmp_path):
     for message_class in peer.mavlink_map.values():
         sender = packer(peer, 5, 6)
-        made = [vectors.message_of(message_class, vectors.values_of(message_class, case)) for case in ("zero", "maximum", "minimum", "nan", "infinite")]
+        made = [vectors.message_of(message_class, vectors.values_of(message_class, case))
+                for case in ("zero", "maximum", "minimum", "nan", "infinite")]
         path = write(tmp_path / "x.tlog", [sender.pack(message) for message in made])
         mav = peer.MAVLink(None)
         rows = [(time, mav.parse_char(frame)) for time, frame in frames_of(path)]
@@ -94,7 +96,9 @@ def test_row_9_rows_of_one_instant_are_all_kept(peer, tmp_path):
 
 def test_row_9_instances(peer, tmp_path):
     sender = packer(peer)
-    path = write(tmp_path / "x.tlog", [sender.pack(peer.MAVLink_battery_status_message(i % 3, 2, 3, -4, [i] * 10, 5, 6, 7, -1)) for i in range(30)])
+    path = write(tmp_path / "x.tlog",
+                 [sender.pack(peer.MAVLink_battery_status_message(i % 3, 2, 3, -4, [i] * 10, 5, 6, 7, -1))
+                  for i in range(30)])
 
     columns = mavloom.columns(path, "BATTERY_STATUS", instance=1)
 
@@ -107,10 +111,13 @@ def test_row_9_instances(peer, tmp_path):
 def test_row_9_instances_that_are_text(peer, tmp_path):
     sender = packer(peer)
     names = (b"n000", b"n001", b"0123456789")
-    path = write(tmp_path / "x.tlog", [sender.pack(peer.MAVLink_named_value_float_message(i, names[i % 3], 0.0)) for i in range(9)])
+    path = write(tmp_path / "x.tlog",
+                 [sender.pack(peer.MAVLink_named_value_float_message(i, names[i % 3], 0.0)) for i in range(9)])
     for number, name in enumerate(names):
-        assert list(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=name.decode())["time_boot_ms"]) == [number, number + 3, number + 6]
-    assert len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance="n00")) == len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)) == 0
+        assert list(mavloom.columns(path, "NAMED_VALUE_FLOAT",
+                                    instance=name.decode())["time_boot_ms"]) == [number, number + 3, number + 6]
+    assert len(mavloom.columns(path, "NAMED_VALUE_FLOAT",
+                               instance="n00")) == len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)) == 0
 
 
 def test_row_3_systems_and_components(flight):
@@ -130,8 +137,9 @@ def test_row_29_unknown_names(flight):
 
 
 def test_row_29_a_source_that_is_none(flight):
-    for call in (lambda **source: mavloom.columns(flight, "ATTITUDE", **source), lambda **source: mavloom.tables(flight, **source),
-                 lambda **source: mavloom.read(flight, **source), lambda **source: mavloom.read(flight).recv_match(**source)):
+    for call in (lambda **source: mavloom.columns(flight, "ATTITUDE", **source),
+                 lambda **source: mavloom.tables(flight, **source), lambda **source: mavloom.read(flight, **source),
+                 lambda **source: mavloom.read(flight).recv_match(**source)):
         with pytest.raises(mavloom.UsageError, match="^system: 256 is out of range, 0 to 255$"):
             call(system=256)
         with pytest.raises(mavloom.UsageError, match="^component: -1 is out of range, 0 to 255$"):
@@ -140,9 +148,11 @@ def test_row_29_a_source_that_is_none(flight):
 
 def test_units_and_enum_names(flight):
     columns = mavloom.columns(flight, "HEARTBEAT")
-    assert columns.enums == {"type": "MAV_TYPE", "autopilot": "MAV_AUTOPILOT", "base_mode": "MAV_MODE_FLAG", "system_status": "MAV_STATE"}
+    assert columns.enums == {"type": "MAV_TYPE", "autopilot": "MAV_AUTOPILOT", "base_mode": "MAV_MODE_FLAG",
+                             "system_status": "MAV_STATE"}
     attitude = mavloom.columns(flight, "ATTITUDE")
-    assert attitude.units["roll"] == "rad" and attitude.units["time_boot_ms"] == "ms" and "roll" in attitude and list(attitude)[:3] == ["time_ns", "sys", "comp"]
+    assert attitude.units["roll"] == "rad" and attitude.units["time_boot_ms"] == "ms" and "roll" in attitude
+    assert list(attitude)[:3] == ["time_ns", "sys", "comp"]
 
 
 def test_damage_is_skipped_and_counted(flight, tmp_path):
@@ -167,7 +177,8 @@ def test_row_8_no_object_for_each_row(flight):
 def test_example_11_ctrl_c_ends_the_reading_of_a_file_without_end(read, tmp_path, child_environment):
     """In which the message does not occur."""
     os.mkfifo(tmp_path / "pipe")
-    child = subprocess.Popen([sys.executable, "-c", f"import mavloom, sys\npath = sys.argv[1]\nprint('ready', flush=True)\n{read}", tmp_path / "pipe"],
+    child = subprocess.Popen([sys.executable, "-c", "import mavloom, sys\npath = sys.argv[1]\n"
+                                                    f"print('ready', flush=True)\n{read}", tmp_path / "pipe"],
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=child_environment)
     try:
         assert child.stdout.readline() == "ready\n"
@@ -216,7 +227,8 @@ def test_example_9_arrow_and_parquet_keep_units_and_enum_names(flight, tmp_path)
 
 def test_arrow_of_text_and_arrays(peer, tmp_path):
     sender = packer(peer)
-    frames = [sender.pack(peer.MAVLink_statustext_message(6, "höhe".encode())), sender.pack(peer.MAVLink_statustext_message(5, b"\xffA")),
+    frames = [sender.pack(peer.MAVLink_statustext_message(6, "höhe".encode())),
+              sender.pack(peer.MAVLink_statustext_message(5, b"\xffA")),
               sender.pack(peer.MAVLink_battery_status_message(0, 2, 3, -4, list(range(10)), 5, 6, 7, -1))]
     path = write(tmp_path / "x.tlog", frames)
     assert mavloom.columns(path, "STATUSTEXT").to_arrow()["text"].to_pylist() == ["höhe", "\ufffdA"]
@@ -237,9 +249,11 @@ def test_example_9_pandas(flight, tmp_path):
     assert [name for name in quaternion if name.startswith("q[")] == ["q[0]", "q[1]", "q[2]", "q[3]"]
 
 
-@pytest.mark.parametrize("method, module, extra", [("to_pandas", "pandas", "mavloom[pandas]"), ("to_arrow", "pyarrow", "mavloom[arrow]")])
+@pytest.mark.parametrize("method, module, extra",
+                         [("to_pandas", "pandas", "mavloom[pandas]"), ("to_arrow", "pyarrow", "mavloom[arrow]")])
 def test_what_is_missing_is_named_with_its_extra(flight, method, module, extra, child_environment):
-    code = f"import sys, mavloom\nsys.modules[{module!r}] = None\nmavloom.columns({str(flight)!r}, 'ATTITUDE').{method}()"
+    code = (f"import sys, mavloom\nsys.modules[{module!r}] = None\n"
+            f"mavloom.columns({str(flight)!r}, 'ATTITUDE').{method}()")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
     assert done.returncode == 1 and f"pip install '{extra}'" in done.stderr
 

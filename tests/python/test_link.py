@@ -43,7 +43,8 @@ def test_example_1_iterate(link, vehicle):
             break
     assert [m.time_boot_ms for m in found] == list(range(1000))
     assert (found[0].get_srcSystem(), found[0].name, found[0].version) == (1, "ATTITUDE", 2)
-    assert abs(found[0].time_ns - time.time_ns()) < 600 * 10**9 and found[0].link_name.startswith(f"{link.name}#127.0.0.1:")
+    assert abs(found[0].time_ns - time.time_ns()) < 600 * 10**9
+    assert found[0].link_name.startswith(f"{link.name}#127.0.0.1:")
     stats = link.stats
     assert (stats.frames_in, stats.lost, stats.missed, stats.crc_error, stats.peers) == (1000, 0, 0, 0, 1)
     port = link.port
@@ -66,9 +67,12 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
     beat = link.wait_heartbeat(timeout=DEADLINE_S)
     m = link.recv_match(type=("ATTITUDE", "VFR_HUD"), blocking=True, timeout=DEADLINE_S)
 
-    assert (beat.custom_mode, m.roll, link.messages["ATTITUDE"].roll, link.target_system, link.target_component) == (5, 0.5, 0.5, 1, 1)
-    assert link.field("ATTITUDE", "time_boot_ms") == 7 and link.field("VFR_HUD", "alt", "none") == "none" and link.time_since("VFR_HUD") == float("inf")
-    assert set(link.messages) == {"HEARTBEAT", "ATTITUDE"} and link.time_since("ATTITUDE") < 600 and link.packet_loss() == 0
+    assert (beat.custom_mode, m.roll, link.messages["ATTITUDE"].roll, link.target_system,
+            link.target_component) == (5, 0.5, 0.5, 1, 1)
+    assert link.field("ATTITUDE", "time_boot_ms") == 7 and link.field("VFR_HUD", "alt", "none") == "none"
+    assert link.time_since("VFR_HUD") == float("inf")
+    assert set(link.messages) == {"HEARTBEAT", "ATTITUDE"} and link.time_since("ATTITUDE") < 600
+    assert link.packet_loss() == 0
     with pytest.raises(KeyError):
         link.messages["VFR_HUD"]
     with pytest.raises(TimeoutError):
@@ -76,8 +80,8 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
 
 
 @pytest.mark.parametrize("spelling, name", [
-    ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"), ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"),
-    ("/dev/absent,57600", "serial:///dev/absent")])
+    ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"),
+    ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"), ("/dev/absent,57600", "serial:///dev/absent")])
 def test_pymavlinks_other_spellings(spelling, name):
     with mavloom.connect(spelling) as link:
         assert link.name == name.format(port=link.port)
@@ -164,7 +168,8 @@ def test_example_4_send(peer):
     with mavloom.connect(f"udpout://127.0.0.1:{vehicle.port}", source_system=7, source_component=9) as link:
         assert link.send("STATUSTEXT", severity=6, text="höhe 10°") == 1
         got, = vehicle.receive()
-        assert (got.get_type(), got.severity, got._text_raw.rstrip(b"\0").decode(), got.get_srcSystem(), got.get_srcComponent(), got.get_seq()) == (
+        assert (got.get_type(), got.severity, got._text_raw.rstrip(b"\0").decode(), got.get_srcSystem(),
+                got.get_srcComponent(), got.get_seq()) == (
             "STATUSTEXT", 6, "höhe 10°", 7, 9, 0)
         with pytest.raises(ValueError, match="0 to 255"):
             link.send("STATUSTEXT", severity=300)
@@ -198,7 +203,8 @@ def test_row_10_the_version_is_a_property_of_the_link(peer):
 
 
 def without_definition(folder):
-    return another_definition(folder).encode("SECURE_PAYLOAD", level=0.5, source_system=42, source_component=17, frame_seq=101)
+    return another_definition(folder).encode("SECURE_PAYLOAD", level=0.5, source_system=42, source_component=17,
+                                             frame_seq=101)
 
 
 def test_row_16_what_is_forwarded_stays_as_it_is(link, vehicle, peer, tmp_path):
@@ -208,14 +214,16 @@ def test_row_16_what_is_forwarded_stays_as_it_is(link, vehicle, peer, tmp_path):
     foreign.sender.mav.seq = 99
     with mavloom.connect(f"udpout://127.0.0.1:{far.port}") as onward:
         frames = [foreign.sender.pack(foreign.heartbeat(number=5)),
-                  bytes(foreign.heartbeat(number=9).pack(foreign.sender.mav, force_mavlink1=True)), without_definition(tmp_path)]
+                  bytes(foreign.heartbeat(number=9).pack(foreign.sender.mav, force_mavlink1=True)),
+                  without_definition(tmp_path)]
         for frame in frames:
             foreign.socket.send(frame)
             assert onward.forward(link.recv(timeout=DEADLINE_S)) == 1
             assert far.socket.recv(65536) == frame
         assert onward.forward(memoryview(frames[0])) == 1
         assert far.socket.recv(65536) == frames[0]
-        for wrong, why in ((frames[0][:-1], "header says"), (frames[0] * 2, "header says"), (b"\x55" * 20, "no MAVLink frame"),
+        for wrong, why in ((frames[0][:-1], "header says"), (frames[0] * 2, "header says"),
+                           (b"\x55" * 20, "no MAVLink frame"),
                            (frames[0][:-1] + bytes([frames[0][-1] ^ 1]), "checksum")):
             with pytest.raises(mavloom.InputError, match=why):
                 onward.forward(wrong)
@@ -245,7 +253,8 @@ def test_row_17_threads_send_without_a_gap(peer):
         connection, _ = server.accept()
         connection.settimeout(DEADLINE_S)
         until(lambda: link.stats.peers == 1)
-        senders = [threading.Thread(target=lambda: [link.send("HEARTBEAT", custom_mode=i + 1) for i in range(each)], daemon=True) for _ in range(threads)]
+        senders = [threading.Thread(target=lambda: [link.send("HEARTBEAT", custom_mode=i + 1) for i in range(each)],
+                                    daemon=True) for _ in range(threads)]
         for sender in senders:
             sender.start()
         parser, found = mavloom.Parser(), []
@@ -279,7 +288,7 @@ def test_rows_4_and_5_example_6_a_slow_consumer(peer):
 
 
 def test_row_5_the_bound_is_in_bytes(peer):
-    """What is kept fits into `buffer`: 20 bytes of frame and 16 beside it, rounded up to 48."""
+    """The kept messages fit into `buffer`: 20 bytes of frame and 16 beside it, rounded up to 48."""
     with mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 17) as link:
         vehicle = Vehicle(peer, link.port)
         mine = link.subscribe()
@@ -345,7 +354,8 @@ def test_row_4_instances_that_are_text(link, vehicle, peer):
         vehicle.send(peer.MAVLink_named_value_float_message(1, name, float(int(name[-1:]))))
     until(lambda: link.stats.frames_in == 3)
     assert [link.latest("NAMED_VALUE_FLOAT", instance=name).value for name in ("n000", "n001", "7")] == [0, 1, 7]
-    assert (link.messages["NAMED_VALUE_FLOAT[n000]"].value, link.messages["NAMED_VALUE_FLOAT[7]"].value, link.messages["NAMED_VALUE_FLOAT"].value) == (0, 7, 7)
+    assert (link.messages["NAMED_VALUE_FLOAT[n000]"].value, link.messages["NAMED_VALUE_FLOAT[7]"].value,
+            link.messages["NAMED_VALUE_FLOAT"].value) == (0, 7, 7)
     for key in ("NAMED_VALUE_FLOAT[n]", "BATTERY_STATUS[x]", "ATTITUDE[1]"):
         assert key not in link.messages
     assert link.latest("NAMED_VALUE_FLOAT", instance=7) is None
@@ -389,7 +399,8 @@ def test_row_22_loss_is_told_of_each_source(link, vehicle, peer):
             each.socket.send(frames[number])
     until(lambda: link.stats.frames_in == 14)
     assert losses(link) == {(1, 1): (10, 1, 1, 1), (2, 5): (4, 4, 0, 0)}
-    assert {s.link_name.split("#")[0] for s in link.stats.sources} == {link.name} and len({s.link_name for s in link.stats.sources}) == 2
+    assert {s.link_name.split("#")[0] for s in link.stats.sources} == {link.name}
+    assert len({s.link_name for s in link.stats.sources}) == 2
     assert link.packet_loss(system=1) == pytest.approx(10) and link.packet_loss(component=5) == pytest.approx(50)
     assert link.packet_loss() == pytest.approx(100 * 5 / 18) and link.packet_loss(system=3) == 0
     other.socket.close()
@@ -411,18 +422,21 @@ def test_row_22_the_loss_of_those_who_went_stays(peer):
 
 def another_definition(folder, field='type="float" name="level"'):
     (folder / "other.xml").write_text(
-        f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+        f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages>'
+        '</mavlink>')
     return mavloom.Dialect(folder / "other.xml")
 
 
 def test_row_11_a_message_that_fails_every_time_is_named(tmp_path, peer):
-    theirs, ours = (another_definition(tmp_path, field) for field in ('type="uint16_t" name="key_id"', 'type="float" name="level"'))
+    theirs, ours = (another_definition(tmp_path, field)
+                    for field in ('type="uint16_t" name="key_id"', 'type="float" name="level"'))
     with mavloom.connect("udpin://127.0.0.1:0", dialect=ours) as link:
         vehicle = Vehicle(peer, link.port)
         for number in range(6):
             damaged = bytearray(vehicle.sender.pack(vehicle.attitude(number)))
             damaged[12] ^= 1
-            vehicle.socket.send(vehicle.sender.pack(vehicle.heartbeat()) + bytes(damaged) + theirs.encode("SECURE_PAYLOAD", key_id=700 + number))
+            vehicle.socket.send(vehicle.sender.pack(vehicle.heartbeat()) + bytes(damaged)
+                                + theirs.encode("SECURE_PAYLOAD", key_id=700 + number))
         vehicle.send(vehicle.attitude(7))
         until(lambda: link.latest("ATTITUDE"))
         stats = link.stats
@@ -438,7 +452,8 @@ def test_row_11_example_12_links_with_dialects_of_their_own(tmp_path):
     dialects = []
     for number, field in enumerate(('type="uint16_t" name="key_id"', 'type="float" name="level"')):
         (tmp_path / f"{number}.xml").write_text(
-            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message>'
+            '</messages></mavlink>')
         dialects.append(mavloom.Dialect(tmp_path / f"{number}.xml"))
     first, second = (mavloom.connect("udpin://127.0.0.1:0", dialect=dialect) for dialect in dialects)
     with first, second, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
@@ -467,11 +482,13 @@ print(threads() - before)
 
 
 def test_links_to_one_place_sign_with_ids_of_their_own(tmp_path):
-    """Whichever of them were closed before: a receiver knows a replay by the link id, the first byte behind the checksum."""
+    """Whichever of them were closed before: a receiver knows a replay by the link id, the first byte behind the
+    checksum."""
     key = tmp_path / "key"
     key.write_text("07" * 32)
     key.chmod(0o600)
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sink, mavloom.connect("udpin://127.0.0.1:0"):  # keeps what links have in common
+    # keeps what links have in common
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sink, mavloom.connect("udpin://127.0.0.1:0"):
         sink.bind(("127.0.0.1", 0))
         sink.settimeout(DEADLINE_S)
         url = f"udpout://127.0.0.1:{sink.getsockname()[1]}?sign={key}"
@@ -491,7 +508,8 @@ def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
     for name, byte in (("ours", "07"), ("other", "08")):
         (tmp_path / name).write_text(byte * 32)
         (tmp_path / name).chmod(0o600)
-    with mavloom.connect(f"udpin://127.0.0.1:0?verify={tmp_path}/ours") as link, mavloom.connect("udpin://127.0.0.1:0") as open_link:
+    with (mavloom.connect(f"udpin://127.0.0.1:0?verify={tmp_path}/ours") as link,
+          mavloom.connect("udpin://127.0.0.1:0") as open_link):
         signer = mavloom.connect(f"udpout://127.0.0.1:{link.port}?sign={tmp_path}/ours")
         assert signer.send("HEARTBEAT", custom_mode=1) == 1
         message = link.recv(timeout=DEADLINE_S)
@@ -504,7 +522,8 @@ def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
         with mavloom.connect(f"udpout://127.0.0.1:{open_link.port}?sign={tmp_path}/other") as signer:
             signer.send("HEARTBEAT", custom_mode=3)
             message = open_link.recv(timeout=DEADLINE_S)
-            assert (message.custom_mode, message.signed, message.signature, message.get_signed()) == (3, True, "unchecked", False)
+            assert (message.custom_mode, message.signed, message.signature,
+                    message.get_signed()) == (3, True, "unchecked", False)
         assert link.recv(timeout=0) is None
 
 
@@ -706,12 +725,13 @@ def test_row_26_what_is_iterated_stays_open(peer):
 
 
 def test_row_29_numbers_that_do_not_fit_are_value_errors(link):
-    for name, value, limits in (("source_system", 300, "0 to 255"), ("source_component", -1, "0 to 255"), ("version", 3, "1 to 2"), ("buffer", -1, "0 to 68719476736"),
+    for name, value, limits in (("source_system", 300, "0 to 255"), ("source_component", -1, "0 to 255"),
+                                ("version", 3, "1 to 2"), ("buffer", -1, "0 to 68719476736"),
                                 ("buffer", 2**70, "0 to 68719476736")):
         with pytest.raises(mavloom.UsageError, match=f"^{name}: {value} is out of range, {limits}$"):
             mavloom.connect("udpin://127.0.0.1:0", **{name: value})
-    for call in (link.subscribe, lambda **source: link.recv_match(blocking=False, **source), lambda **source: link.latest("HEARTBEAT", **source),
-                 link.packet_loss):
+    for call in (link.subscribe, lambda **source: link.recv_match(blocking=False, **source),
+                 lambda **source: link.latest("HEARTBEAT", **source), link.packet_loss):
         with pytest.raises(mavloom.UsageError, match="^system: 256 is out of range, 0 to 255$"):
             call(system=256)
         with pytest.raises(mavloom.UsageError, match="^component: -1 is out of range, 0 to 255$"):
@@ -719,7 +739,7 @@ def test_row_29_numbers_that_do_not_fit_are_value_errors(link):
 
 
 def test_what_is_required_and_absent_raises(link, tmp_path):
-    """With another link open, whose loop nobody holds up."""
+    """With another link open, whose loop is not blocked."""
     with socket.socket() as closed:
         closed.bind(("127.0.0.1", 0))
         port = closed.getsockname()[1]
@@ -745,7 +765,8 @@ def test_a_port_in_use_is_an_os_error(link):
 
 
 def child(code, environment, **options):
-    return subprocess.Popen([sys.executable, "-c", "import mavloom, os, sys\nlink = mavloom.connect('udpin://127.0.0.1:0')\n" + code],
+    return subprocess.Popen([sys.executable, "-c",
+                             "import mavloom, os, sys\nlink = mavloom.connect('udpin://127.0.0.1:0')\n" + code],
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, **options)
 
 
@@ -762,7 +783,8 @@ def test_example_11_ctrl_c_ends_a_wait(wait, child_environment):
 
 
 def test_example_11_an_exit_with_all_of_it_open_is_silent(child_environment):
-    code = ("import threading\nsubscription = link.subscribe('ATTITUDE')\nother = mavloom.connect('udpin://127.0.0.1:0')\ncycle = [link]; cycle.append(cycle)\n"
+    code = ("import threading\nsubscription = link.subscribe('ATTITUDE')\n"
+            "other = mavloom.connect('udpin://127.0.0.1:0')\ncycle = [link]; cycle.append(cycle)\n"
             "threading.Thread(target=link.recv, daemon=True).start()\nlink.send('HEARTBEAT')\n")
     done = child(code, child_environment)
     out, talk = done.communicate(timeout=DEADLINE_S)
@@ -774,7 +796,8 @@ def test_example_11_a_forked_child_is_refused_and_the_parent_untouched(child_env
 subscription = link.subscribe()
 pid = os.fork()
 if pid == 0:
-    for call in (link.recv, lambda: link.send("HEARTBEAT"), lambda: link.stats, lambda: link.latest("HEARTBEAT"), subscription.recv):
+    for call in (link.recv, lambda: link.send("HEARTBEAT"), lambda: link.stats, lambda: link.latest("HEARTBEAT"),
+                 subscription.recv):
         try:
             call()
         except mavloom.ClosedError as error:
@@ -869,7 +892,8 @@ def test_row_18_what_a_condition_does_holds_no_reception_up(link, vehicle):
     def condition(message):
         threads.append(threading.current_thread())
         vehicle.send(vehicle.attitude(message.custom_mode))
-        until(lambda: link.latest("ATTITUDE") is not None and link.latest("ATTITUDE").time_boot_ms == message.custom_mode)
+        until(lambda: link.latest("ATTITUDE") is not None and link.latest("ATTITUDE").time_boot_ms
+              == message.custom_mode)
         return message.custom_mode == 2
     vehicle.send(*(vehicle.heartbeat(number=number) for number in (1, 2)))
     assert link.recv_match(condition, "HEARTBEAT", blocking=True, timeout=DEADLINE_S).custom_mode == 2
@@ -892,7 +916,8 @@ def test_row_7_the_table_of_newest_values_has_a_limit_and_a_counter(link):
     dialect = mavloom.Dialect()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         for i in range(sources):
-            sock.sendto(dialect.encode("HEARTBEAT", custom_mode=i, source_system=1 + i // 250, source_component=1 + i % 250), ("127.0.0.1", link.port))
+            sock.sendto(dialect.encode("HEARTBEAT", custom_mode=i, source_system=1 + i // 250,
+                                       source_component=1 + i % 250), ("127.0.0.1", link.port))
             if i % 100 == 99:
                 until(lambda: link.stats.frames_in + link.stats.kernel_drop >= i + 1)
     assert link.stats.kernel_drop + link.stats.not_kept == sources - kept
@@ -920,7 +945,8 @@ def test_several_links_lead_to_one_place(link):
 
 def test_threads_that_send_on_a_closed_link_do_not_end_the_process_at_its_exit(child_environment):
     code = ("import threading\nlink.close()\ntries = threading.Semaphore(0)\n"
-            "def send():\n    while True:\n        try: link.send('HEARTBEAT')\n        except mavloom.ClosedError: tries.release()\n"
+            "def send():\n    while True:\n        try: link.send('HEARTBEAT')\n"
+            "        except mavloom.ClosedError: tries.release()\n"
             "for _ in range(4): threading.Thread(target=send, daemon=True).start()\n"
             "for _ in range(1000): tries.acquire()\n")
     for _ in range(10):
@@ -930,6 +956,7 @@ def test_threads_that_send_on_a_closed_link_do_not_end_the_process_at_its_exit(c
 
 
 def test_nothing_takes_the_gil_back_but_at_the_end_of_without_gil():
-    """A thread that asks for the GIL of an interpreter that has ended takes the process with it: WithoutGil's end knows of that."""
+    """A thread that asks for the GIL of an interpreter that has ended takes the process with it: WithoutGil's end knows
+    of that."""
     sources = pathlib.Path(__file__).parents[2] / "python" / "src"
     assert [path.name for path in sorted(sources.iterdir()) if "gil_scoped_acquire" in path.read_text()] == []

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mavloom.connect("shm://NAME"): a ring as a link, and its router's inlet. "Row N": the wishes listed in docs/guide/python.md."""
+"""mavloom.connect("shm://NAME"): a ring as a link, and its router's inlet.
+"Row N": the wishes listed in docs/guide/python.md."""
 import contextlib
 import os
 import pathlib
@@ -46,18 +47,22 @@ def numbers(link, count):
 def test_records_are_messages_with_their_time_link_and_verdict(ring, writer):
     writer.write(beat(1), time_ns=1_700_000_000_000_000_123, link=7, kind=1, verdict=FORWARDED)
     writer.write(beat(2), time_ns=5_000, link=8, kind=1, verdict=DUPLICATE)
-    writer.write(beat(3), link=8)  # by one who says nothing of it
+    writer.write(beat(3), link=8)  # without a kind
     writer.write(b"of another kind", kind=300)
     writer.write(b"\x55" * 30, kind=1)
     with mavloom.connect(f"shm://{ring}?from=oldest") as link:
         first, second, third = (link.recv(timeout=DEADLINE_S) for _ in range(3))
-        assert (first.frame, first.time_ns, first.link_name, first.verdict) == (beat(1), 1_700_000_000_000_000_123, f"shm://{ring}/7", "forwarded")
-        assert (second.custom_mode, second.time_ns, second.link_name, second.verdict) == (2, 5_000, f"shm://{ring}/8", "duplicate")
-        assert (third.custom_mode, third.link_name, third.verdict, third.signature) == (3, f"shm://{ring}/8", None, "none")
+        assert ((first.frame, first.time_ns, first.link_name, first.verdict)
+                == (beat(1), 1_700_000_000_000_000_123, f"shm://{ring}/7", "forwarded"))
+        assert (second.custom_mode, second.time_ns, second.link_name,
+                second.verdict) == (2, 5_000, f"shm://{ring}/8", "duplicate")
+        assert ((third.custom_mode, third.link_name, third.verdict, third.signature)
+                == (3, f"shm://{ring}/8", None, "none"))
         assert link.latest("HEARTBEAT").custom_mode == 3 and first.link != second.link == third.link
         until(lambda: link.stats.junk_bytes == 30)
         stats = link.stats
-        assert (stats.frames_in, stats.bytes_in, stats.other_kinds, stats.bad_records, stats.lapped, stats.peers) == (3, 3 * len(beat(1)), 1, 1, 0, 0)
+        assert (stats.frames_in, stats.bytes_in, stats.other_kinds, stats.bad_records, stats.lapped,
+                stats.peers) == (3, 3 * len(beat(1)), 1, 1, 0, 0)
         assert [(s.link_name, s.sys, s.comp, s.received, s.lost) for s in stats.sources] == [
             (f"shm://{ring}/7", 255, 193, 1, 0), (f"shm://{ring}/8", 255, 193, 2, 0)]
         assert (link.name, link.port) == (f"shm://{ring}", 0)
@@ -67,7 +72,8 @@ def test_row_23_the_verdict_on_a_signature_is_the_routers(ring, writer, tmp_path
     key = tmp_path / "key"
     key.write_text("07" * 32)
     key.chmod(0o600)
-    with mavloom.connect("udpin://127.0.0.1:0") as far, mavloom.connect(f"udpout://127.0.0.1:{far.port}?sign={key}") as signer:
+    with (mavloom.connect("udpin://127.0.0.1:0") as far,
+          mavloom.connect(f"udpout://127.0.0.1:{far.port}?sign={key}") as signer):
         signer.send("HEARTBEAT")
         signed = far.recv(timeout=DEADLINE_S).frame
     for verdict in (FORWARDED | GOOD, FORWARDED | UNCHECKED, 0):
@@ -103,7 +109,8 @@ def test_row_5_a_lossless_link_holds_the_writer(ring, writer):
     """However slow the link's reader is: ring and buffer hold a tenth of what comes."""
     written = 20_000
     with mavloom.connect(f"shm://{ring}?lossless=true", buffer=64 * KIB) as link:
-        thread = threading.Thread(target=lambda: [writer.write(beat(number), kind=1) for number in range(written)], daemon=True)
+        thread = threading.Thread(target=lambda: [writer.write(beat(number), kind=1) for number in range(written)],
+                                  daemon=True)
         thread.start()
         until(lambda: link.stats.frames_in > 0)
         assert numbers(link, written) == list(range(written))
@@ -157,7 +164,8 @@ def test_a_name_of_a_link_is_given_once(ring, writer):
 
 def test_what_goes_on_into_another_ring_keeps_its_verdict(ring, writer):
     writer.write(beat(1), time_ns=77_000, kind=1, verdict=DUPLICATE)
-    with mavloom.connect(f"shm://{ring}?from=oldest") as link, mavloom.RingWriter(f"{ring}-2", capacity=64 * KIB) as copy:
+    with (mavloom.connect(f"shm://{ring}?from=oldest") as link,
+          mavloom.RingWriter(f"{ring}-2", capacity=64 * KIB) as copy):
         until(lambda: link.stats.frames_in == 1)
         assert link.pump(copy, timeout=0) == 1
         with mavloom.RingReader(f"{ring}-2", start="oldest") as reader:
@@ -179,7 +187,8 @@ def test_hear_does_not_fill_a_ring_with_itself(ring, writer, options):
     writer.write(beat(1), kind=1)
     writer.close()
     done = harness.Running([sys.executable, "-m", "mavloom.hear", f"shm://{ring}{options}", "--ring", ring]).wait()
-    assert (done.status, done.stderr) == (2, f"mavloom.hear: ring {ring} is what is heard here: it would be filled with itself\n"), done
+    assert (done.status, done.stderr) == (2, f"mavloom.hear: ring {ring} is what is heard here: "
+                                             "it would be filled with itself\n"), done
     assert ring in mavloom.rings()
 
 
@@ -205,7 +214,8 @@ def test_a_router_is_heard_and_sent_to(ring, router, peer):
         assert message.link_name.startswith("uav#127.0.0.1:") and (message.sys, message.verdict) == (1, "nowhere")
         assert link.send("COMMAND_LONG", target_system=1, target_component=1, command=400) == 1
         got, = vehicle.receive()
-        assert (got.get_type(), got.command, got.get_srcSystem(), got.get_srcComponent()) == ("COMMAND_LONG", 400, 200, 1)
+        assert (got.get_type(), got.command, got.get_srcSystem(),
+                got.get_srcComponent()) == ("COMMAND_LONG", 400, 200, 1)
         until(lambda: link.stats.echo == 1)
         assert link.latest("COMMAND_LONG") is None
         assert (link.stats.peers, link.stats.frames_out) == (1, 1)
@@ -227,7 +237,8 @@ def test_links_of_a_ring_that_are_forgotten_are_no_peers_and_keep_their_sums(rin
 def test_links_have_names_however_many_came_before(ring, writer):
     with mavloom.connect(f"shm://{ring}?lossless=true") as link:
         frame, count = beat(1), 66_000
-        writing = threading.Thread(target=lambda: [writer.write(frame, link=number + 1, kind=1) for number in range(count)])
+        writing = threading.Thread(target=lambda: [writer.write(frame, link=number + 1, kind=1)
+                                                   for number in range(count)])
         writing.start()
         found = [link.recv(timeout=DEADLINE_S) for _ in range(count)]
         writing.join()
@@ -238,5 +249,6 @@ def test_several_links_read_one_ring(ring, writer):
     with mavloom.connect(f"shm://{ring}") as one, mavloom.connect(f"shm://{ring}") as other:
         writer.write(beat(5), link=1, kind=1)
         assert (numbers(one, 1), numbers(other, 1)) == ([5], [5]) and one.name == other.name == f"shm://{ring}"
-        with mavloom.connect(f"shm://{ring}?name=a"), pytest.raises(mavloom.UsageError, match="two endpoints are called a"):
+        with (mavloom.connect(f"shm://{ring}?name=a"),
+              pytest.raises(mavloom.UsageError, match="two endpoints are called a")):
             mavloom.connect(f"shm://{ring}?name=a")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Dialect and Message against pymavlink, generated from the same definitions. "Row N" is a row of the wish list in docs/guide/python.md."""
+"""Dialect and Message against pymavlink, generated from the same definitions.
+"Row N" is a row of the wish list in docs/guide/python.md."""
 import copy
 import json
 import math
@@ -63,14 +64,15 @@ def test_row_10_mavlink_1_is_decoded_and_encoded_too(dialect, peer_v1):
         message = dialect.decode(theirs)
         assert message.version == 1
         assert dialect.encode(message) == theirs
-        assert dialect.encode(message_class.msgname, source_system=1, source_component=1, frame_seq=theirs[2], frame_version=1,
-                              **values) == theirs
+        assert dialect.encode(message_class.msgname, source_system=1, source_component=1, frame_seq=theirs[2],
+                              frame_version=1, **values) == theirs
     with pytest.raises(ValueError, match="MAVLink 1 ends at 255"):
         dialect.encode("ODOMETRY", frame_version=1)
 
 
 def test_fields_that_attributes_hide_are_items(dialect):
-    hidden = {field.name for name in dialect.message_names for field in dialect[name].fields if hasattr(mavloom.Message, field.name)}
+    hidden = {field.name for name in dialect.message_names for field in dialect[name].fields
+              if hasattr(mavloom.Message, field.name)}
     assert hidden == {"frame", "id", "name", "seq", "version"}
 
     message = dialect.message("MISSION_ITEM_INT", seq=500, frame="MAV_FRAME_GLOBAL_INT")
@@ -79,7 +81,8 @@ def test_fields_that_attributes_hide_are_items(dialect):
 
 # ---- row 12: text
 
-@pytest.mark.parametrize("given, shown", [("höhe 10°", "höhe 10°"), (b"\xff\xfeA", "\ufffd\ufffdA"), ("", ""), ("a\0b", "a\0b"), ("x" * 50, "x" * 50)])
+@pytest.mark.parametrize("given, shown", [("höhe 10°", "höhe 10°"), (b"\xff\xfeA", "\ufffd\ufffdA"), ("", ""),
+                                          ("a\0b", "a\0b"), ("x" * 50, "x" * 50)])
 def test_row_12_text_in_and_out(dialect, given, shown):
     message = dialect.decode(dialect.encode("STATUSTEXT", severity=6, text=given))
 
@@ -102,17 +105,20 @@ def test_row_14_arrays_from_any_sequence_or_buffer(dialect):
 
     import numpy
     values = [0.5, -1.25, 3.0, 4.5]
-    frames = {dialect.encode("ATTITUDE_TARGET", q=q) for q in (values, tuple(values), numpy.array(values), numpy.float32(values), array.array("d", values))}
+    frames = {dialect.encode("ATTITUDE_TARGET", q=q)
+              for q in (values, tuple(values), numpy.array(values), numpy.float32(values), array.array("d", values))}
     assert len(frames) == 1
     assert dialect.decode(frames.pop()).q == values
     data = bytes(range(110))
-    assert {tuple(dialect.decode(dialect.encode("GPS_INJECT_DATA", data=d)).data) for d in (data, bytearray(data), numpy.frombuffer(data, "u1"))} == {
+    assert {tuple(dialect.decode(dialect.encode("GPS_INJECT_DATA", data=d)).data)
+            for d in (data, bytearray(data), numpy.frombuffer(data, "u1"))} == {
         tuple(data)}
 
 
 @pytest.mark.parametrize("name, fields, text", [
     ("STATUSTEXT", {"severity": 300}, r"STATUSTEXT\.severity: 300 is out of range, 0 to 255"),
-    ("HEARTBEAT", {"custom_mode": 10**5000}, r"HEARTBEAT\.custom_mode: a number with thousands of digits is out of range"),
+    ("HEARTBEAT", {"custom_mode": 10**5000},
+     r"HEARTBEAT\.custom_mode: a number with thousands of digits is out of range"),
     ("STATUSTEXT", {"severity": -1}, r"STATUSTEXT\.severity: -1 is out of range, 0 to 255"),
     ("ATTITUDE", {"time_boot_ms": 2**70}, r"ATTITUDE\.time_boot_ms: 1180591620717411303424 is out of range"),
     ("ATTITUDE", {"time_boot_ms": 1.5}, r"ATTITUDE\.time_boot_ms: 1\.5 is not a whole number"),
@@ -132,7 +138,8 @@ def test_row_14_what_does_not_fit_is_a_value_error_with_names(dialect, name, fie
 
 
 def test_names_of_enum_entries_are_values(dialect):
-    message = dialect.message("HEARTBEAT", type="MAV_TYPE_QUADROTOR", base_mode="MAV_MODE_FLAG_SAFETY_ARMED|MAV_MODE_FLAG_GUIDED_ENABLED",
+    message = dialect.message("HEARTBEAT", type="MAV_TYPE_QUADROTOR",
+                              base_mode="MAV_MODE_FLAG_SAFETY_ARMED|MAV_MODE_FLAG_GUIDED_ENABLED",
                               autopilot=enums.MAV_AUTOPILOT.MAV_AUTOPILOT_PX4)
     assert (message.type, message.base_mode, message.autopilot) == (2, 136, 12)
 
@@ -181,8 +188,9 @@ def test_row_29_unknown_names_end_at_once_with_the_nearest(dialect):
     assert getattr(message, "".join(["ro", "ll"])) == 0.0
 
 
-@pytest.mark.parametrize("argument, value, limits", [("source_system", 256, "0 to 255"), ("source_component", -1, "0 to 255"), ("frame_seq", 2**64, "0 to 255"),
-                                                     ("frame_version", 3, "1 to 2")])
+@pytest.mark.parametrize("argument, value, limits",
+                         [("source_system", 256, "0 to 255"), ("source_component", -1, "0 to 255"),
+                          ("frame_seq", 2**64, "0 to 255"), ("frame_version", 3, "1 to 2")])
 def test_row_29_a_number_that_does_not_fit_is_a_value_error(dialect, argument, value, limits):
     with pytest.raises(mavloom.UsageError, match=f"^{argument}: {value} is out of range, {limits}$"):
         dialect.encode("HEARTBEAT", **{argument: value})
@@ -203,13 +211,16 @@ def test_row_29_a_time_that_does_not_fit_is_a_value_error(dialect):
 
 def test_row_16_unknown_id_keeps_its_header_and_bytes(dialect, tmp_path):
     xml = tmp_path / "mine.xml"
-    xml.write_text('<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message></messages></mavlink>')
+    xml.write_text('<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field>'
+                   '</message></messages></mavlink>')
     frame = mavloom.Dialect(xml).encode("MINE", a=513, source_system=9, source_component=8, frame_seq=7)
 
     message = dialect.decode(frame)
 
-    assert (message.name, message.get_type(), message.id, message.sys, message.comp, message.seq) == (None, "UNKNOWN_61000", 61000, 9, 8, 7)
-    assert (message.frame, message.get_payload(), message.to_dict()) == (frame, b"\x01\x02", {"mavpackettype": "UNKNOWN_61000"})
+    assert (message.name, message.get_type(), message.id, message.sys, message.comp,
+            message.seq) == (None, "UNKNOWN_61000", 61000, 9, 8, 7)
+    assert ((message.frame, message.get_payload(), message.to_dict())
+            == (frame, b"\x01\x02", {"mavpackettype": "UNKNOWN_61000"}))
     assert json.loads(message.to_json())["payload_hex"] == "0102"
     with pytest.raises(AttributeError):
         message.a
@@ -223,7 +234,8 @@ def test_row_11_two_dialects_in_one_process(tmp_path):
     made = []
     for number, field in enumerate(('type="uint16_t" name="key_id"', 'type="float" name="level"')):
         (tmp_path / f"{number}.xml").write_text(
-            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message></messages></mavlink>')
+            f'<mavlink><messages><message id="61000" name="SECURE_PAYLOAD"><field {field}>x</field></message>'
+            '</messages></mavlink>')
         made.append(mavloom.Dialect(tmp_path / f"{number}.xml"))
     first, second = made
 
@@ -285,7 +297,8 @@ def test_pymavlinks_names_give_what_pymavlink_gives(dialect, peer):
 
     ours = dialect.decode(frame, time_ns=1_500_000_000_000_000_000)
 
-    for method in ("get_type", "get_msgId", "get_srcSystem", "get_srcComponent", "get_seq", "get_fieldnames", "get_signed", "to_dict"):
+    for method in ("get_type", "get_msgId", "get_srcSystem", "get_srcComponent", "get_seq", "get_fieldnames",
+                   "get_signed", "to_dict"):
         assert getattr(ours, method)() == getattr(theirs, method)(), method
     assert ours.get_msgbuf() == bytes(theirs.get_msgbuf()) == frame
     for name in ("mlen", "seq", "srcSystem", "srcComponent", "msgId", "incompat_flags", "compat_flags"):
@@ -299,7 +312,8 @@ def test_pymavlinks_names_give_what_pymavlink_gives(dialect, peer):
 
 def test_messages_are_values(dialect):
     message = dialect.message("ATTITUDE", roll=float("nan"))
-    for other in (copy.copy(message), copy.deepcopy(message), pickle.loads(pickle.dumps(message)), dialect.decode(message.frame)):
+    for other in (copy.copy(message), copy.deepcopy(message), pickle.loads(pickle.dumps(message)),
+                  dialect.decode(message.frame)):
         assert other == message and hash(other) == hash(message) and other.name == "ATTITUDE"
     assert message != dialect.message("ATTITUDE", roll=1) and message != "ATTITUDE"
     assert len({message, dialect.decode(message.frame)}) == 1
@@ -313,7 +327,8 @@ def test_messages_are_values(dialect):
 
 def test_pickled_messages_keep_time_link_and_dialect(tmp_path):
     (tmp_path / "mine.xml").write_text(
-        '<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message></messages></mavlink>')
+        '<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message>'
+        '</messages></mavlink>')
     mine = mavloom.Dialect(tmp_path / "mine.xml")
     message = pickle.loads(pickle.dumps(mine.decode(mine.encode("MINE", a=3), time_ns=5)))
     assert (message.a, message.time_ns, message.dialect.path) == (3, 5, str(tmp_path / "mine.xml"))
@@ -330,7 +345,8 @@ def strict(line):
 def test_an_own_dialect_is_read_once_for_all_messages_of_pickles(tmp_path):
     def write_definition(field):
         (tmp_path / "mine.xml").write_text(
-            f'<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="{field}">a</field></message></messages></mavlink>')
+            f'<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="{field}">a</field>'
+            '</message></messages></mavlink>')
         return mavloom.Dialect(tmp_path / "mine.xml")
 
     dialect = write_definition("first")
@@ -366,7 +382,8 @@ def test_row_15_damage_is_counted_and_never_raised(dialect, peer, chunk):
     stream[at + 15] ^= 1
 
     parser = mavloom.Parser()
-    found = [m for i in range(0, len(stream), chunk) for m in parser.feed(stream[i:i + chunk], time_ns=i)] + parser.finish()
+    found = [m for i in range(0, len(stream), chunk)
+             for m in parser.feed(stream[i:i + chunk], time_ns=i)] + parser.finish()
 
     assert [m.time_boot_ms for m in found] == [i for i in range(300) if i != 100]
     assert (parser.frames, parser.junk_bytes) == (299, len(stream) - sum(map(len, frames)) + len(frames[100]))
@@ -374,8 +391,10 @@ def test_row_15_damage_is_counted_and_never_raised(dialect, peer, chunk):
 
 
 def test_arguments_of_another_type_are_type_errors(dialect):
-    for call in (lambda: mavloom.Parser("mine.xml"), lambda: mavloom.Parser(5), lambda: dialect[3.5], lambda: dialect.encode(5), lambda: dialect.decode("text"),
-                 lambda: dialect.encode("ATTITUDE", source_system="x"), lambda: mavloom.Dialect(5), lambda: mavloom.read(5)):
+    for call in (lambda: mavloom.Parser("mine.xml"), lambda: mavloom.Parser(5), lambda: dialect[3.5],
+                 lambda: dialect.encode(5), lambda: dialect.decode("text"),
+                 lambda: dialect.encode("ATTITUDE", source_system="x"), lambda: mavloom.Dialect(5),
+                 lambda: mavloom.read(5)):
         with pytest.raises(TypeError):
             call()
 

@@ -19,7 +19,8 @@ from vehicles import again_and_again
 @contextlib.contextmanager
 def vehicle_at(port, flight):
     """Sends what a recorded vehicle sent, again and again, as fast as it is of use."""
-    frames = [frame for _, frame in frames_of(flight) if frame[5] == 1 and frame[7] in (0, 30) and frame[8:10] == b"\0\0"]
+    frames = [frame for _, frame in frames_of(flight) if frame[5] == 1 and frame[7] in (0, 30)
+              and frame[8:10] == b"\0\0"]
     kinds = [next(frame for frame in frames if frame[7] == kind) for kind in (0, 30)]
 
     def send():
@@ -36,19 +37,26 @@ def test_examples_run(page, flight, tmp_path, child_environment):
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     ring, inlet = f"guides-{port}", str(tmp_path / "px4.in")
-    script = script_of(page).replace("14550", str(port)).replace('"px4"', f'"{ring}"').replace("shm://px4", f"shm://{ring}").replace("/run/mavloom/px4.in", inlet)
-    with vehicle_at(port, flight), contextlib.ExitStack() as at_the_end, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as router:
+    script = script_of(page)
+    for written, used in (("14550", str(port)), ('"px4"', f'"{ring}"'), ("shm://px4", f"shm://{ring}"),
+                          ("/run/mavloom/px4.in", inlet)):
+        script = script.replace(written, used)
+    with (vehicle_at(port, flight),
+          contextlib.ExitStack() as at_the_end,
+          socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as router):
         router.bind(inlet)
         router.setblocking(False)
         at_the_end.callback(pathlib.Path(f"/dev/shm/mavloom.{ring}").unlink, missing_ok=True)
-        done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment, capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], cwd=tmp_path, env=child_environment,
+                              capture_output=True, text=True)
         assert (done.returncode, done.stderr) == (0, ""), done.stderr
         if inlet in script:
             assert [(frame[0], frame[5:10]) for frame in [router.recv(65536)]] == [(0xfd, bytes((255, 193, 0, 0, 0)))]
 
 
 def numbers_in_names(word):
-    """What the names of this package's tests say they are about: {"17", "3.16", ...} of test_row_17_..., test_rows_3_4_and_3_6_..."""
+    """The numbers in the names of this package's tests: {"17", "3.16", ...} of test_row_17_...,
+    test_rows_3_4_and_3_6_..."""
     found = set()
     for path in (ROOT / "tests" / "python").glob("test_*.py"):
         for name in re.findall(r"def (test_\w+)", path.read_text()):

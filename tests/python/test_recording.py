@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mavloom.read() against pymavlink's reader on the recorded flight and on damaged files. "Row N": the wishes listed in docs/guide/python.md."""
+"""mavloom.read() against pymavlink's reader on the recorded flight and on damaged files.
+"Row N": the wishes listed in docs/guide/python.md."""
 import json
 import math
 import os
@@ -44,7 +45,8 @@ def test_every_message_and_value_is_pymavlinks(flight, peer):
 
 
 def test_row_13_to_json_is_the_programs_line(flight):
-    lines = subprocess.run([PROGRAM, "listen", str(flight), "--json", "-q"], capture_output=True, check=True).stdout.decode().splitlines()
+    lines = subprocess.run([PROGRAM, "listen", str(flight), "--json", "-q"], capture_output=True,
+                           check=True).stdout.decode().splitlines()
     assert [message.to_json() for message in mavloom.read(str(flight))] == lines
 
 
@@ -62,7 +64,8 @@ def test_a_damaged_file_goes_on_behind_the_damage(flight, tmp_path):
     damaged = bytearray(records[500])
     damaged[20] ^= 0xff
     path = tmp_path / "x.tlog"
-    path.write_bytes(b"".join([*records[:500], bytes(damaged), *records[501:1500], b"\x55" * 100, *records[1500:], records[7][:11]]))
+    path.write_bytes(b"".join([*records[:500], bytes(damaged), *records[501:1500], b"\x55" * 100, *records[1500:],
+                               records[7][:11]]))
 
     log = mavloom.read(path)
 
@@ -85,7 +88,8 @@ def test_row_1_the_deadline_holds_for_a_pipe(tmp_path):
     log = mavloom.read(path)
     assert log.recv(timeout=0.05) is None  # nobody has it open to write
     with open(os.open(path, os.O_RDWR), "wb", buffering=0) as pipe:
-        for ask in (lambda: log.recv(timeout=0.05), lambda: log.recv(timeout=0), lambda: log.recv_match(type="HEARTBEAT", blocking=True, timeout=0.05)):
+        for ask in (lambda: log.recv(timeout=0.05), lambda: log.recv(timeout=0),
+                    lambda: log.recv_match(type="HEARTBEAT", blocking=True, timeout=0.05)):
             assert ask() is None
         for number in range(3):
             pipe.write(record(beat, number))
@@ -118,7 +122,8 @@ if pid == 0:
     os._exit(left != {FRAMES - 1})
 print(left, os.waitpid(pid, 0)[1])
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment, timeout=60)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment,
+                          timeout=60)
     assert (done.stdout, done.stderr) == (f"{FRAMES - 1} 0\n", "")
 
 
@@ -130,10 +135,12 @@ def test_counters_are_shown(flight):
     assert repr(log.stats) == f"RecordingStats(records={FRAMES}, record_bytes={flight.stat().st_size})"
     parser.feed(b"junk" + dialect.encode("HEARTBEAT"))
     assert repr(parser) == "Parser(frames=1, junk_bytes=4)"
-    with mavloom.connect("udpin://127.0.0.1:0") as receiver, mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender:
+    with (mavloom.connect("udpin://127.0.0.1:0") as receiver,
+          mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender):
         sender.send("HEARTBEAT")
         receiver.recv(timeout=10)
-        assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=13, ") and "received=1)" in repr(receiver.stats)
+        assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=13, ")
+        assert "received=1)" in repr(receiver.stats)
 
 
 def test_row_29_types_each_call_with_its_own(flight, peer):
@@ -184,7 +191,8 @@ def test_row_3_systems_and_components_are_told_apart(flight):
 
 def test_row_11_another_dialect(tmp_path, peer):
     (tmp_path / "mine.xml").write_text(
-        '<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message></messages></mavlink>')
+        '<mavlink><messages><message id="61000" name="MINE"><field type="uint16_t" name="a">a</field></message>'
+        '</messages></mavlink>')
     mine = mavloom.Dialect(tmp_path / "mine.xml")
     path = write(tmp_path / "x.tlog", [mine.encode("MINE", a=i) for i in range(5)])
 
@@ -254,7 +262,9 @@ def test_ctrl_c_ends_a_wait(tmp_path, child_environment):
     path = tmp_path / "pipe"
     os.mkfifo(path)
     with open(os.open(path, os.O_RDWR), "wb", buffering=0):
-        child = subprocess.Popen([sys.executable, "-c", f"import mavloom\nlog = mavloom.read({str(path)!r})\nprint('ready', flush=True)\nlog.recv()"],
+        child = subprocess.Popen([sys.executable, "-c",
+                                  f"import mavloom\nlog = mavloom.read({str(path)!r})\nprint('ready', flush=True)\n"
+                                  "log.recv()"],
                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=child_environment)
         try:
             assert child.stdout.readline() == "ready\n"
@@ -273,25 +283,31 @@ def test_ctrl_c_ends_a_wait(tmp_path, child_environment):
 def test_a_signal_handler_may_close_it(tmp_path, child_environment):
     path = tmp_path / "pipe"
     os.mkfifo(path)
-    code = (f"import mavloom, signal\nlog = mavloom.read({str(path)!r})\nsignal.signal(signal.SIGALRM, lambda *_: log.close())\n"
-            "signal.setitimer(signal.ITIMER_REAL, 0.1, 0.1)\ntry: next(log)\nexcept mavloom.ClosedError: print('closed')\n"
+    code = (f"import mavloom, signal\nlog = mavloom.read({str(path)!r})\n"
+            "signal.signal(signal.SIGALRM, lambda *_: log.close())\n"
+            "signal.setitimer(signal.ITIMER_REAL, 0.1, 0.1)\ntry: next(log)\n"
+            "except mavloom.ClosedError: print('closed')\n"
             "signal.setitimer(signal.ITIMER_REAL, 0)")  # Python's end takes the handler away
     with open(os.open(path, os.O_RDWR), "wb", buffering=0):
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment, timeout=60)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment,
+                              timeout=60)
     assert (done.returncode, done.stdout, done.stderr) == (0, "closed\n", "")
 
 
 def test_an_exit_with_all_of_it_open_is_silent(flight, child_environment):
-    code = (f"import mavloom\nlog = mavloom.read({str(flight)!r})\nkept = [next(log) for _ in range(1000)]\ncycle = [log]; cycle.append(cycle)\n"
+    code = (f"import mavloom\nlog = mavloom.read({str(flight)!r})\nkept = [next(log) for _ in range(1000)]\n"
+            "cycle = [log]; cycle.append(cycle)\n"
             "parser = mavloom.Parser()\ndialect = mavloom.Dialect()\nkind = dialect.enum('MAV_TYPE')")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 def test_no_object_is_left_behind(flight, child_environment):
-    code = (f"import mavloom\nmavloom._core.set_leak_warnings(True)\nlog = mavloom.read({str(flight)!r})\nkept = [next(log) for _ in range(1000)]\n"
+    code = (f"import mavloom\nmavloom._core.set_leak_warnings(True)\nlog = mavloom.read({str(flight)!r})\n"
+            "kept = [next(log) for _ in range(1000)]\n"
             "kept[0].to_dict(); kept[0].dialect.enum('MAV_TYPE'); mavloom.Parser().feed(kept[0].frame)\n"
-            f"mavloom.columns({str(flight)!r}, 'ATTITUDE')\nlink = mavloom.connect('udpin://127.0.0.1:0'); link.subscribe('ATTITUDE'); link.close()\n"
+            f"mavloom.columns({str(flight)!r}, 'ATTITUDE')\n"
+            "link = mavloom.connect('udpin://127.0.0.1:0'); link.subscribe('ATTITUDE'); link.close()\n"
             "try: link.recv()\nexcept mavloom.Error as error: pass\ndel log, kept, link\n")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -303,5 +319,7 @@ def test_json_of_a_message_names_the_link(flight):
 
 def test_packer_and_reader_agree(peer, tmp_path):
     sender = packer(peer, 2, 3)
-    path = write(tmp_path / "x.tlog", [sender.pack(peer.MAVLink_heartbeat_message(1, 2, 3, i, 5, 3)) for i in range(300)])
-    assert [(m.seq, m.custom_mode, m.sys, m.comp) for m in mavloom.read(path)] == [(i % 256, i, 2, 3) for i in range(300)]
+    path = write(tmp_path / "x.tlog",
+                 [sender.pack(peer.MAVLink_heartbeat_message(1, 2, 3, i, 5, 3)) for i in range(300)])
+    assert ([(m.seq, m.custom_mode, m.sys, m.comp) for m in mavloom.read(path)]
+            == [(i % 256, i, 2, 3) for i in range(300)])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The package as type checkers see it (row 25 of docs/guide/python.md): mypy --strict and pyright take the package and every example of the guides, with the
-oldest Python that is supported and with this one. They also find what that Python's grammar and library do not have."""
+"""The package as type checkers see it (row 25 of docs/guide/python.md): mypy --strict and pyright take the package and
+every example of the guides, with the oldest Python that is supported and with this one. They also find what that
+Python's grammar and library do not have."""
 import json
 import os
 import pathlib
@@ -39,11 +40,14 @@ def examples_in(folder):
 
 @pytest.fixture(scope="module", params=[OLDEST, NEWEST])
 def mypy(request, folder):
-    (folder / "mypy.ini").write_text("[mypy]\nstrict = True\n[mypy-pandas.*,pyarrow.*]\nignore_missing_imports = True\n")
+    (folder / "mypy.ini").write_text(
+        "[mypy]\nstrict = True\n[mypy-pandas.*,pyarrow.*]\nignore_missing_imports = True\n")
 
     def call(*words):
-        command = [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "--python-version", request.param, "--cache-dir", f"cache-{request.param}"]
-        return subprocess.run([*command, *words], cwd=folder, env={**os.environ, "MYPYPATH": ""}, capture_output=True, text=True)
+        command = [sys.executable, "-m", "mypy", "--config-file", "mypy.ini", "--python-version", request.param,
+                   "--cache-dir", f"cache-{request.param}"]
+        return subprocess.run([*command, *words], cwd=folder, env={**os.environ, "MYPYPATH": ""}, capture_output=True,
+                              text=True)
     return call
 
 
@@ -62,14 +66,17 @@ def test_row_25_mypy_knows_the_types_of_fields(mypy):
 
 
 def pyright(folder, version, *include):
-    """What it finds, as file:line: text. Packages without types are unknown, not guessed at."""
-    settings = {"include": include, "pythonVersion": version, "useLibraryCodeForTypes": False, "reportMissingModuleSource": False}
+    """Returns its findings, as file:line: text. Packages without types are unknown, not guessed at."""
+    settings = {"include": include, "pythonVersion": version, "useLibraryCodeForTypes": False,
+                "reportMissingModuleSource": False}
     (folder / "pyrightconfig.json").write_text(json.dumps(settings))
-    done = subprocess.run([sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable], cwd=folder,
+                          capture_output=True, text=True)
     assert done.returncode in (0, 1), done.stdout + done.stderr
     found = json.loads(done.stdout)
     assert found["summary"]["filesAnalyzed"] >= len(include)
-    return [f"{one['file']}:{one['range']['start']['line'] + 1}: {one['message']}" for one in found["generalDiagnostics"]]
+    return [f"{one['file']}:{one['range']['start']['line'] + 1}: {one['message']}"
+            for one in found["generalDiagnostics"]]
 
 
 @pytest.mark.parametrize("version", [OLDEST, NEWEST])

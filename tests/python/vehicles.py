@@ -65,7 +65,7 @@ def again_and_again(work, pause_s=0.0):
 
 
 def flood(vehicle):
-    """Heartbeats without end."""
+    """Sends heartbeats until the test ends."""
     def send():
         with contextlib.suppress(ConnectionRefusedError):
             vehicle.send(vehicle.heartbeat())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Counts operator new of this thread. Replaces the global operators, so exactly one file of a test program includes it. With Clang's thread
-// sanitizer, whose own operator new cannot be replaced, nothing is counted: that build checks threads, the others check allocations.
+// Counts operator new of this thread. Replaces the global operators, so exactly one file of a test program includes it.
+// With Clang's thread sanitizer, whose own operator new cannot be replaced, nothing is counted: that build checks
+// threads, the others check allocations.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ inline thread_local std::size_t allocations = 0;
 }
 
 #ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
-// Not inlined: GCC would take new and free for a mismatch. The nothrow form too: std::stable_sort takes its buffer by it and gives it back by
-// the plain delete, and the address sanitizer's own nothrow form would not match ours.
+// Not inlined: GCC would take new and free for a mismatch. The nothrow form too: std::stable_sort takes its buffer by
+// it and gives it back by the plain delete, and the address sanitizer's own nothrow form would not match ours.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     ++mavloom::test::allocations;
     return std::malloc(size == 0 ? 1 : size);

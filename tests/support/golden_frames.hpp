@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames made by pymavlink 2.4.50 (dialect common, stock wheel), sources and sequence numbers as named. tools: pymavlink's MAVLink_*_message.pack().
+// Frames made by pymavlink 2.4.50 (dialect common, stock wheel), sources and sequence numbers as named. tools:
+// pymavlink's MAVLink_*_message.pack().
 #pragma once
 
 #include <array>
@@ -15,7 +16,8 @@ inline const Bytes heartbeat_v1 = hex("fe090701010000000402020c51040363e6");
 // The same with key 00 01 02 … 1f, link id 5, time 1 and time 0x123456789abc.
 inline const Bytes heartbeat_signed_1 = hex("fd09010007010100000000000402020c510403da1f05010000000000a6b835e13d07");
 inline const Bytes heartbeat_signed_late = hex("fd09010007010100000000000402020c510403da1f05bc9a785634124a7aea33a789");
-// ATTITUDE time_boot_ms=123456 roll=0.1 pitch=-0.2 yaw=3.0 rates 0, seq 200: MAVLink 2 drops the zeros, MAVLink 1 keeps them.
+// ATTITUDE time_boot_ms=123456 roll=0.1 pitch=-0.2 yaw=3.0 rates 0, seq 200: MAVLink 2 drops the zeros, MAVLink 1 keeps
+// them.
 inline const Bytes attitude_v2 = hex("fd100000c801011e000040e20100cdcccc3dcdcc4cbe00004040e6f4");
 inline const Bytes attitude_v1 = hex("fe1cc801011e40e20100cdcccc3dcdcc4cbe0000404000000000000000000000000096c5");
 // PING with all fields 0, seq 0: one payload byte stays.

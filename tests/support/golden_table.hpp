@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The message table of `all` as pymavlink's generator computes it (tests/golden/dialect_all.tsv): for tests below module dialect.
+// The message table of `all` as pymavlink's generator computes it (tests/golden/dialect_all.tsv): for tests below
+// module dialect.
 #pragma once
 
 #include <fstream>

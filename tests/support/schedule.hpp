@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Runs a few actors step by step, in every order that a bound on preemptions allows: exhaustive for the schedules that find faults, unlike stress.
-// A step is one operation on a ModelWord. Stores that are not sequentially consistent may be delayed in the actor's store buffer, as x86 does it.
+// Runs a few actors step by step, in every order that a bound on preemptions allows: exhaustive for the schedules that
+// find faults, unlike stress. A step is one operation on a ModelWord. Stores that are not sequentially consistent may
+// be delayed in the actor's store buffer, as x86 does it.
 //
 //     explore({.preemptions = 2}, [](Schedule& schedule) {
 //         ...state of this run...
@@ -125,7 +126,7 @@ private:
 };
 
 struct Bounds {
-    int preemptions = 2;  // switches away from an actor that could go on
+    int preemptions = 2;  // switches away from an actor that could continue
     int delays = 0;       // stores that stay in their actor's buffer for a while
 };
 
@@ -282,7 +283,8 @@ private:
     ucontext_t scheduler_{};
 };
 
-// Every schedule within the bounds; returns how many there were. A run that fails an assertion of gtest ends the search (`failed`).
+// Every schedule within the bounds; returns how many there were. A run that fails an assertion of gtest ends the search
+// (`failed`).
 template <class Run, class Failed>
 std::size_t explore(const Bounds& bounds, Run&& run, Failed&& failed) {
     static thread_local std::vector<Fiber> fibers;

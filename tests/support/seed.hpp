@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Included once by a property test: RapidCheck prints the seed of each run, and this makes it take one from MAVLOOM_SEED to repeat a failure.
+// Included once by a property test: RapidCheck prints the seed of each run, and this makes it take one from
+// MAVLOOM_SEED to repeat a failure.
 #pragma once
 
 #include <cstdlib>

@@ -20,7 +20,8 @@ def program():
 
 @pytest.fixture
 def run(program):
-    """run("listen", "x.tlog", input=b"", timeout=60, text=True, env={}, cwd=None) -> harness.Finished. Runs it to its end."""
+    """run("listen", "x.tlog", input=b"", timeout=60, text=True, env={}, cwd=None) -> harness.Finished.
+    Runs it to its end."""
     def call(*args, input=None, timeout=harness.DEFAULT_TIMEOUT_S, text=True, env=None, cwd=None):
         command = [str(program), *map(str, args)]
         options = {"input": input} if input is not None else {"stdin": subprocess.DEVNULL}
@@ -33,8 +34,8 @@ def run(program):
 
 @pytest.fixture
 def spawn(program):
-    """spawn("listen", "udpin://127.0.0.1:0", env={}, **Popen options) -> harness.Running, killed at the end of the test if it still runs.
-    With stdout=... the caller reads it (or does not: that is how a slow pipe is made)."""
+    """spawn("listen", "udpin://127.0.0.1:0", env={}, **Popen options) -> harness.Running, killed at the end of the test
+    if it still runs. With stdout=... the caller reads it (or does not: that is how a slow pipe is made)."""
     running = []
 
     def start(*args, env=None, **options):

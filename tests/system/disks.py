@@ -13,7 +13,8 @@ class SmallDisk:
         self.folder = folder
         if os.geteuid() != 0:
             pytest.skip("a small file system needs root")
-        made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", folder], capture_output=True, text=True)
+        made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", folder], capture_output=True,
+                              text=True)
         if made.returncode != 0:
             pytest.skip(f"no tmpfs here: {made.stderr.strip()}")
         (folder / "ballast").write_bytes(bytes((2 << 20) - (100 << 10)))

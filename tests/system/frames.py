@@ -27,7 +27,8 @@ def heartbeats(count, system=1, component=1, sequence=0):
 
 
 def attitude(roll=0.1, system=1, component=1, sequence=0):
-    return mavlink.MAVLink_attitude_message(1000, roll, -0.2, 3.0, 0.01, 0.02, 0.03).pack(sender(system, component, sequence))
+    return mavlink.MAVLink_attitude_message(1000, roll, -0.2, 3.0, 0.01, 0.02,
+                                            0.03).pack(sender(system, component, sequence))
 
 
 def statustext(text, system=1, sequence=0):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What the system tests share: running the program under a deadline, waiting for a condition, free ports. Fixtures are in conftest.py."""
+"""Helpers of the system tests: run the program under a deadline, wait for a condition, find free ports.
+Fixtures are in conftest.py."""
 import atexit
 import contextlib
 import os
@@ -25,8 +26,8 @@ SANITIZER_REPORT = re.compile(r"(ERROR|WARNING): \w+Sanitizer|runtime error: ")
 
 
 def _run_folder() -> pathlib.Path:
-    """Of this run of the tests, its worker processes among it: no router of the machine's is in the way, and none is touched. Short, because the name
-    of a socket is."""
+    """Of this run of the tests, its worker processes among it: no router of the machine's is in the way, and none is
+    touched. Short, because the name of a socket is."""
     if "MAVLOOM_RUN" not in os.environ:
         os.environ["MAVLOOM_RUN"] = tempfile.mkdtemp(prefix="mv-")
         atexit.register(shutil.rmtree, os.environ["MAVLOOM_RUN"], ignore_errors=True)
@@ -37,8 +38,9 @@ RUN = _run_folder()
 
 
 def environment(more=None) -> dict:
-    """What the program gets: ours without what only tests know, and `more`, where None takes a variable away."""
-    own = {name: value for name, value in os.environ.items() if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")}
+    """The program's environment: ours without the tests' own variables, plus `more`, where None removes a variable."""
+    own = {name: value for name, value in os.environ.items()
+           if name not in ("MAVLOOM_PROGRAM", "MAVLOOM_PEER_TOOL", "MAVLOOM_SEED")}
     return {name: value for name, value in (own | (more or {})).items() if value is not None}
 
 
@@ -75,14 +77,15 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
     return sock
 
 
-# Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its number can take it.
-# Each worker of pytest-xdist has its own share.
+# Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its
+# number can take it. Each worker of pytest-xdist has its own share.
 _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
 _ports = random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500)
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:
-    """A port nobody has bound a moment ago, never the same twice in a run. Prefer port 0 where the program tells the port it got."""
+    """A port that was free a moment ago, never the same twice in a run.
+    Prefer port 0 if the program prints the port it got."""
     while True:
         port = _ports.pop()
         with socket.socket(socket.AF_INET, kind) as sock:
@@ -94,7 +97,8 @@ def free_port(kind: int = socket.SOCK_DGRAM) -> int:
 
 
 class Finished:
-    """A run of the program that has ended: `status` (negative: the signal that killed it), `stdout`, `stderr`, `lines` of stdout."""
+    """A run of the program that has ended: `status` (negative: the signal that killed it), `stdout`, `stderr`, `lines`
+    of stdout."""
 
     def __init__(self, args, status, stdout, stderr):
         self.args, self.status, self.stdout, self.stderr = args, status, stdout, stderr
@@ -106,7 +110,8 @@ class Finished:
         return self.stdout.splitlines()
 
     def __repr__(self):
-        return f"status {self.status} from {self.args}\nstdout: {self.stdout[-4000:]!r}\nstderr: {self.stderr[-4000:]!r}"
+        return (f"status {self.status} from {self.args}\nstdout: {self.stdout[-4000:]!r}\n"
+                f"stderr: {self.stderr[-4000:]!r}")
 
 
 class Running:
@@ -149,14 +154,16 @@ class Running:
         return self.process.poll() is None
 
     def wait_output(self, pattern: str, timeout: float = DEFAULT_TIMEOUT_S, stream: str = "both"):
-        """The match of `pattern` in stdout or stderr ("out", "err", "both"); fails at once when the program ends without it."""
+        """The match of `pattern` in stdout or stderr ("out", "err", "both");
+        fails at once when the program ends without it."""
         def look():
             ended = not self.alive
             if ended:
                 self._join()
             text = (self.stdout if stream != "err" else "") + (self.stderr if stream != "out" else "")
             match = re.search(pattern, text, re.MULTILINE)
-            assert match or not ended, f"ended with {self.process.returncode} without saying {pattern!r}:\n{text[-4000:]}"
+            assert match or not ended, (f"ended with {self.process.returncode} without saying {pattern!r}:\n"
+                                        f"{text[-4000:]}")
             return match
         return wait_for(look, timeout, f"{pattern!r} from {self.args}")
 
@@ -201,12 +208,13 @@ class Running:
 
 
 def end(processes):
-    """Kills what still runs, and takes away what a killed router leaves of its sockets."""
+    """Kills what still runs, and removes the sockets that a killed router leaves."""
     for process in processes:
         process.kill()
         if process.process.returncode != -signal.SIGKILL:
             continue
-        names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring") if option in process.args]
+        names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring")
+                 if option in process.args]
         for left in (RUN / f"{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in")):
             with contextlib.suppress(OSError):
                 os.unlink(left)

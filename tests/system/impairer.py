@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A bad network in user space, for UDP and TCP on this machine: delay, jitter, reordering, duplication, loss, all from one seed.
+"""A bad network in user space, for UDP and TCP on this machine: delay, jitter, reordering, duplication, loss, all from
+one seed.
 
-What happens to the n-th datagram of a direction depends on the seed and on n only, never on when it came. Tests give the generator of the
-fixture `rng`, which prints MAVLOOM_SEED and takes it."""
+The fate of the n-th datagram of a direction depends on the seed and on n only, never on when it came.
+Tests give the generator of the fixture `rng`, which prints MAVLOOM_SEED and takes it."""
 import contextlib
 import dataclasses
 import heapq
@@ -19,7 +20,8 @@ MOST_BYTES = 65536
 
 @dataclasses.dataclass(frozen=True)
 class Profile:
-    """Of one direction. Probabilities from 0 to 1, times in seconds. Jitter alone never changes the order; `reorder` lets those behind overtake."""
+    """Of one direction. Probabilities from 0 to 1, times in seconds. Jitter alone never changes the order;
+    `reorder` lets those behind overtake."""
     delay: float = 0
     jitter: float = 0
     loss: float = 0
@@ -33,12 +35,14 @@ class Direction:
 
     def __init__(self, profile, seed):
         self.profile, self._random, self._last = profile, random.Random(seed), 0.0
-        self.delivered, self.lost, self.cut = [], [], []  # datagrams; `cut`: they were under way, or came, when the link was dead
+        # datagrams; `cut`: they were under way, or came, when the link was dead
+        self.delivered, self.lost, self.cut = [], [], []
         self.taken = self.reordered = self.duplicated = 0
 
     def times(self, now):
         """When copies of the next datagram come out; none: it is lost."""
-        lost, twice, overtaken, spread = (self._random.random() for _ in range(4))  # the same four draws whatever becomes of it
+        # the same four draws whatever becomes of it
+        lost, twice, overtaken, spread = (self._random.random() for _ in range(4))
         profile = self.profile
         if lost < profile.loss:
             return []
@@ -100,7 +104,8 @@ class Impairer:
 
 
 class UdpImpairer(Impairer):
-    """Listens at `port` of 127.0.0.1 for one caller and passes its datagrams on to `target`; what comes from there goes back to it."""
+    """Listens at `port` of 127.0.0.1 for one caller and passes its datagrams on to `target`;
+    what comes from there goes back to it."""
 
     def __init__(self, target, rng, forth=Profile(), back=None):
         super().__init__()
@@ -172,7 +177,8 @@ class UdpImpairer(Impairer):
 
 
 class TcpImpairer(Impairer):
-    """Accepts at `port` of 127.0.0.1 and connects each caller with `target`. Bytes come late and cut at random places, never out of order."""
+    """Accepts at `port` of 127.0.0.1 and connects each caller with `target`.
+    Bytes come late and cut at random places, never out of order."""
 
     def __init__(self, target, rng, delay=0.0, jitter=0.0, most_bytes=1400):
         super().__init__()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Two machines side by side: network namespaces with a cable between them. For root with iproute2; elsewhere the tests skip and say so."""
+"""Two machines side by side: network namespaces with a cable between them. Needs root and iproute2;
+elsewhere the tests are skipped with that reason."""
 import ctypes
 import os
 import shutil
@@ -62,7 +63,8 @@ def two_machines():
     try:
         try:
             machines = [Machine(1), Machine(2)]
-            ip("link", "add", "cable1", "netns", machines[0].name, "type", "veth", "peer", "name", "cable2", "netns", machines[1].name)
+            ip("link", "add", "cable1", "netns", machines[0].name, "type", "veth", "peer", "name", "cable2", "netns",
+               machines[1].name)
         except subprocess.CalledProcessError as error:
             pytest.skip(f"no network namespaces here: {error.stderr.strip()}")
         for machine in machines:

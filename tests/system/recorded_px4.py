@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A recorded PX4 as a peer: it sends the telemetry that the real one sent, at its pace, and answers each request with the frames that the real one answered
-with (tests/data/px4_gcs_session.tlog). And the ground station's side of that session, spoken by pymavlink."""
+"""A recorded PX4 as a peer: it sends the telemetry that the real one sent, at its pace, and answers each request with
+the frames that the real one answered with (tests/data/px4_gcs_session.tlog). And the ground station's side of that
+session, spoken by pymavlink."""
 import collections
 import itertools
 import select
@@ -18,8 +19,8 @@ from pymavlink.generator.mavcrc import x25crc
 SESSION = harness.DATA / "px4_gcs_session.tlog"
 VEHICLE, STATION = 1, 255
 PARAMETERS = 952
-# What the vehicle sends only because somebody asked: PING, PARAM_VALUE, missions, COMMAND_ACK, FILE_TRANSFER_PROTOCOL, TIMESYNC, LOG_ENTRY, LOG_DATA,
-# AUTOPILOT_VERSION, PROTOCOL_VERSION, COMPONENT_METADATA, AVAILABLE_MODES.
+# The vehicle sends these only as answers: PING, PARAM_VALUE, missions, COMMAND_ACK, FILE_TRANSFER_PROTOCOL,
+# TIMESYNC, LOG_ENTRY, LOG_DATA, AUTOPILOT_VERSION, PROTOCOL_VERSION, COMPONENT_METADATA, AVAILABLE_MODES.
 ANSWERS = {4, 22, 44, 47, 51, 73, 77, 110, 111, 118, 120, 148, 300, 397, 435}
 BURST, BURST_PAUSE_S = 20, 0.02  # parameters: twenty at a time, each 20 ms, as the recorded PX4
 
@@ -142,7 +143,7 @@ class Station:
         self.connection.close()
 
     def wait_vehicle(self):
-        """A heartbeat of the vehicle; answers it, so that whoever is between hears the station."""
+        """A heartbeat of the vehicle; answers it, so that the program between them hears the station."""
         assert self.match("HEARTBEAT", lambda m: m.get_srcSystem() == VEHICLE)
         self.connection.target_system, self.connection.target_component = 1, 1
         self.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, 4)
@@ -170,7 +171,8 @@ class Station:
         items = {m.seq: m for m in (decode(bytearray(f)) for f in recorded if message_id(f) == 73)}
         self.mav.mission_count_send(1, 1, len(items), 0)
         asked = 0
-        while (message := self.match(["MISSION_REQUEST_INT", "MISSION_REQUEST", "MISSION_ACK"])).get_type() != "MISSION_ACK":
+        while (message := self.match(["MISSION_REQUEST_INT", "MISSION_REQUEST",
+                                      "MISSION_ACK"])).get_type() != "MISSION_ACK":
             asked += 1
             self.mav.send(items[message.seq])
         return message.type, asked

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A running `mavloom route` and the far ends of its links, for the system tests. A Net is a router with the ends 1, 2, 3, ... around it, over
-any kind of link; it tells exactly which ends a frame reached, without waiting for what does not come."""
+"""A running `mavloom route` and the far ends of its links, for the system tests. A Net is a router with the ends 1, 2,
+3, ... around it, over any kind of link; it finds exactly which ends a frame reached, without waiting for frames that do
+not come."""
 import collections
 import itertools
 import json
@@ -22,12 +23,14 @@ _unique = itertools.count(1)
 
 
 def unique() -> int:
-    """A number for a field that makes a frame different from every other: the same bytes again would be an echo or a copy."""
+    """A number for a field that makes a frame different from every other: the same bytes again would be an echo or a
+    copy."""
     return next(_unique)
 
 
 def make(message, source=(1, 1), version=2, signing=None) -> bytes:
-    """The frame of a pymavlink message, with the next sequence number of its source. signing=(key, link id, 10 us ticks)."""
+    """The frame of a pymavlink message, with the next sequence number of its source.
+    signing=(key, link id, 10 us ticks)."""
     mav = mavlink.MAVLink(None, *source)
     mav.seq = _sequences[source] % 256
     _sequences[source] += 1
@@ -80,7 +83,8 @@ def unknown(source=(1, 1), message_id=70371) -> bytes:
 # ---- far ends --------------------------------------------------------------------------------------------------------
 
 class End:
-    """The far end of a link: send(bytes), next() -> the next whole frame that came. What comes must be frames and nothing else."""
+    """The far end of a link: send(bytes), next() -> the next whole frame that came.
+    Only whole frames may come."""
 
     def __init__(self, label=None):
         self.label = label  # of the router's endpoint; None: one of several links of an endpoint
@@ -103,7 +107,7 @@ class End:
         self.close()
 
     def until(self, last: bytes) -> list[bytes]:
-        """What came before this frame."""
+        """The frames that came before this one."""
         before = []
         while (frame := self.next()) != last:
             before.append(frame)
@@ -113,7 +117,7 @@ class End:
         return [self.next() for _ in range(number)]
 
     def now(self) -> list[bytes]:
-        """What is there now."""
+        """The frames that are there now."""
         while select.select([self], [], [], 0)[0]:
             self._take(self._read())
         there = list(self.got)
@@ -297,7 +301,8 @@ LETTERS = "ABCDEFGH"
 
 
 class Net:
-    """net[1], net[2], ...: ends of one kind around a router; a list of kinds gives each its own. options={1: "in_block=ATTITUDE"}."""
+    """net[1], net[2], ...: ends of one kind around a router; a list of kinds gives each its own.
+    options={1: "in_block=ATTITUDE"}."""
 
     def __init__(self, spawn, kind, count=2, options=None, rules=None, extra=()):
         kinds = [kind] * count if isinstance(kind, str) else list(kind)
@@ -356,7 +361,8 @@ class Net:
         return f"tcpout://127.0.0.1:{server.getsockname()[1]}?{query}"
 
     def _join(self, kinds):
-        """Waits until every link is up. A UDP peer is none before it has spoken: it does, as system 0, which teaches no route."""
+        """Waits until every link is up. A UDP peer is none before it has spoken: it does, as system 0, which teaches no
+        route."""
         for accept in self._accept:
             end = accept()
             if None in self.ends:
@@ -373,11 +379,12 @@ class Net:
             self.settle()
 
     def settle(self):
-        """Takes away what is on its way."""
+        """Receives and drops the frames that are on their way."""
         self._mark(1, range(1, len(self.ends) + 1))
 
     def _mark(self, start, watched) -> dict:
-        """What each watched end gets before a broadcast from `start`, and `start` itself before one from another end."""
+        """The frames that each watched end gets before a broadcast from `start`, and `start` itself before one from
+        another end."""
         got = {}
         mark = heartbeat((0, 0))
         self[start].send(mark)

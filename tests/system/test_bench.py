@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The instruments of `bench` themselves. Of `bench route`: a router that loses, damages and repeats frames in known numbers is reported with these numbers. Nothing
-here asserts a time."""
+"""The instruments of `bench` themselves. Of `bench route`: a router that loses, damages and repeats frames in known
+numbers is reported with these numbers. Nothing here asserts a time."""
 import json
 import pathlib
 import subprocess
@@ -14,7 +14,8 @@ sys.path.insert(0, str(harness.ROOT / "bench" / "route"))
 import measure  # noqa: E402
 import peers  # noqa: E402
 
-# Forwards to the ports given, or without any between all its peers. Counts the load's datagrams, not the heartbeats (id 0) that find out whether it is up.
+# Forwards to the ports given, or without any between all its peers. Counts the load's datagrams, not the heartbeats (id
+# 0) that find out whether it is up.
 FAULTY_ROUTER = """
 import socket, sys
 sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -61,7 +62,8 @@ def test_reports_what_a_router_loses_damages_and_repeats(kit, outs, copies):
 @pytest.mark.parametrize("mode, per_datagram", [("single", 1), ("gather", 1), ("single", 8)])
 def test_the_bare_loop_delivers_all(kit, mode, per_datagram):
     load = measure.Load("bare", "", 2000, per_datagram=per_datagram, outs=2)
-    result = measure.measure(kit, peers.BareLoop("bare loop", pathlib.Path(kit.tools, "route_bare_loop"), mode), load, 1)
+    result = measure.measure(kit, peers.BareLoop("bare loop", pathlib.Path(kit.tools, "route_bare_loop"), mode), load,
+                             1)
     assert (result["sent"], result["delivered"], result["lost"]) == (2000, 4000, 0)
     assert (result["damaged"], result["duplicates"], result["reordered"], result["foreign"]) == (0, 0, 0, 0)
     assert result["cpu_us_per_frame"] > 0
@@ -76,7 +78,8 @@ def test_a_router_that_does_not_run_is_named(kit):
 
 
 def test_every_part_of_bench_shm_gives_its_row(kit):
-    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "shm.py", "--tools", kit.tools, "--quick", "--json", "--without", "aeron,iceoryx"],
+    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "shm.py", "--tools", kit.tools, "--quick", "--json",
+                           "--without", "aeron,iceoryx"],
                           capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     rows = [json.loads(line) for line in done.stdout.splitlines()]
@@ -86,6 +89,7 @@ def test_every_part_of_bench_shm_gives_its_row(kit):
 
 def test_every_byte_of_the_recorded_mix_comes_through(kit):
     for mode in ("threads", "processes"):
-        done = subprocess.run([kit.tools / "shm_throughput", "ring", "3", mode, "50000", kit.flight, "verify"], capture_output=True, text=True, timeout=120)
+        done = subprocess.run([kit.tools / "shm_throughput", "ring", "3", mode, "50000", kit.flight, "verify"],
+                              capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stderr
         assert done.stdout.split()[0] == "50000"

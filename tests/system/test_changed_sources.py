@@ -9,9 +9,11 @@ import pytest
 from harness import ROOT
 
 TREE = {
-    "include/mavloom/base/a.hpp": "", "include/mavloom/wire/b.hpp": '#include "mavloom/base/a.hpp"\n', "src/wire/private.hpp": '#include "mavloom/wire/b.hpp"\n',
-    "src/base/a.cpp": '#include "mavloom/base/a.hpp"\n', "src/wire/b.cpp": '#include "wire/private.hpp"\n', "src/net/c.cpp": "#include <vector>\n",
-    "apps/mavloom/own.hpp": "", "apps/mavloom/main.cpp": '#  include "own.hpp"\n', "docs/page.md": "", "CMakeLists.txt": "",
+    "include/mavloom/base/a.hpp": "", "include/mavloom/wire/b.hpp": '#include "mavloom/base/a.hpp"\n',
+    "src/wire/private.hpp": '#include "mavloom/wire/b.hpp"\n', "src/base/a.cpp": '#include "mavloom/base/a.hpp"\n',
+    "src/wire/b.cpp": '#include "wire/private.hpp"\n', "src/net/c.cpp": "#include <vector>\n",
+    "apps/mavloom/own.hpp": "", "apps/mavloom/main.cpp": '#  include "own.hpp"\n', "docs/page.md": "",
+    "CMakeLists.txt": "",
 }
 
 
@@ -28,13 +30,15 @@ def tree(tmp_path):
 
 
 def changed(tree, base="HEAD"):
-    done = subprocess.run([sys.executable, tree / "tools" / "changed_sources.py", base], cwd=tree, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, tree / "tools" / "changed_sources.py", base], cwd=tree, capture_output=True,
+                          text=True)
     return done.returncode, done.stdout.split()
 
 
 @pytest.mark.parametrize("edited, wanted", [
-    ("include/mavloom/base/a.hpp", ["src/base/a.cpp", "src/wire/b.cpp"]), ("src/wire/private.hpp", ["src/wire/b.cpp"]), ("src/net/c.cpp", ["src/net/c.cpp"]),
-    ("apps/mavloom/own.hpp", ["apps/mavloom/main.cpp"]), ("docs/page.md", []), ("src/net/new.cpp", ["src/net/new.cpp"]),
+    ("include/mavloom/base/a.hpp", ["src/base/a.cpp", "src/wire/b.cpp"]), ("src/wire/private.hpp", ["src/wire/b.cpp"]),
+    ("src/net/c.cpp", ["src/net/c.cpp"]), ("apps/mavloom/own.hpp", ["apps/mavloom/main.cpp"]), ("docs/page.md", []),
+    ("src/net/new.cpp", ["src/net/new.cpp"]),
 ])
 def test_what_differs_and_what_includes_it(tree, edited, wanted):
     with (tree / edited).open("a") as file:

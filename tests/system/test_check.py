@@ -30,14 +30,15 @@ def test_shows_values_and_where_they_came_from(run, tmp_path):
     assert done.status == 0, done
     found = values(done)
     endpoint = "udpin://0.0.0.0:14550"
-    assert found["router", None, "dedup_ms"] == {"section": "router", "endpoint": None, "key": "dedup_ms", "value": "5", "origin": "file",
-                                                 "file": str(path), "line": 2, "variable": None}
-    assert found["router", None, "route_timeout"] == {"section": "router", "endpoint": None, "key": "route_timeout", "value": "2m",
-                                                      "origin": "environment", "file": None, "line": None,
-                                                      "variable": "MAVLOOM_ROUTER_ROUTE_TIMEOUT"}
+    assert found["router", None, "dedup_ms"] == {"section": "router", "endpoint": None, "key": "dedup_ms", "value": "5",
+                                                 "origin": "file", "file": str(path), "line": 2, "variable": None}
+    assert found["router", None, "route_timeout"] == {"section": "router", "endpoint": None, "key": "route_timeout",
+                                                      "value": "2m", "origin": "environment", "file": None,
+                                                      "line": None, "variable": "MAVLOOM_ROUTER_ROUTE_TIMEOUT"}
     assert (found["endpoint", endpoint, "idle"]["value"], found["endpoint", endpoint, "idle"]["line"]) == ("2", 4)
     assert (found["endpoint", endpoint, "mtu"]["value"], found["endpoint", endpoint, "mtu"]["line"]) == ("0", 5)
-    assert (found["endpoint", endpoint, "max_peers"]["value"], found["endpoint", endpoint, "max_peers"]["origin"]) == ("256", "default")
+    assert (found["endpoint", endpoint, "max_peers"]["value"],
+            found["endpoint", endpoint, "max_peers"]["origin"]) == ("256", "default")
     assert found["ring", None, "name"]["value"] is None
 
 
@@ -91,27 +92,34 @@ def test_key_files_that_cannot_be_read_are_status_3(run, tmp_path):
 @pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]])
 def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
     path = tmp_path / "bad.toml"
-    path.write_text('[[endpoint]]\nurl = "udpin://0.0.0.0:14550"\n[[endpoint]]\nscheme = "udpin"\nhost = "127.0.0.1"\nport = 14550\n')
+    path.write_text('[[endpoint]]\nurl = "udpin://0.0.0.0:14550"\n[[endpoint]]\nscheme = "udpin"\nhost = "127.0.0.1"\n'
+                    'port = 14550\n')
     done = run(*command, path)
     assert done.status == 3 and done.stdout == ""
-    assert f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has already" in done.stderr
+    assert (f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has "
+            "already") in done.stderr
 
 
 @pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]], ids=["check", "route"])
 @pytest.mark.parametrize("text, line, said", [
-    ('[[endpoint]]\nname = "r"\nurl = "shm://px4"\n', 3, "r: a ring is no endpoint of a router: --ring px4 writes every frame into it"),
+    ('[[endpoint]]\nname = "r"\nurl = "shm://px4"\n', 3,
+     "r: a ring is no endpoint of a router: --ring px4 writes every frame into it"),
     ('[[endpoint]]\nscheme = "shm"\nring = "px4"\n', 3, "shm://px4: a ring is no endpoint of a router"),
     ('[ring]\ncapacity = "64k"\n', 1, "[ring] has no name"),
     ('# a comment\n[ring]\n', 2, "[ring] has no name"),
     ('[record]\nrotate_every = 60\n', 1, "[record] has no path"),
-    ('[[endpoint]]\nurl = "udpmcast://239.1.2.3:14550?max_peers=3"\n', 2, "udpmcast://239.1.2.3:14550: all who are heard here are one link"),
+    ('[[endpoint]]\nurl = "udpmcast://239.1.2.3:14550?max_peers=3"\n', 2,
+     "udpmcast://239.1.2.3:14550: all who are heard here are one link"),
     ('[[endpoint]]\nscheme = "udpout"\nhost = "127.0.0.1"\nport = 1\nbind = "[::1]:0"\n', 2,
      "udpout://127.0.0.1:1: bind=[::1]:0 is of another family than 127.0.0.1:1"),
     ('[[endpoint]]\nurl = "tlog://a.tlog?speed=3"\n', 2, "tlog://a.tlog: 'speed' is for a recording that is read"),
-    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?ttl=0"\n', 2, "udpin://127.0.0.1:1: ttl=0 keeps the datagrams of a group on this machine"),
-    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\ngroup = "air"\ngroup_mode = "primary"\n',
-     6, "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),
-    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1"\nsign = "/nonexistent/key"\n', 3, "sign: cannot open key file /nonexistent/key"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?ttl=0"\n', 2,
+     "udpin://127.0.0.1:1: ttl=0 keeps the datagrams of a group on this machine"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\n'
+     'group = "air"\ngroup_mode = "primary"\n', 6,
+     "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),
+    ('[[endpoint]]\nurl = "udpin://127.0.0.1:1"\nsign = "/nonexistent/key"\n', 3,
+     "sign: cannot open key file /nonexistent/key"),
 ])
 def test_check_refuses_what_route_refuses(run, tmp_path, udp_port, command, text, line, said):
     path = tmp_path / "bad.toml"
@@ -170,12 +178,14 @@ def test_no_file_and_no_configuration(run, tmp_path, data):
 def rows(page):
     """The cells of the tables in a page of the guide, without back quotes."""
     lines = (harness.ROOT / "docs" / "guide" / page).read_text().splitlines()
-    return [[cell.strip().replace("`", "") for cell in line.strip("|").split("|")] for line in lines if line.startswith("| `")]
+    return [[cell.strip().replace("`", "") for cell in line.strip("|").split("|")]
+            for line in lines if line.startswith("| `")]
 
 
 def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
-    urls = {"udpin": "udpin://127.0.0.1:1", "udpout": "udpout://127.0.0.1:2", "udpbcast": "udpbcast://10.0.0.255:3", "tcpin": "tcpin://127.0.0.1:4",
-            "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6", "serial": "serial:///dev/ttyS0",
+    urls = {"udpin": "udpin://127.0.0.1:1", "udpout": "udpout://127.0.0.1:2", "udpbcast": "udpbcast://10.0.0.255:3",
+            "tcpin": "tcpin://127.0.0.1:4", "udpmcast": "udpmcast://239.255.145.50:5", "tcpout": "tcpout://127.0.0.1:6",
+            "serial": "serial:///dev/ttyS0",
             "tlog": "tlog://x.tlog"}  # shm:// is no endpoint of a router
     path = tmp_path / "all.toml"
     path.write_text("".join(f'[[endpoint]]\nurl = "{url}"\n' for url in urls.values()))
@@ -188,8 +198,9 @@ def test_the_guide_names_every_option_and_key_with_its_default(run, tmp_path):
 
     options = {(scheme, row[0]): row[2].removesuffix(" for udp*") for row in rows("endpoints.md") if len(row) == 4
                for scheme in urls if takes(row[1], scheme)}
-    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide says in words that TCP has no default
-    found = {(v["endpoint"].split(":")[0], v["key"]): v["value"] or "" for v in effective if v["section"] == "endpoint" and v["key"] != "url"}
+    del options["tcpin", "idle"], options["tcpout", "idle"]  # the guide states in words that TCP has no default
+    found = {(v["endpoint"].split(":")[0], v["key"]): v["value"] or "" for v in effective if v["section"] == "endpoint"
+             and v["key"] != "url"}
     assert (found.pop(("tcpin", "idle")), found.pop(("tcpout", "idle"))) == ("", "")
     assert found == options
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What every command does with a line that is not right, and the words it uses: nothing is passed over in silence, nothing raw reaches the terminal."""
+"""Every command reports a wrong command line: no word is ignored silently, and no control character reaches the
+terminal."""
 import json
 import os
 import pathlib
@@ -19,12 +20,15 @@ ESCAPE = "a\x1b[31m\x7f\u009b"
 
 
 @pytest.mark.parametrize("arguments", [
-    [f"z{ESCAPE}"], ["listen", f"--z{ESCAPE}"], ["listen", f"{ESCAPE}.tlog"], ["listen", IN, "--only", ESCAPE], ["listen", IN, "--from", ESCAPE],
-    ["listen", IN, "--csv", ESCAPE], ["listen", IN, "--count", ESCAPE], ["listen", IN, "--dialect", ESCAPE], ["replay", ESCAPE, "--to", OUT],
-    ["record", IN, "-o", f"/nowhere/{ESCAPE}"], ["relay", IN, "--to", OUT, "--set", f"{ESCAPE}.x=1"], ["relay", IN, "--to", OUT, "--sign", ESCAPE],
-    ["relay", IN, "--to", OUT, "--remap-system", ESCAPE], ["route", OUT, "--explain", ESCAPE], ["route", "--config", ESCAPE],
-    ["route", OUT, "--name", ESCAPE], ["route", OUT, "--metrics", ESCAPE], ["check", ESCAPE], ["check", "--convert", ESCAPE], ["dialect", "check", ESCAPE],
-    ["dialect", "show", ESCAPE], ["bench", "parse", ESCAPE], ["ctl", ESCAPE, "links"], ["stat", ESCAPE], ["shm", "stat", ESCAPE], ["shm", "read", ESCAPE], ["shm", "remove", ESCAPE], ["key", "new", f"/nowhere/{ESCAPE}"],
+    [f"z{ESCAPE}"], ["listen", f"--z{ESCAPE}"], ["listen", f"{ESCAPE}.tlog"], ["listen", IN, "--only", ESCAPE],
+    ["listen", IN, "--from", ESCAPE], ["listen", IN, "--csv", ESCAPE], ["listen", IN, "--count", ESCAPE],
+    ["listen", IN, "--dialect", ESCAPE], ["replay", ESCAPE, "--to", OUT], ["record", IN, "-o", f"/nowhere/{ESCAPE}"],
+    ["relay", IN, "--to", OUT, "--set", f"{ESCAPE}.x=1"], ["relay", IN, "--to", OUT, "--sign", ESCAPE],
+    ["relay", IN, "--to", OUT, "--remap-system", ESCAPE], ["route", OUT, "--explain", ESCAPE],
+    ["route", "--config", ESCAPE], ["route", OUT, "--name", ESCAPE], ["route", OUT, "--metrics", ESCAPE],
+    ["check", ESCAPE], ["check", "--convert", ESCAPE], ["dialect", "check", ESCAPE], ["dialect", "show", ESCAPE],
+    ["bench", "parse", ESCAPE], ["ctl", ESCAPE, "links"], ["stat", ESCAPE], ["shm", "stat", ESCAPE],
+    ["shm", "read", ESCAPE], ["shm", "remove", ESCAPE], ["key", "new", f"/nowhere/{ESCAPE}"],
     [f"--{ESCAPE}", "listen"],
 ])
 def test_control_characters_do_not_reach_the_terminal(run, arguments):
@@ -37,27 +41,33 @@ def test_control_characters_of_a_converted_file_do_not_reach_the_terminal(run, t
     path = tmp_path / ESCAPE
     path.write_text(f"[General]\nLog = {ESCAPE}\n[Uart{ESCAPE}]\nDevice = {ESCAPE}\n")
     done = run("check", "--convert", path)
-    assert "a?[31m" in done.stderr and re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]", done.stderr + done.stdout) is None, done
+    assert "a?[31m" in done.stderr and re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f]",
+                                                 done.stderr + done.stdout) is None, done
 
 
 @pytest.mark.parametrize("arguments, option", [
-    (["listen", IN, "--for", ""], "--for"), (["listen", IN, "--count", ""], "--count"), (["listen", IN, "--csv", ""], "--csv"),
-    (["listen", IN, "--only", ""], "--only"), (["listen", IN, "--from", ""], "--from"), (["record", IN, "-o", ""], "--output"),
-    (["route", IN, "--for", ""], "--for"), (["route", IN, "--name", ""], "--name"), (["route", IN, "--metrics", ""], "--metrics"),
-    (["route", IN, "--config", ""], "--config"), (["relay", IN, "--to", OUT, "--for", ""], "--for"), (["relay", IN, "--to", ""], "--to"),
-    (["replay", "x.tlog", "--to", OUT, "--start", ""], "--start"), (["replay", "x.tlog", "--to", OUT, "--speed", ""], "--speed"),
+    (["listen", IN, "--for", ""], "--for"), (["listen", IN, "--count", ""], "--count"),
+    (["listen", IN, "--csv", ""], "--csv"), (["listen", IN, "--only", ""], "--only"),
+    (["listen", IN, "--from", ""], "--from"), (["record", IN, "-o", ""], "--output"),
+    (["route", IN, "--for", ""], "--for"), (["route", IN, "--name", ""], "--name"),
+    (["route", IN, "--metrics", ""], "--metrics"), (["route", IN, "--config", ""], "--config"),
+    (["relay", IN, "--to", OUT, "--for", ""], "--for"), (["relay", IN, "--to", ""], "--to"),
+    (["replay", "x.tlog", "--to", OUT, "--start", ""], "--start"),
+    (["replay", "x.tlog", "--to", OUT, "--speed", ""], "--speed"),
 ])
 def test_an_empty_value_is_wrong_use(run, arguments, option):
     done = run(*arguments)
     assert done.status == 2 and f"{option}: the value is empty" in done.stderr, done
 
 
-@pytest.mark.parametrize("arguments", [["--dialect", "x.xml", "listen", IN], ["--json", "listen", IN], ["-q", "route", IN]])
+@pytest.mark.parametrize("arguments",
+                         [["--dialect", "x.xml", "listen", IN], ["--json", "listen", IN], ["-q", "route", IN]])
 def test_an_option_before_the_command_is_told_its_place(run, arguments):
     done = run(*arguments)
     command = next(word for word in arguments if word in ("listen", "route"))
     assert done.status == 2
-    assert f"'{arguments[0]}' comes before the command; options go after it: mavloom {command} ... {arguments[0]}" in done.stderr
+    assert (f"'{arguments[0]}' comes before the command; options go after it: mavloom {command} ... "
+            f"{arguments[0]}") in done.stderr
 
 
 def test_options_of_the_program_itself(run):
@@ -74,13 +84,15 @@ def test_sign_link_id_says_what_it_needs_and_its_range(run):
     assert "0 to 255" in run("relay", "--help").stdout
 
 
-@pytest.mark.parametrize("command, takes", [("ctl", False), ("stat", False), ("key", False), ("listen", True), ("check", True), ("dialect", True)])
+@pytest.mark.parametrize("command, takes", [("ctl", False), ("stat", False), ("key", False), ("listen", True),
+                                            ("check", True), ("dialect", True)])
 def test_only_commands_that_read_messages_take_a_dialect(run, command, takes):
     assert ("--dialect" in run(command, "--help").stdout) == takes
 
 
-@pytest.mark.parametrize("arguments", [["route", "--config", "/tmp"], ["check", "/tmp"], ["check", "--convert", "/tmp"], ["listen", IN, "--dialect", "/tmp"],
-                                       ["replay", "/tmp", "--to", OUT], ["bench", "parse", "/tmp"]])
+@pytest.mark.parametrize("arguments", [["route", "--config", "/tmp"], ["check", "/tmp"], ["check", "--convert", "/tmp"],
+                                       ["listen", IN, "--dialect", "/tmp"], ["replay", "/tmp", "--to", OUT],
+                                       ["bench", "parse", "/tmp"]])
 def test_a_folder_is_no_input_file(run, arguments):
     done = run(*arguments)
     assert done.status == 3, done
@@ -91,7 +103,8 @@ def test_an_include_that_is_missing_says_where_it_is_looked_for(run, tmp_path):
     path.write_text("<mavlink>\n<include>common.xml</include>\n</mavlink>")
     done = run("dialect", "check", path)
     assert done.status == 3
-    assert f"{path}:2: cannot include {tmp_path}/common.xml: no such file; expected a file beside the including one" in done.stderr
+    assert (f"{path}:2: cannot include {tmp_path}/common.xml: no such file; expected a file beside the including "
+            "one") in done.stderr
     assert "share/mavloom/dialects" in done.stderr
 
 
@@ -112,7 +125,8 @@ def test_one_is_singular(run, tmp_path):
         assert re.search(r"\b1 (frame|byte|place|message|datagram)s\b", text) is None, text
 
 
-@pytest.mark.parametrize("command", [["listen", "{log}"], ["replay", "{log}", "--to", "tlog://{tmp}/out.tlog"], ["record", "{log}", "-o", "{tmp}/out.tlog"],
+@pytest.mark.parametrize("command", [["listen", "{log}"], ["replay", "{log}", "--to", "tlog://{tmp}/out.tlog"],
+                                     ["record", "{log}", "-o", "{tmp}/out.tlog"],
                                      ["relay", "{log}", "--to", "tlog://{tmp}/out.tlog"]])
 def test_an_empty_recording_is_told(run, tmp_path, command):
     log = tmp_path / "empty.tlog"
@@ -123,7 +137,8 @@ def test_an_empty_recording_is_told(run, tmp_path, command):
     assert (quiet.status, quiet.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("command", [["replay", "{log}", "--to", "tlog://{out}"], ["record", "{log}", "-o", "{out}"], ["relay", "{log}", "--to", "tlog://{out}"],
+@pytest.mark.parametrize("command", [["replay", "{log}", "--to", "tlog://{out}"], ["record", "{log}", "-o", "{out}"],
+                                     ["relay", "{log}", "--to", "tlog://{out}"],
                                      ["replay", "{good}", "--to", "tlog://{out}", "--to", "udpin://192.0.2.1:9"],
                                      ["relay", "{good}", "--to", "tlog://{out}", "--to", "udp://nowhere"]])
 @pytest.mark.parametrize("content", [None, b"no recording at all, but text" * 50])
@@ -139,7 +154,8 @@ def test_a_destination_is_left_alone_when_the_input_is_wrong(run, tmp_path, comm
     assert out.read_text() == "mine" and not (tmp_path / "out.tlog.1").exists()
 
 
-@pytest.mark.parametrize("arguments", [["listen", IN], ["record", IN, "-o", "/dev/null"], ["relay", IN, "--to", OUT], ["relay", "tcpin://127.0.0.1:0", "--to", OUT]])
+@pytest.mark.parametrize("arguments", [["listen", IN], ["record", IN, "-o", "/dev/null"], ["relay", IN, "--to", OUT],
+                                       ["relay", "tcpin://127.0.0.1:0", "--to", OUT]])
 def test_listening_is_told(spawn, arguments):
     process = spawn(*arguments)
     scheme = arguments[1].split(":")[0]
@@ -168,7 +184,8 @@ def test_an_option_of_a_subcommand_has_a_nearest_spelling(run):
 def test_bench_shm_hands_every_record_to_every_reader(run):
     done = run("bench", "shm", "--readers", "3", "--records", "20000", "--bytes", "40", "--turns", "2", "--json")
     assert done.status == 0, done
-    assert {**json.loads(done.stdout), "per_second": 0} == {"bench": "shm", "per_second": 0, "unit": "records", "readers": 3, "bytes": 40, "records": 20000,
+    assert {**json.loads(done.stdout), "per_second": 0} == {"bench": "shm", "per_second": 0, "unit": "records",
+                                                            "readers": 3, "bytes": 40, "records": 20000,
                                                             "turns": 2}
 
 
@@ -178,7 +195,8 @@ def takes_signals(process):
 
 
 @pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-@pytest.mark.parametrize("words", [["parse", frames.FLIGHT, "--turns", "10000"], ["shm", "--records", "1000000", "--turns", "10000"]], ids=["parse", "shm"])
+@pytest.mark.parametrize("words", [["parse", frames.FLIGHT, "--turns", "10000"],
+                                   ["shm", "--records", "1000000", "--turns", "10000"]], ids=["parse", "shm"])
 def test_a_signal_ends_a_benchmark_that_leaves_no_ring(spawn, words, number, status):
     bench = spawn("bench", *words)
     ring = pathlib.Path(f"/dev/shm/mavloom.bench-{bench.pid}")

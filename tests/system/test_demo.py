@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""tools/demo.py, which ./run demo starts: OK only where every byte went through, also when it is one of our programs that loses or changes something."""
+"""tools/demo.py, which ./run demo starts: OK only where every byte went through, also when it is one of our programs
+that loses or changes something."""
 import subprocess
 import sys
 
@@ -10,8 +11,10 @@ import harness
 
 
 def demo(program, flight):
-    return subprocess.run([sys.executable, harness.ROOT / "tools" / "demo.py", "--program", program, "--flight", flight, "--speed", "20"],
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S, env=harness.environment())
+    return subprocess.run([sys.executable, harness.ROOT / "tools" / "demo.py", "--program", program, "--flight", flight,
+                           "--speed", "20"],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S,
+                          env=harness.environment())
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +41,9 @@ def test_what_is_damaged_in_the_flight_is_not_asked_for(program, flight, tmp_pat
 
 
 @pytest.mark.parametrize("command, option, said", [
-    ("replay", "--only ATTITUDE", "MISMATCH"), ("replay", "--start 1s", "MISMATCH"), ("replay", "--for 50ms", "MISMATCH"),
-    ("relay", "--only ATTITUDE", "MISMATCH"), ("relay", "--set HEARTBEAT.custom_mode=1", "MISMATCH"), ("listen", "--only ATTITUDE", "MISMATCH"),
+    ("replay", "--only ATTITUDE", "MISMATCH"), ("replay", "--start 1s", "MISMATCH"),
+    ("replay", "--for 50ms", "MISMATCH"), ("relay", "--only ATTITUDE", "MISMATCH"),
+    ("relay", "--set HEARTBEAT.custom_mode=1", "MISMATCH"), ("listen", "--only ATTITUDE", "MISMATCH"),
     ("record", "--count 10", "FAILED")])
 def test_a_fault_of_ours_is_told(program, flight, tmp_path, command, option, said):
     faulty = tmp_path / "mavloom"
@@ -54,9 +58,11 @@ def test_a_fault_of_ours_is_told(program, flight, tmp_path, command, option, sai
 def test_the_way_back_is_proved(program, flight, tmp_path):
     done = demo(program, flight)
     lossy = tmp_path / "mavloom"
-    lossy.write_text(f'#!/bin/sh\ncase "$*" in *shm://*) exec "{program}" "$@" --remap-system 9=255;; esac\nexec "{program}" "$@"\n')
+    lossy.write_text(f'#!/bin/sh\ncase "$*" in *shm://*) exec "{program}" "$@" --remap-system 9=255;; esac\n'
+                     f'exec "{program}" "$@"\n')
     lossy.chmod(0o755)
     faulty = demo(lossy, flight)
 
-    assert done.returncode == 0 and "demo: the way back: " in done.stdout and "demo: OK: byte for byte what was sent, there and back" in done.stdout
+    assert done.returncode == 0 and "demo: the way back: " in done.stdout
+    assert "demo: OK: byte for byte what was sent, there and back" in done.stdout
     assert faulty.returncode == 4 and "demo: MISMATCH: what the ground station sent" in faulty.stdout, faulty

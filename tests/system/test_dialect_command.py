@@ -6,13 +6,15 @@ import os
 import harness
 
 MINE = """<mavlink><enums><enum name="MINE_FLAGS" bitmask="true"><entry value="2**60" name="MINE_HIGH"/></enum></enums>
-<messages><message id="60999" name="MINE"><field type="char[4]" name="who"/><field type="uint64_t" name="flags" enum="MINE_FLAGS"/></message>
-</messages></mavlink>
+<messages><message id="60999" name="MINE">
+<field type="char[4]" name="who"/><field type="uint64_t" name="flags" enum="MINE_FLAGS"/>
+</message></messages></mavlink>
 """
 
 
 def test_list_has_every_message_of_the_golden_table(run, golden):
-    expected = [line.split("\t") for line in (golden / "dialect_all.tsv").read_text().splitlines() if line.startswith("M\t")]
+    expected = [line.split("\t") for line in (golden / "dialect_all.tsv").read_text().splitlines()
+                if line.startswith("M\t")]
     listed = [json.loads(line) for line in run("dialect", "list", "--json").lines]
     assert [(m["id"], m["name"], m["min_length"], m["max_length"]) for m in listed] == \
            [(int(m[1]), m[2], int(m[4]), int(m[5])) for m in expected]
@@ -39,8 +41,9 @@ def test_show_message_as_json(run):
     assert (shown["kind"], shown["id"], shown["crc_extra"]) == ("message", 147, 154)
     fields = {field["name"]: field for field in shown["fields"]}
     assert list(fields)[:2] == ["id", "battery_function"]
-    assert fields["voltages"] == {"name": "voltages", "type": "uint16_t", "array_length": 10, "offset": 10, "extension": False,
-                                  "instance": False, "bitmask": False, "units": "mV", "invalid": "[UINT16_MAX]"}
+    assert fields["voltages"] == {"name": "voltages", "type": "uint16_t", "array_length": 10, "offset": 10,
+                                  "extension": False, "instance": False, "bitmask": False, "units": "mV",
+                                  "invalid": "[UINT16_MAX]"}
     assert fields["mode"]["extension"] and fields["mode"]["enum"] == "MAV_BATTERY_MODE"
     assert fields["id"]["instance"]
 
@@ -66,7 +69,8 @@ def test_dialect_file_adds_to_the_built_in_definitions(run, tmp_path):
     for order in (["show", "--dialect", "mine.xml", "MINE"], ["--dialect", "mine.xml", "show", "MINE"]):
         done = run("dialect", *order, cwd=tmp_path)
         assert done.status == 0 and done.lines[0] == "MINE (60999), mine.xml, 12 bytes, CRC_EXTRA 93", done
-    assert json.loads(run("dialect", "show", "--dialect", "mine.xml", "MINE_HIGH", "--json", cwd=tmp_path).stdout)["value"] == str(2**60)
+    assert json.loads(run("dialect", "show", "--dialect", "mine.xml", "MINE_HIGH", "--json",
+                          cwd=tmp_path).stdout)["value"] == str(2**60)
     assert run("dialect", "show", "--dialect", "mine.xml", "ATTITUDE", cwd=tmp_path).status == 0
 
 
@@ -74,7 +78,8 @@ def test_check_counts_what_a_file_has(run, tmp_path):
     (tmp_path / "mine.xml").write_text(MINE)
     done = run("dialect", "check", "mine.xml", "--json", cwd=tmp_path)
     assert done.status == 0
-    assert json.loads(done.stdout) == {"file": "mine.xml", "messages": 1, "fields": 2, "enums": 1, "entries": 1, "added": 1, "changed": 0}
+    assert json.loads(done.stdout) == {"file": "mine.xml", "messages": 1, "fields": 2, "enums": 1, "entries": 1,
+                                       "added": 1, "changed": 0}
     assert run("dialect", "check", harness.ROOT / "dialects" / "all.xml").lines[0].endswith(
         "good; 393 messages with 3042 fields, 260 enums with 2330 entries")
 
@@ -83,7 +88,7 @@ def test_check_names_file_and_line_of_a_fault(run, tmp_path):
     (tmp_path / "mine.xml").write_text(MINE.replace("uint64_t", "uint65_t"))
     done = run("dialect", "check", "mine.xml", cwd=tmp_path)
     assert (done.status, done.stdout) == (3, "")
-    assert done.stderr.startswith("mavloom: mine.xml:2: type \"uint65_t\" of field 'flags'; expected ")
+    assert done.stderr.startswith("mavloom: mine.xml:3: type \"uint65_t\" of field 'flags'; expected ")
     assert run("dialect", "check", "none.xml", cwd=tmp_path).status == 3
 
 

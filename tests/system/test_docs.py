@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Every command that README, the guides and --help show is run: as written, but for ports (the kernel's choice), a bound on its time, and files of
-the examples' names in a temporary folder."""
+"""Every command that README, the guides and --help show is run: as written, but for ports (the kernel's choice), a
+bound on its time, and files of the examples' names in a temporary folder."""
 import contextlib
 import os
 import re
@@ -31,7 +31,8 @@ def page_examples():
     for page in PAGES:
         for line in shell_lines(page.read_text()):
             line = line.split("  #")[0].strip()
-            if re.match(r"(build/release/bin/)?mavloom (%s)\b" % "|".join(COMMANDS + ASKING), line) and "|" not in line and "FILE" not in line:
+            if re.match(r"(build/release/bin/)?mavloom (%s)\b" % "|".join(COMMANDS + ASKING),
+                        line) and "|" not in line and "FILE" not in line:
                 yield pytest.param(line, id=f"{page.name}: {line}")
 
 
@@ -64,7 +65,9 @@ def copy_examples(folder):
     """The configurations of examples/ with free ports in the place of theirs."""
     folder.mkdir()
     for path in (harness.ROOT / "examples").glob("*.toml"):
-        (folder / path.name).write_text(re.sub(r"(?<=:)\d{4,5}(?=\")", lambda _: str(harness.free_port(harness.socket.SOCK_STREAM)), path.read_text()))
+        (folder / path.name).write_text(re.sub(r"(?<=:)\d{4,5}(?=\")",
+                                               lambda _: str(harness.free_port(harness.socket.SOCK_STREAM)),
+                                               path.read_text()))
 
 
 @pytest.fixture
@@ -105,7 +108,8 @@ def router_name(spawn):
 def test_example_of_a_page(run, folder, request, line):
     words = runnable(line)
     if words[0] in ASKING:
-        words = [request.getfixturevalue("router_name") if word in ("router", "px4") else word.replace("=tablet", "=other") for word in words]
+        words = [request.getfixturevalue("router_name") if word in ("router", "px4")
+                 else word.replace("=tablet", "=other") for word in words]
     done = run(*words, cwd=folder)
 
     assert is_good(done, words), done
@@ -123,8 +127,9 @@ def test_examples_of_help(run, folder, command):
         assert is_good(done, words), done
 
 
-@pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"), ("bench", "parse"), ("bench", "decode"),
-                                           ("shm", "list"), ("shm", "stat"), ("shm", "write"), ("shm", "read"), ("shm", "remove")])
+@pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"),
+                                           ("bench", "parse"), ("bench", "decode"), ("shm", "list"), ("shm", "stat"),
+                                           ("shm", "write"), ("shm", "read"), ("shm", "remove")])
 def test_examples_of_the_help_of_a_part(run, folder, command, part):
     text = run(command, part, "--help").stdout
     examples = re.findall(r"(mavloom %s %s(?: [^[].*)?)$" % (command, part), text, re.MULTILINE)

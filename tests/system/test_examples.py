@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The files of examples/: each is a good configuration, and does what its comments say, on free ports in a copy."""
+"""The files of examples/: each is a good configuration, and does what its comments promise, on free ports in a copy."""
 import re
 import select
 import threading
@@ -25,7 +25,8 @@ def test_an_example_is_a_good_configuration(run, path):
 
 
 class Stub:
-    """A program behind a UDP socket that answers from a thread of its own. `heard`: every frame that arrived from anybody."""
+    """A program behind a UDP socket that answers from a thread of its own.
+    `heard`: every frame that arrived from anybody."""
 
     def __init__(self, sock):
         self.sock, self.heard, self.partner = sock, [], None
@@ -59,7 +60,8 @@ class Stub:
 
 
 class Px4(Stub):
-    """Sends to the ground station's usual port until somebody speaks to it; whoever that is first is its only partner from then on."""
+    """Sends to the ground station's usual port until it is spoken to;
+    the first speaker is its only partner from then on."""
 
     def __init__(self, sock, ground_port):
         self.ground, self.sequence, self.strangers = ("127.0.0.1", ground_port), 0, 0
@@ -80,7 +82,7 @@ class Px4(Stub):
 
 
 class Qgc(Stub):
-    """Answers whoever speaks to it with its heartbeat and a command for the vehicle."""
+    """Answers every sender with its heartbeat and a command for the vehicle."""
 
     def __init__(self, sock, system=255):
         self.sender = frames.sender(system, 190)
@@ -101,7 +103,8 @@ HEARTBEAT, ATTITUDE, COMMAND_LONG = 0, 30, 76
 
 def on_free_ports(name, free, folder):
     """A copy of the example, with `free` = {port of the example: port to use} in the place of all its ports."""
-    text, replaced = re.subn(r"(?<=127\.0\.0\.1:)\d+(?=\")", lambda match: str(free[int(match[0])]), (harness.ROOT / "examples" / name).read_text())
+    text, replaced = re.subn(r"(?<=127\.0\.0\.1:)\d+(?=\")", lambda match: str(free[int(match[0])]),
+                             (harness.ROOT / "examples" / name).read_text())
     assert replaced == len(free)
     (folder / name).write_text(text)
     return folder / name
@@ -112,7 +115,8 @@ def bridge(tmp_path, udp_socket, udp_port):
     """px4-qgc.toml on other ports: (file, {"px4": socket, ...}, the router's own port)."""
     sockets = {port: udp_socket() for port in (18570, 14550, 5058)}
     own = udp_port()
-    file = on_free_ports("px4-qgc.toml", {port: sock.getsockname()[1] for port, sock in sockets.items()} | {5057: own}, tmp_path)
+    file = on_free_ports("px4-qgc.toml", {port: sock.getsockname()[1] for port, sock in sockets.items()} | {5057: own},
+                         tmp_path)
     return file, {"px4": sockets[18570], "qgc": sockets[14550], "copy": sockets[5058]}, own
 
 
@@ -150,7 +154,7 @@ def test_px4_qgc_router_is_first_and_everybody_gets_everything(spawn, stubs, bri
 
 
 def test_px4_qgc_a_ground_station_that_was_there_before_the_router_spoke_gets_px4_alone(spawn, stubs, bridge, wait_for):
-    """What the file warns of, and the cure that it names."""
+    """The trouble that the file warns of, and the cure that it gives."""
     file, sockets, own_port = bridge
     qgc = stubs(Qgc(sockets["qgc"]))
     px4 = stubs(Px4(sockets["px4"], sockets["qgc"].getsockname()[1]))
@@ -185,12 +189,14 @@ def test_px4_qgc_the_router_that_is_started_again_is_still_the_partner(spawn, st
 def test_px4_with_two_stations_and_sdks(spawn, stubs, tmp_path, udp_socket, udp_port, tcp_port, wait_for):
     px4_socket, first_socket, second_socket = udp_socket(), udp_socket(), udp_socket()
     own, sdk_port = udp_port(), tcp_port()
-    file = on_free_ports("px4-two-stations.toml", {18570: px4_socket.getsockname()[1], 5057: own, 14550: first_socket.getsockname()[1],
+    file = on_free_ports("px4-two-stations.toml",
+                         {18570: px4_socket.getsockname()[1], 5057: own, 14550: first_socket.getsockname()[1],
                                                    14551: second_socket.getsockname()[1], 5760: sdk_port}, tmp_path)
     start(spawn, file, own)
     px4 = stubs(Px4(px4_socket, first_socket.getsockname()[1]))
     first, second = stubs(Qgc(first_socket)), stubs(Qgc(second_socket, 254))
-    sdks = [mavutil.mavlink_connection(f"tcp:127.0.0.1:{sdk_port}", source_system=system, source_component=191) for system in (201, 202)]
+    sdks = [mavutil.mavlink_connection(f"tcp:127.0.0.1:{sdk_port}", source_system=system, source_component=191)
+            for system in (201, 202)]
     heard = [sdk.wait_heartbeat(timeout=harness.DEFAULT_TIMEOUT_S) for sdk in sdks]
     for sdk in sdks:
         sdk.mav.command_long_send(1, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0)
@@ -198,10 +204,13 @@ def test_px4_with_two_stations_and_sdks(spawn, stubs, tmp_path, udp_socket, udp_
     assert {message.get_srcSystem() for message in heard} <= {1, 254, 255}, "the router's heartbeat is 255/191"
     assert all((message.get_srcSystem(), message.get_srcComponent()) != (255, 191) for message in heard)
     for station in (first, second):
-        wait_for(lambda station=station: station.heard_ids(1) >= {HEARTBEAT, ATTITUDE}, what="the vehicle's telemetry at a ground station")
+        wait_for(lambda station=station: station.heard_ids(1) >= {HEARTBEAT, ATTITUDE},
+                 what="the vehicle's telemetry at a ground station")
     for system in (255, 254, 201, 202):
-        wait_for(lambda system=system: COMMAND_LONG in px4.heard_ids(system), what=f"the command of {system} at the vehicle")
-    wait_for(lambda: HEARTBEAT in second.heard_ids(255) and HEARTBEAT in first.heard_ids(254), what="each other's heartbeats")
+        wait_for(lambda system=system: COMMAND_LONG in px4.heard_ids(system),
+                 what=f"the command of {system} at the vehicle")
+    wait_for(lambda: HEARTBEAT in second.heard_ids(255) and HEARTBEAT in first.heard_ids(254),
+             what="each other's heartbeats")
     assert px4.partner == ("127.0.0.1", own)
     for sdk in sdks:
         sdk.close()
@@ -210,7 +219,8 @@ def test_px4_with_two_stations_and_sdks(spawn, stubs, tmp_path, udp_socket, udp_
 def test_two_vehicles_do_not_hear_each_other(spawn, tmp_path, udp_socket, udp_port, wait_for):
     first, second, ground = udp_socket(), udp_socket(), udp_socket()
     ports = {14541: udp_port(), 14542: udp_port(), 14550: ground.getsockname()[1]}
-    router = spawn("route", "--config", on_free_ports("two-vehicles.toml", ports, tmp_path), "--name", f"two-vehicles-{ports[14541]}")
+    router = spawn("route", "--config", on_free_ports("two-vehicles.toml", ports, tmp_path), "--name",
+                   f"two-vehicles-{ports[14541]}")
     router.wait_output("vehicle2: listening")
     for sock, system, port in ((first, 1, ports[14541]), (second, 2, ports[14542]), (first, 1, ports[14541])):
         sock.sendto(frames.attitude(system=system), ("127.0.0.1", port))

@@ -14,7 +14,7 @@ ALL = Profile(delay=0.002, jitter=0.003, loss=0.2, duplicate=0.1, reorder=0.1)
 
 
 def pass_through(rng, profile, count=300):
-    """What `count` numbered datagrams become: those that arrived, in order, and the impairer."""
+    """Sends `count` numbered datagrams. Returns those that arrived, in order, and the impairer."""
     arrived, target, caller = [], harness.udp_socket(), harness.udp_socket()
     with target, caller, UdpImpairer(target.getsockname(), rng, profile) as impairer:
         for i in range(count):

@@ -11,10 +11,10 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
 # Where a library shows itself in an #include, and the name it has in the table.
 LIBRARIES = {
-    "CLI/": "CLI11", "spdlog/": "spdlog", "pugi": "pugixml", "sodium": "libsodium", "toml": "toml++", "nlohmann/": "nlohmann-json",
-    "Eigen/": "Eigen", "GeographicLib/": "GeographicLib", "boost/": "Boost", "ncurses": "ncurses", "nats/": "NATS",
-    "sys/socket.h": "sockets", "sys/epoll.h": "sockets", "sys/un.h": "sockets", "netinet/": "sockets", "netdb.h": "sockets",
-    "readerwriterqueue/": "readerwriterqueue",
+    "CLI/": "CLI11", "spdlog/": "spdlog", "pugi": "pugixml", "sodium": "libsodium", "toml": "toml++",
+    "nlohmann/": "nlohmann-json", "Eigen/": "Eigen", "GeographicLib/": "GeographicLib", "boost/": "Boost",
+    "ncurses": "ncurses", "nats/": "NATS", "sys/socket.h": "sockets", "sys/epoll.h": "sockets", "sys/un.h": "sockets",
+    "netinet/": "sockets", "netdb.h": "sockets", "readerwriterqueue/": "readerwriterqueue",
     "nanobind/": "nanobind", "arpa/": "sockets", "ifaddrs.h": "sockets", "net/": "sockets", "termios.h": "sockets",
 }
 
@@ -30,8 +30,9 @@ def names(cell: str) -> set:
 
 
 def module_table() -> dict:
-    """{module: (modules it may use, libraries it may use)} as the document says."""
-    rows = re.findall(r"^\| `(\w+)` \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "docs/design/modules.md").read_text(), re.MULTILINE)
+    """{module: (modules it may use, libraries it may use)} from the document."""
+    rows = re.findall(r"^\| `(\w+)` \|[^|]*\|([^|]*)\|([^|]*)\|$", (ROOT / "docs/design/modules.md").read_text(),
+                      re.MULTILINE)
     return {module: (names(uses), names(libraries)) for module, uses, libraries in rows}
 
 
@@ -54,7 +55,8 @@ def complaints_about(path: pathlib.PurePath, text: str, table: dict) -> list:
         if parts[0] == "mavloom":
             target = FOLDER_OF_MODULE.get(parts[1], parts[1])
             if target != module and target not in uses:
-                complaints.append(f"{where}: `{module}` may not include `{target}`, only {', '.join(sorted(uses)) or 'nothing'}")
+                complaints.append(f"{where}: `{module}` may not include `{target}`, only "
+                                  f"{', '.join(sorted(uses)) or 'nothing'}")
         elif match[1] == '"' and len(parts) > 1 and parts[0] in table and (public or parts[0] != module):
             complaints.append(f"{where}: private headers of `{parts[0]}` are its own")
         elif match[1] == '"' and ".." in parts:
@@ -69,7 +71,8 @@ def complaints_about(path: pathlib.PurePath, text: str, table: dict) -> list:
 
 
 def sources() -> list:
-    return sorted(path.relative_to(ROOT) for top in ("include", "src", "apps", "python/src") for pattern in ("*.hpp", "*.cpp", "*.inc")
+    return sorted(path.relative_to(ROOT) for top in ("include", "src", "apps", "python/src")
+                  for pattern in ("*.hpp", "*.cpp", "*.inc")
                   for path in (ROOT / top).rglob(pattern))
 
 
@@ -92,9 +95,11 @@ def test_includes_follow_the_module_table():
 
 @pytest.mark.parametrize("path, line, reason", [
     ("src/net/udp.cpp", '#include "mavloom/wire/frame.hpp"', "`net` may not include `wire`, only base"),
-    ("include/mavloom/wire/x.hpp", '#include "mavloom/dialect/dialect.hpp"', "`wire` may not include `dialect`, only base"),
+    ("include/mavloom/wire/x.hpp", '#include "mavloom/dialect/dialect.hpp"',
+     "`wire` may not include `dialect`, only base"),
     ("src/record/x.cpp", "#  include <mavloom/link/links.hpp>", "`record` may not include `link`, only base, wire"),
-    ("src/control/x.cpp", '#include "mavloom/router/router.hpp"', "`control` may not include `router`, only base, endpoint, net"),
+    ("src/control/x.cpp", '#include "mavloom/router/router.hpp"',
+     "`control` may not include `router`, only base, endpoint, net"),
     ("src/wire/x.cpp", '#include "mavloom/msg/attitude.hpp"', "`wire` may not include `message`, only base"),
     ("apps/mavloom/x.cpp", '#include "net/socket_options.hpp"', "private headers of `net` are its own"),
     ("include/mavloom/wire/x.hpp", '#include "wire/sha.hpp"', "private headers of `wire` are its own"),
@@ -129,4 +134,5 @@ def test_link_graph_follows_the_module_table():
     direct = {module: set(depends.split()) for module, depends in declared}
     assert set(direct) == set(table) - {"apps", "python"}
     for module in direct:
-        assert direct[module] <= table[module][0], f"CMakeLists.txt links `{module}` with more than docs/design/modules.md allows"
+        assert direct[module] <= table[module][0], (f"CMakeLists.txt links `{module}` with more than "
+                                                    "docs/design/modules.md allows")

@@ -130,7 +130,8 @@ def test_tcp_out_connects_once_somebody_listens(spawn, tcp_port):
 
 
 def test_only_and_from(run, tmp_path):
-    records = [(i, frame) for i, frame in enumerate([frames.attitude(system=1), frames.attitude(system=2), *frames.heartbeats(1, system=2)])]
+    records = [(i, frame) for i, frame in enumerate([frames.attitude(system=1), frames.attitude(system=2),
+                                                     *frames.heartbeats(1, system=2)])]
     log = frames.write_tlog(tmp_path / "x.tlog", records)
 
     assert len(run("listen", log, "--only", "ATTITUDE").lines) == 2
@@ -148,7 +149,8 @@ def test_csv(run):
 
 
 def test_csv_by_id(run):
-    assert run("listen", frames.FLIGHT, "--csv", "30").stdout == run("listen", frames.FLIGHT, "--csv", "ATTITUDE").stdout
+    assert (run("listen", frames.FLIGHT, "--csv", "30").stdout
+            == run("listen", frames.FLIGHT, "--csv", "ATTITUDE").stdout)
     unknown = run("listen", frames.FLIGHT, "--csv", "77777")
     assert unknown.status == 2 and "message 77777 has no definition" in unknown.stderr
 
@@ -159,7 +161,8 @@ def test_stats_as_json_agree_with_the_recordings_table(run):
     vehicle = next(source for source in stats["sources"] if source["sys"] == 1)
     assert (vehicle["frames"], vehicle["lost"]) == (39974, 0)
     counts = {row["name"]: row["count"] for row in vehicle["messages"]}
-    assert (counts["ATTITUDE"], counts["GPS_RAW_INT"], counts["EVENT"], counts["GNSS_INTEGRITY"]) == (5312, 531, 17, 106)
+    assert (counts["ATTITUDE"], counts["GPS_RAW_INT"], counts["EVENT"],
+            counts["GNSS_INTEGRITY"]) == (5312, 531, 17, 106)
     rates = {row["name"]: row["rate_hz"] for row in vehicle["messages"]}
     assert rates["ATTITUDE"] == pytest.approx(49.06, abs=0.02)
     gaps = {row["name"]: row["gap_max_ms"] for row in vehicle["messages"]}
@@ -190,12 +193,13 @@ def test_unknown_id_prints_its_payload(run, tmp_path):
     from pymavlink.generator.mavcrc import x25crc
     frame = bytes([0xFD, 3, 0, 0, 9, 5, 6]) + (9_999_999).to_bytes(3, "little") + b"\x01\x02\x03"
     checksum = x25crc(frame[1:] + b"\x4d").crc
-    log = frames.write_tlog(tmp_path / "x.tlog", [(1, next(frames.heartbeats(1))), (2, frame + checksum.to_bytes(2, "little"))])
+    log = frames.write_tlog(tmp_path / "x.tlog",
+                            [(1, next(frames.heartbeats(1))), (2, frame + checksum.to_bytes(2, "little"))])
 
     line = json_lines(run("listen", log, "--json").stdout)[1]
 
-    assert line == {"time_us": 2, "link": line["link"], "sys": 5, "comp": 6, "seq": 9, "id": 9_999_999, "name": None, "v": 2, "signed": False,
-                    "payload_hex": "010203"}
+    assert line == {"time_us": 2, "link": line["link"], "sys": 5, "comp": 6, "seq": 9, "id": 9_999_999, "name": None,
+                    "v": 2, "signed": False, "payload_hex": "010203"}
 
 
 @pytest.mark.parametrize("number, status", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
@@ -259,7 +263,8 @@ def test_a_reader_that_leaves_is_no_error(spawn):
 
 def test_full_disk_is_an_error(program):
     with open("/dev/full", "w") as full:
-        done = harness.subprocess.run([program, "listen", frames.FLIGHT], stdout=full, stderr=harness.subprocess.PIPE, text=True, timeout=60)
+        done = harness.subprocess.run([program, "listen", frames.FLIGHT], stdout=full, stderr=harness.subprocess.PIPE,
+                                      text=True, timeout=60)
 
     assert done.returncode == 1
     assert "standard output" in done.stderr and "No space left" in done.stderr
@@ -269,7 +274,8 @@ def test_a_file_and_a_terminal_get_what_a_pipe_gets(run, spawn, program, tmp_pat
     """Each is written to in its own way: whole, as much as fits, and page by page."""
     piped = run("listen", frames.FLIGHT, "--json", text=False).stdout
     with open(tmp_path / "out.json", "wb") as file:
-        harness.subprocess.run([program, "listen", frames.FLIGHT, "--json"], stdout=file, timeout=harness.DEFAULT_TIMEOUT_S, check=True)
+        harness.subprocess.run([program, "listen", frames.FLIGHT, "--json"], stdout=file,
+                               timeout=harness.DEFAULT_TIMEOUT_S, check=True)
     ours, terminal = pty.openpty()
     tty.setraw(terminal)
     process = spawn("listen", frames.FLIGHT, "--json", stdout=terminal)
@@ -323,12 +329,14 @@ def test_beyond_the_bound_the_loss_has_a_name(spawn):
     done = process.wait()
     os.close(read_end)
 
-    dropped = sum(int(line.split()[2]) for line in done.stderr.splitlines() if "buffer_full:" in line or "kernel_drop:" in line)
+    dropped = sum(int(line.split()[2]) for line in done.stderr.splitlines() if "buffer_full:" in line
+                  or "kernel_drop:" in line)
     assert done.status == 130
     assert len(text.splitlines()) + dropped == 20_000
 
 
-@pytest.mark.parametrize("junk", [random.Random(4).randbytes(60_000), b"\xfd" * 60_000, b"\xfe" * 60_000, bytes(60_000)], ids=["random", "fd", "fe", "zeros"])
+@pytest.mark.parametrize("junk", [random.Random(4).randbytes(60_000), b"\xfd" * 60_000, b"\xfe" * 60_000,
+                                  bytes(60_000)], ids=["random", "fd", "fe", "zeros"])
 def test_garbage_is_counted_and_harms_nobody(spawn, junk):
     process = spawn("listen", "udpin://127.0.0.1:0", "--json", "--stats", "--count", "2")
     address = ("127.0.0.1", port_of(process))
@@ -344,7 +352,8 @@ def test_garbage_is_counted_and_harms_nobody(spawn, junk):
     assert lines[-1]["stats"]["totals"]["stray_bytes"] == 20 * 60_000
 
 
-@pytest.mark.skipif("san" in harness.program_path().parent.parent.name, reason="a sanitizer keeps freed memory: the resident size says nothing there")
+@pytest.mark.skipif("san" in harness.program_path().parent.parent.name,
+                    reason="a sanitizer keeps freed memory: the resident size says nothing there")
 def test_memory_stays_flat_under_peers_and_garbage_from_many_ports(spawn):
     process = spawn("listen", "udpin://127.0.0.1:0", "--json")
     address = ("127.0.0.1", port_of(process))
@@ -450,8 +459,8 @@ def test_wrong_use_says_what_to_type(run, arguments, status, said):
 
 
 @pytest.mark.parametrize("source, said", [
-    ("127.0.0.1:14550", "udp"), ("udp://:14540", "udpin://"), ("udpin://127.0.0.1:70000", "65535"), ("udpin://127.0.0.1", "port"),
-    ("udpin://127.0.0.1:0?idel=2", "did you mean 'idle'"),
+    ("127.0.0.1:14550", "udp"), ("udp://:14540", "udpin://"), ("udpin://127.0.0.1:70000", "65535"),
+    ("udpin://127.0.0.1", "port"), ("udpin://127.0.0.1:0?idel=2", "did you mean 'idle'"),
 ])
 def test_wrong_endpoints_say_the_spelling_to_type(run, source, said):
     done = run("listen", source)
@@ -460,20 +469,24 @@ def test_wrong_endpoints_say_the_spelling_to_type(run, source, said):
     assert said in done.stderr
 
 
-@pytest.mark.parametrize("command", ["listen {log} --count 3", "relay {log} --to udpout://127.0.0.1:9", "listen missing.tlog"])
+@pytest.mark.parametrize("command",
+                         ["listen {log} --count 3", "relay {log} --to udpout://127.0.0.1:9", "listen missing.tlog"])
 def test_a_stderr_that_takes_nothing_harms_nobody(program, command):
     arguments = command.format(log=frames.FLIGHT).split()
     with open("/dev/full", "w") as full:
-        full_disk = harness.subprocess.run([program, *arguments], stderr=full, stdout=harness.subprocess.DEVNULL, timeout=60)
+        full_disk = harness.subprocess.run([program, *arguments], stderr=full, stdout=harness.subprocess.DEVNULL,
+                                           timeout=60)
     closed = harness.subprocess.run(["bash", "-c", 'exec "$0" "$@" 2>&- >/dev/null', program, *arguments], timeout=60)
 
     assert full_disk.returncode in (0, 3, 4) and closed.returncode == full_disk.returncode
 
 
-@pytest.mark.parametrize("command", ["listen {log} --json", "dialect list", "replay {log} --speed max --to tlog:///dev/null --json"])
+@pytest.mark.parametrize("command", ["listen {log} --json", "dialect list",
+                                     "replay {log} --speed max --to tlog:///dev/null --json"])
 def test_a_closed_stdout_is_an_error(program, command):
     arguments = command.format(log=frames.FLIGHT).split()
-    done = harness.subprocess.run(["bash", "-c", 'exec "$0" "$@" >&-', program, *arguments], capture_output=True, text=True, timeout=60)
+    done = harness.subprocess.run(["bash", "-c", 'exec "$0" "$@" >&-', program, *arguments], capture_output=True,
+                                  text=True, timeout=60)
 
     assert done.returncode == 1 and "cannot write" in done.stderr
 
@@ -561,7 +574,8 @@ def test_damage_does_not_change_the_order_of_recordings(run, tmp_path):
     (tmp_path / "a.tlog").write_bytes(whole[:middle] + b"\x00\xfd" * 500_000 + whole[middle:])
     frames.write_tlog(tmp_path / "b.tlog", second)
 
-    times = [line["time_us"] for line in json_lines(run("listen", tmp_path / "a.tlog", tmp_path / "b.tlog", "--json").stdout)]
+    times = [line["time_us"]
+             for line in json_lines(run("listen", tmp_path / "a.tlog", tmp_path / "b.tlog", "--json").stdout)]
 
     assert times == [time_us for time_us, _ in records]
 
@@ -569,10 +583,14 @@ def test_damage_does_not_change_the_order_of_recordings(run, tmp_path):
 def test_several_recordings_are_merged_by_time_at_full_speed(run, tmp_path):
     """Each keeps its own order, also where its clock was set back."""
     def recording(name, system, times):
-        return frames.write_tlog(tmp_path / name, [(1_700_000_000_000_000 + t, next(frames.heartbeats(1, system=system, sequence=i))) for i, t in enumerate(times)])
-    logs = [recording("a.tlog", 1, [0, 30, 60, 61]), recording("b.tlog", 2, [10, 20, 70]), recording("c.tlog", 3, [40, 15, 65])]
+        return frames.write_tlog(tmp_path / name,
+                                 [(1_700_000_000_000_000 + t, next(frames.heartbeats(1, system=system, sequence=i)))
+                                  for i, t in enumerate(times)])
+    logs = [recording("a.tlog", 1, [0, 30, 60, 61]), recording("b.tlog", 2, [10, 20, 70]),
+            recording("c.tlog", 3, [40, 15, 65])]
 
-    heard = [(line["sys"], line["time_us"] - 1_700_000_000_000_000) for line in json_lines(run("listen", *logs, "--json").stdout)]
+    heard = [(line["sys"], line["time_us"] - 1_700_000_000_000_000)
+             for line in json_lines(run("listen", *logs, "--json").stdout)]
 
     assert heard == [(1, 0), (2, 10), (2, 20), (1, 30), (3, 40), (3, 15), (1, 60), (1, 61), (3, 65), (2, 70)]
 

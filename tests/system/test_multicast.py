@@ -48,7 +48,8 @@ def test_hops_are_one_unless_said(machines, start):  # noqa: F811
     here, there = machines
     sock = there.socket()
     sock.setsockopt(socket.IPPROTO_IP, IP_RECVTTL, 1)
-    sock.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, struct.pack("4s4s", socket.inet_aton("239.255.145.50"), socket.inet_aton(there.host)))
+    sock.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP,
+                    struct.pack("4s4s", socket.inet_aton("239.255.145.50"), socket.inet_aton(there.host)))
     sock.bind(("", PORT))
     for url, hops in (("udpmcast://239.255.145.50:14550", 1), ("udpmcast://239.255.145.50:14550?ttl=4", 4)):
         relay, send = relay_of(here, start, url)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mavloom relay: decoded and re-encoded, byte for byte the same unless asked otherwise; both directions; pymavlink reads what comes out."""
+"""mavloom relay: decoded and re-encoded, byte for byte the same unless asked otherwise; both directions;
+pymavlink reads what comes out."""
 import itertools
 import json
 import signal
@@ -21,7 +22,8 @@ class Path:
     def __init__(self, spawn, *options):
         self.station = harness.udp_socket()
         self.vehicle = harness.udp_socket()
-        self.relay = spawn("relay", "udpin://127.0.0.1:0", "--to", f"udpout://127.0.0.1:{self.station.getsockname()[1]}", *options)
+        self.relay = spawn("relay", "udpin://127.0.0.1:0", "--to",
+                           f"udpout://127.0.0.1:{self.station.getsockname()[1]}", *options)
         self.port = int(self.relay.wait_output(r"listening on port (\d+)", stream="err")[1])
 
     def send(self, *sent):
@@ -116,7 +118,8 @@ def test_what_cannot_be_decoded_passes_untouched(spawn):
     from pymavlink.generator.mavcrc import x25crc
     unknown += x25crc(unknown[1:] + b"\x11").crc.to_bytes(2, "little")
     mav = frames.sender()
-    mav.signing.secret_key, mav.signing.link_id, mav.signing.timestamp, mav.signing.sign_outgoing = bytes(32), 1, 10, True
+    mav.signing.secret_key, mav.signing.link_id, mav.signing.timestamp = bytes(32), 1, 10
+    mav.signing.sign_outgoing = True
     signed = frames.mavlink.MAVLink_attitude_message(1, 2, 3, 4, 5, 6, 7).pack(mav)
     sent = [bytes(padded), unknown, bytes(signed)]
 
@@ -126,7 +129,8 @@ def test_what_cannot_be_decoded_passes_untouched(spawn):
 def test_answers_go_back(spawn):
     path = Path(spawn)
     path.through(next(frames.heartbeats(1)))
-    answer = frames.mavlink.MAVLink_command_long_message(1, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0).pack(frames.sender(255, 190))
+    answer = frames.mavlink.MAVLink_command_long_message(1, 1, 400, 0, 1, 0, 0, 0, 0, 0,
+                                                         0).pack(frames.sender(255, 190))
     path.station.sendto(answer, path.relay_address)
 
     assert path.vehicle.recv(65536) == answer
@@ -159,7 +163,8 @@ def test_set_a_field(spawn):
 
 def test_set_one_element_of_an_array(spawn):
     sent = frames.mavlink.MAVLink_actuator_control_target_message(7, 3, [1, 2, 3, 4, 5, 6, 7, 8]).pack(frames.sender())
-    path = Path(spawn, "--set", "ACTUATOR_CONTROL_TARGET.controls[3]=0.5", "--set", "ACTUATOR_CONTROL_TARGET.controls[7]=0")
+    path = Path(spawn, "--set", "ACTUATOR_CONTROL_TARGET.controls[3]=0.5", "--set",
+                "ACTUATOR_CONTROL_TARGET.controls[7]=0")
 
     assert decode(path.through(sent)[0]).controls == [1, 2, 3, 0.5, 5, 6, 7, 0]
 
@@ -171,9 +176,11 @@ def test_the_sums_as_json(run, tmp_path):
     assert (done.status, done.stderr, len(done.lines)) == (0, "", 1), done
     stats = json.loads(done.stdout)["stats"]
     assert list(stats) == ["destinations", "edit", "totals"]
-    assert stats["destinations"] == [{"endpoint": f"{tmp_path}/x.tlog", "frames": 5, "bytes": 5 * 29, "not_written": 0, "files": 1}]
-    assert stats["edit"] == {"frames": 6, "reencoded": 5, "rewrapped": 0, "passed_untouched": 0, "filtered": 1, "rate_limited": 0, "not_v1": 0,
-                             "not_signed": 0, "signature_removed": 0, "backward": 0, "unheard_answers": 0}
+    assert stats["destinations"] == [{"endpoint": f"{tmp_path}/x.tlog", "frames": 5, "bytes": 5 * 29, "not_written": 0,
+                                      "files": 1}]
+    assert stats["edit"] == {"frames": 6, "reencoded": 5, "rewrapped": 0, "passed_untouched": 0, "filtered": 1,
+                             "rate_limited": 0, "not_v1": 0, "not_signed": 0, "signature_removed": 0, "backward": 0,
+                             "unheard_answers": 0}
     assert set(stats["totals"].values()) == {0} and "kernel_drop" in stats["totals"]
 
 
@@ -183,11 +190,13 @@ def test_the_sums_of_a_link_as_json(run, udp_socket):
     done = run("relay", f"tlog://{frames.FLIGHT}?speed=max", "--to", address, "--only", "GPS_RAW_INT", "--json")
 
     sums = json.loads(done.stdout)["stats"]["destinations"][0]
-    assert list(sums) == ["endpoint", "frames", "bytes", "dropped", "refused", "not_sent", "nobody_there", "queued_bytes"]
+    assert list(sums) == ["endpoint", "frames", "bytes", "dropped", "refused", "not_sent", "nobody_there",
+                          "queued_bytes"]
     assert (sums["endpoint"], sums["frames"], sums["dropped"], sums["queued_bytes"]) == (address, 531, 0, 0)
 
 
-@pytest.mark.parametrize("options", [["--only", "PLAY_TUNE"], ["--as-v1", "--only", "COMPONENT_METADATA"]], ids=" ".join)
+@pytest.mark.parametrize("options", [["--only", "PLAY_TUNE"], ["--as-v1", "--only", "COMPONENT_METADATA"]],
+                         ids=" ".join)
 def test_nothing_to_send_is_no_loss(run, udp_socket, options):
     done = run("relay", frames.FLIGHT, "--to", f"udpout://127.0.0.1:{udp_socket().getsockname()[1]}", *options)
     assert done.status == 0 and "0 frames, 0 bytes sent" in done.stderr, done
@@ -195,7 +204,8 @@ def test_nothing_to_send_is_no_loss(run, udp_socket, options):
 
 def test_frames_that_cannot_leave_are_counted(run, tmp_path):
     log = frames.write_tlog(tmp_path / "in.tlog", list(enumerate(frames.heartbeats(5))))
-    done = run("relay", log, "--to", "udpout://192.0.2.1:9?bind=127.0.0.1:0", "--json")  # from the loopback address nothing goes to another host
+    # from the loopback address nothing goes to another host
+    done = run("relay", log, "--to", "udpout://192.0.2.1:9?bind=127.0.0.1:0", "--json")
 
     sums = json.loads(done.stdout)["stats"]["destinations"][0]
     assert done.status == 4 and (sums["frames"], sums["not_sent"], sums["refused"]) == (0, 5, 0), done
@@ -204,7 +214,8 @@ def test_frames_that_cannot_leave_are_counted(run, tmp_path):
 
 def test_the_guide_names_every_key_of_the_sums(run, tmp_path, udp_socket):
     guide = (harness.ROOT / "docs" / "guide" / "relay.md").read_text()
-    done = run("relay", frames.FLIGHT, "--json", "--to", f"tlog://{tmp_path}/x.tlog", "--to", f"udpout://127.0.0.1:{udp_socket().getsockname()[1]}")
+    done = run("relay", frames.FLIGHT, "--json", "--to", f"tlog://{tmp_path}/x.tlog", "--to",
+               f"udpout://127.0.0.1:{udp_socket().getsockname()[1]}")
     stats = json.loads(done.stdout)["stats"]
 
     keys = {*stats, *stats["edit"], *(key for destination in stats["destinations"] for key in destination)}
@@ -223,7 +234,8 @@ def test_remap_a_system_in_both_directions(spawn):
 
 def test_only_and_resequence_show_no_loss(spawn):
     path = Path(spawn, "--only", "ATTITUDE", "--resequence")
-    mixed = [frame for i, beat in enumerate(frames.heartbeats(20)) for frame in (beat, frames.attitude(sequence=7 * i % 256))]
+    mixed = [frame for i, beat in enumerate(frames.heartbeats(20))
+             for frame in (beat, frames.attitude(sequence=7 * i % 256))]
     got = path.through(*mixed, count=20)
 
     assert [decode(frame).get_type() for frame in got] == ["ATTITUDE"] * 20
@@ -231,7 +243,8 @@ def test_only_and_resequence_show_no_loss(spawn):
 
 
 def test_max_rate_by_recorded_time(spawn, tmp_path, tcp_port):
-    log = frames.write_tlog(tmp_path / "x.tlog", [(20_000 * i, frames.attitude(sequence=i % 256)) for i in range(500)])  # 50 Hz for 10 s
+    # 50 Hz for 10 s
+    log = frames.write_tlog(tmp_path / "x.tlog", [(20_000 * i, frames.attitude(sequence=i % 256)) for i in range(500)])
     port = tcp_port()
     with socket.create_server(("127.0.0.1", port)) as server:
         process = spawn("relay", log, "--to", f"tcpout://127.0.0.1:{port}", "--max-rate", "ATTITUDE:10")
@@ -290,7 +303,8 @@ def test_a_stalled_client_gets_whole_frames_only_and_the_other_all(spawn):
     stalled = socket.socket()
     stalled.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     stalled.connect(("127.0.0.1", tcp))
-    good, vehicle = socket.create_connection(("127.0.0.1", tcp), timeout=harness.DEFAULT_TIMEOUT_S), harness.udp_socket()
+    good = socket.create_connection(("127.0.0.1", tcp), timeout=harness.DEFAULT_TIMEOUT_S)
+    vehicle = harness.udp_socket()
     sent, got = [], b""
     for frame in itertools.islice(itertools.chain.from_iterable(frames.heartbeats(1000) for _ in range(100)), 60_000):
         vehicle.sendto(frame, ("127.0.0.1", udp))
@@ -314,9 +328,10 @@ def test_a_stalled_client_gets_whole_frames_only_and_the_other_all(spawn):
 
 @pytest.mark.parametrize("options, said", [
     (["--set", "ATTITUDE.rol=1"], "did you mean 'roll'"), (["--set", "ATITUDE.roll=1"], "did you mean 'ATTITUDE'"),
-    (["--set", "ATTITUDE.roll"], "ATTITUDE.roll"), (["--set", "HEARTBEAT.type=300"], "255"), (["--set", "HEARTBEAT.type=MAV_TYPE_QUADROTR"], "MAV_TYPE_QUADROTOR"),
-    (["--remap-system", "1"], "--remap-system"), (["--remap-system", "1=300"], "255"), (["--only", "NOPE"], "NOPE"),
-    (["--max-rate", "ATTITUDE"], "--max-rate"), (["--as-v1", "--as-v2"], "--as-v"),
+    (["--set", "ATTITUDE.roll"], "ATTITUDE.roll"), (["--set", "HEARTBEAT.type=300"], "255"),
+    (["--set", "HEARTBEAT.type=MAV_TYPE_QUADROTR"], "MAV_TYPE_QUADROTOR"), (["--remap-system", "1"], "--remap-system"),
+    (["--remap-system", "1=300"], "255"), (["--only", "NOPE"], "NOPE"), (["--max-rate", "ATTITUDE"], "--max-rate"),
+    (["--as-v1", "--as-v2"], "--as-v"),
 ])
 def test_wrong_use(run, options, said):
     done = run("relay", frames.FLIGHT, "--to", "udpout://127.0.0.1:9", *options)
@@ -325,9 +340,12 @@ def test_wrong_use(run, options, said):
     assert said in done.stderr
 
 
-@pytest.mark.parametrize("content, mode, said", [("00" * 32, 0o644, "chmod 600"), ("00" * 31, 0o600, "64 hexadecimal digits"), (None, 0, "cannot open key file")])
+@pytest.mark.parametrize("content, mode, said",
+                         [("00" * 32, 0o644, "chmod 600"), ("00" * 31, 0o600, "64 hexadecimal digits"),
+                          (None, 0, "cannot open key file")])
 @pytest.mark.parametrize("command", [
-    ["relay", "{log}", "--to", "udpout://127.0.0.1:9", "--sign", "{key}"], ["relay", "{log}", "--to", "udpout://127.0.0.1:9?sign={key}"],
+    ["relay", "{log}", "--to", "udpout://127.0.0.1:9", "--sign", "{key}"],
+    ["relay", "{log}", "--to", "udpout://127.0.0.1:9?sign={key}"],
     ["replay", "{log}", "--to", "udpout://127.0.0.1:9?verify={key}"], ["listen", "udpin://127.0.0.1:0?verify={key}"],
     ["record", "udpin://127.0.0.1:0?sign={key}", "-o", "{key}.tlog"],
 ])
@@ -345,7 +363,8 @@ def test_a_bad_key_file_is_status_3(run, tmp_path, command, content, mode, said)
 def test_an_own_dialect_is_decoded_and_edited(spawn, run, tmp_path):
     xml = tmp_path / "mine.xml"
     xml.write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
-                   '<field type="uint16_t" name="count">n</field><field type="float[3]" name="v">v</field></message></messages></mavlink>')
+                   '<field type="uint16_t" name="count">n</field><field type="float[3]" name="v">v</field></message>'
+                   '</messages></mavlink>')
     shown = run("dialect", "show", "MY_STATE", "--dialect", xml, "--json")
     crc_extra = json.loads(shown.stdout)["crc_extra"]
     body = bytes([0xFD, 14, 0, 0, 0, 1, 1]) + (42000).to_bytes(3, "little") + bytes(12) + b"\x05\x00"
@@ -361,14 +380,17 @@ def test_help_teaches(run):
     done = run("relay", "--help")
 
     assert done.status == 0
-    for word in ("--to", "--set", "--remap-system", "--only", "--max-rate", "--as-v1", "--sign", "--resequence", "Examples"):
+    for word in ("--to", "--set", "--remap-system", "--only", "--max-rate", "--as-v1", "--sign", "--resequence",
+                 "Examples"):
         assert word in done.stdout
 
 
 def test_a_rate_for_all_leaves_protocols_whole(spawn, udp_port):
-    """`--max-rate '*:10'` thins telemetry: a ground station behind it gets every parameter, uploads a mission and arms."""
+    """`--max-rate '*:10'` thins telemetry: a ground station behind it gets every parameter, uploads a mission and
+    arms."""
     station = Station(f"udpin:127.0.0.1:{udp_port()}")
-    relay = spawn("relay", "udpin://127.0.0.1:0", "--to", f"udpout://127.0.0.1:{station.connection.port.getsockname()[1]}", "--max-rate", "*:10", "--json")
+    relay = spawn("relay", "udpin://127.0.0.1:0", "--to",
+                  f"udpout://127.0.0.1:{station.connection.port.getsockname()[1]}", "--max-rate", "*:10", "--json")
     port = int(relay.wait_output(r"listening on port (\d+)", stream="err")[1])
     with RecordedPx4(port) as vehicle:
         station.wait_vehicle()
@@ -385,8 +407,10 @@ def test_a_rate_for_all_leaves_protocols_whole(spawn, udp_port):
 
 def test_a_rate_for_a_command_is_limited_with_a_warning(spawn):
     path = Path(spawn, "--max-rate", "COMMAND_ACK:1")
-    acks = [mavlink.MAVLink_command_ack_message(400, result, 0, 0, 255, 190).pack(frames.sender()) for result in range(3)]
+    acks = [mavlink.MAVLink_command_ack_message(400, result, 0, 0, 255, 190).pack(frames.sender())
+            for result in range(3)]
     beat = next(frames.heartbeats(1))
 
     assert path.through(*acks, beat, count=2) == [acks[0], beat]
-    assert "--max-rate COMMAND_ACK:1 drops COMMAND_ACK frames over that rate: commands and their answers may get lost" in path.relay.stderr
+    assert ("--max-rate COMMAND_ACK:1 drops COMMAND_ACK frames over that rate: "
+            "commands and their answers may get lost") in path.relay.stderr

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""The cases of other routers' own tests, and those that nobody has, with the real program: UDP peers of one socket, UDP, TCP and pseudo-terminals.
-MR: mavlink-router, P: mavp2p, G: gomavlib, S: mavlink-server, F: MAVSDK, N: nobody. Each asserts exact bytes and exact ends.
+"""The cases of other routers' own tests, and those that nobody has, with the real program: UDP peers of one socket,
+UDP, TCP and pseudo-terminals. MR: mavlink-router, P: mavp2p, G: gomavlib, S: mavlink-server, F: MAVSDK, N: nobody. Each
+asserts exact bytes and exact ends.
 
 | cases | where |
 |---|---|
-| MR1 to MR25, P1 to P5, G5, N17, N18, N21 to N23, F1, F2 | below, over each kind of link that has the option in question |
+| MR1 to MR25, P1 to P5, G5, N17, N18, N21 to N23, F1, F2 | below, over each kind of link that has the option |
 | MR26 | below; `mavloom check` in test_check.py, the grammar in the unit tests of endpoints |
 | MR27, P6, G1 to G4, G6, G7, G9, S1, S2, S4, N1 to N16, N20 | below |
 | N10, N12, N16 | also with `relay` in test_serial.py |
 | N19 | test_route_control.py, with the recordings |
 | G8 stream requests | test_request_streams.py |
 | S3, and S1, S2 over WebSocket and zenoh | do not apply: no such endpoints |
-| S5 ArduCopter SITL | needs ArduPilot's simulator; test_route_clients.py passes commands, parameters and missions instead |
+| S5 ArduCopter SITL | needs ArduPilot's simulator; test_route_clients.py has commands, parameters and missions |
 | S6 URL grammar | unit tests of endpoints |
 | limits, private links, the best of a group | below; groups over bad networks in test_route_networks.py |
 """
@@ -29,7 +30,8 @@ import frames
 import harness
 import routers
 from frames import mavlink
-from routers import Net, Router, SerialEnd, TcpEnd, UdpEnd, attitude, command, damaged, heartbeat, make, ping, raw, unique, unknown
+from routers import (Net, Router, SerialEnd, TcpEnd, UdpEnd, attitude, command, damaged, heartbeat, make, ping, raw,
+                     unique, unknown)
 
 GCS, VEHICLE = (255, 190), (1, 1)
 
@@ -39,7 +41,8 @@ MIXED = ("udpin", "tcpin", "serial", "udpout", "tcpout")
 KINDS = [pytest.param("peers", marks=pytest.mark.short), "clients", "udpin", "udpout", "tcpin", "tcpout", "serial",
          pytest.param(MIXED, marks=pytest.mark.short, id="mixed")]
 # A peer of udpin:// has spoken before it is a link.
-UNHEARD_KINDS = [pytest.param("udpout", marks=pytest.mark.short), "tcpin", "tcpout", pytest.param("serial", marks=pytest.mark.short), "clients"]
+UNHEARD_KINDS = [pytest.param("udpout", marks=pytest.mark.short), "tcpin", "tcpout",
+                 pytest.param("serial", marks=pytest.mark.short), "clients"]
 FILTER_KINDS = UNHEARD_KINDS[:-1]
 
 
@@ -74,7 +77,8 @@ def net(spawn):
 # ---- mavlink-router: tests/routing_test.py ---------------------------------------------------------------------------
 
 @pytest.mark.short
-@pytest.mark.parametrize("kinds", [("peers",) * 4, ("udpin", "udpin", "udpout", "udpout"), ("tcpin", "serial", "tcpout", "udpout")],
+@pytest.mark.parametrize("kinds", [("peers",) * 4, ("udpin", "udpin", "udpout", "udpout"),
+                                   ("tcpin", "serial", "tcpout", "udpout")],
                          ids=["one socket", "udpin and udpout", "mixed"])
 def test_mr1_pings_reach_exactly_their_targets(net, kinds):
     sut = net("peers" if kinds[0] == "peers" else kinds, 4)
@@ -227,7 +231,8 @@ def test_mr14_to_mr25_filters(net, filter_kind, case, option, made, passing):
     offered = made()
     if case == "mr21":
         sut.send(1, heartbeat((0, 0)))  # a byte stream has to be in step before an id without definition is believed
-    ordered = sorted(offered, key=lambda key: key in passing)  # one that passes comes last: what is before it has been judged
+    # one that passes comes last: what is before it has been judged
+    ordered = sorted(offered, key=lambda key: key in passing)
     for key in ordered:
         sut[1].send(offered[key])
     expected = [offered[key] for key in ordered if key in passing]
@@ -240,9 +245,10 @@ def test_mr14_to_mr25_filters(net, filter_kind, case, option, made, passing):
 
 
 @pytest.mark.short
-@pytest.mark.parametrize("url", ["udpout://:14550", "udpout://[127.0.0.1]:14550", "udpout://::1:14550", "udpout://127.0.0.1:0", "udpout://127.0.0.1",
-                                 "udpin://127.0.0.1:0", "tcpin://127.0.0.1:0", "serial://?baud=57600", "serial:///dev/ttyS0?baud=0", "udp://127.0.0.1:14550",
-                                 "udpboth://127.0.0.1:14550"])
+@pytest.mark.parametrize("url", ["udpout://:14550", "udpout://[127.0.0.1]:14550", "udpout://::1:14550",
+                                 "udpout://127.0.0.1:0", "udpout://127.0.0.1", "udpin://127.0.0.1:0",
+                                 "tcpin://127.0.0.1:0", "serial://?baud=57600", "serial:///dev/ttyS0?baud=0",
+                                 "udp://127.0.0.1:14550", "udpboth://127.0.0.1:14550"])
 def test_mr26_bad_endpoints_are_refused(run, url):
     done = run("route", url)
 
@@ -279,7 +285,9 @@ def test_mr27_it_ends_when_its_time_is_over(run):
 
 def odometry(source):
     zeros = [0.0] * 21
-    return make(mavlink.MAVLink_odometry_message(unique(), 1, 8, 1.0, 2.0, 3.0, [1.0, 0, 0, 0], 0, 0, 0, 0, 0, 0, zeros, zeros, 1, 2, 3), source)
+    message = mavlink.MAVLink_odometry_message(unique(), 1, 8, 1.0, 2.0, 3.0, [1.0, 0, 0, 0], 0, 0, 0, 0, 0, 0,
+                                               zeros, zeros, 1, 2, 3)
+    return make(message, source)
 
 
 def test_p1_nobody_needs_to_have_spoken_first(net, kind):
@@ -401,7 +409,8 @@ def ticks_now():
     return int((time.time() - 1420070400) * 100_000)
 
 
-@pytest.mark.parametrize("kind", [pytest.param("udpin", marks=pytest.mark.short), "udpout", "tcpin", "tcpout", pytest.param("serial", marks=pytest.mark.short)])
+@pytest.mark.parametrize("kind", [pytest.param("udpin", marks=pytest.mark.short), "udpout", "tcpin", "tcpout",
+                                  pytest.param("serial", marks=pytest.mark.short)])
 def test_g4_only_what_is_signed_rightly_is_taken(net, tmp_path, kind):
     key = write_key(tmp_path / "link.key")
     good = [attitude(signing=(KEY, 3, ticks_now() + i)) for i in range(2)]
@@ -438,18 +447,21 @@ def test_g6_a_chain_of_routers_keeps_every_byte(spawn, between):
     joint = routers.udp_port() if between == "udp" else routers.tcp_port()
     near, far = UdpEnd(), UdpEnd()
     near_port, far_port = routers.udp_port(), routers.udp_port()
-    first = Router(spawn, f"udpout://127.0.0.1:{near.port}?bind=127.0.0.1:{near_port}", f"{between}in://127.0.0.1:{joint}")
-    second = Router(spawn, f"{between}out://127.0.0.1:{joint}", f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{far_port}")
+    first = Router(spawn, f"udpout://127.0.0.1:{near.port}?bind=127.0.0.1:{near_port}",
+                   f"{between}in://127.0.0.1:{joint}")
+    second = Router(spawn, f"{between}out://127.0.0.1:{joint}",
+                    f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{far_port}")
     near.target, far.target = ("127.0.0.1", near_port), ("127.0.0.1", far_port)
     second.wait_links(2)
     far.send(heartbeat((12, 1)))  # so that the first one knows the second
     near.next()
     flight = [record for _, record in frames.read_tlog(frames.FLIGHT)][:2000]
-    # What is for somebody whom nobody has heard goes nowhere; the two of the recording make themselves known first.
+    # Frames for a target that was not heard go nowhere, so the two of the recording are heard first.
     for number in range(0, len(flight), 20):
         near.send(b"".join(flight[number:number + 20]))
     harness.wait_for(lambda: first.link_of(near)["frames_in"] == len(flight), what="all frames")
-    seen = {name: first.link_of(near)[name] for name in ("forwarded", "nowhere", "unknown_target", "filtered", "echo", "duplicate")}
+    verdicts = ("forwarded", "nowhere", "unknown_target", "filtered", "echo", "duplicate")
+    seen = {name: first.link_of(near)[name] for name in verdicts}
     got = far.count(seen["forwarded"])
 
     assert sum(seen.values()) == len(flight)
@@ -472,8 +484,9 @@ def test_g7_the_own_heartbeat(net):
 
     decoder = mavlink.MAVLink(None)
     beats = [decoder.decode(bytearray(frame)) for frame in quick + slow]
-    assert {(b.get_type(), b.get_srcSystem(), b.get_srcComponent(), b.type, b.autopilot, b.system_status, b.mavlink_version) for b in beats} == \
-        {("HEARTBEAT", 7, 191, mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_AUTOPILOT_INVALID, mavlink.MAV_STATE_ACTIVE, 3)}
+    assert {(b.get_type(), b.get_srcSystem(), b.get_srcComponent()) for b in beats} == {("HEARTBEAT", 7, 191)}
+    assert {(b.type, b.autopilot, b.system_status, b.mavlink_version) for b in beats} == {
+        (mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_AUTOPILOT_INVALID, mavlink.MAV_STATE_ACTIVE, 3)}
     assert [b.get_seq() for b in beats[:5]] == [0, 1, 2, 3, 4]
     assert time.monotonic() - begin > 0.5  # a second between two; 100 ms at first
     assert sut.send(1, command(GCS, (7, 191)), watched=[]) == []
@@ -493,7 +506,8 @@ def test_g9_it_ends_cleanly_while_peers_write(net):
                     end._read()
             except (OSError, AssertionError):  # the router closed
                 return
-    writers = [threading.Thread(target=write, args=[end, (7, number)], daemon=True) for number, end in enumerate(sut.ends)]
+    writers = [threading.Thread(target=write, args=[end, (7, number)], daemon=True)
+               for number, end in enumerate(sut.ends)]
     for writer in writers:
         writer.start()
     harness.wait_for(lambda: all(link["frames_in"] > 200 for link in sut.router.links()), what="traffic on every link")
@@ -507,7 +521,8 @@ def test_g9_it_ends_cleanly_while_peers_write(net):
 
 # ---- mavlink-server --------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("kind", [pytest.param("udpin", marks=pytest.mark.short), "udpout", "tcpin", pytest.param("tcpout", marks=pytest.mark.short), "serial"])
+@pytest.mark.parametrize("kind", [pytest.param("udpin", marks=pytest.mark.short), "udpout", "tcpin",
+                                  pytest.param("tcpout", marks=pytest.mark.short), "serial"])
 def test_s1_what_only_sends_makes_input_move_and_no_output(net, kind):
     sut = net((kind, "udpout"), options={1: "out_allow=sys:99"})
     before = sut.link(1)
@@ -520,7 +535,8 @@ def test_s1_what_only_sends_makes_input_move_and_no_output(net, kind):
     assert after["frames_out"] == after["bytes_out"] == 0
 
 
-@pytest.mark.parametrize("kind", [pytest.param("udpout", marks=pytest.mark.short), "tcpin", pytest.param("tcpout", marks=pytest.mark.short), "serial"])
+@pytest.mark.parametrize("kind", [pytest.param("udpout", marks=pytest.mark.short), "tcpin",
+                                  pytest.param("tcpout", marks=pytest.mark.short), "serial"])
 def test_s2_what_only_listens_makes_output_move_and_no_input(net, kind):
     sut = net((kind,), 1, options={1: "heartbeat=true"}, rules={"heartbeat": "7/191"})
     sut[1].count(5)
@@ -534,9 +550,11 @@ def test_s2_what_only_listens_makes_output_move_and_no_input(net, kind):
 @pytest.mark.parametrize("first", ["udpin", "udpout", "tcpin", "tcpout"])
 def test_s4_33_of_33_heartbeats_between_pymavlink_programs(spawn, first, second):
     from pymavlink import mavutil
-    port = {side: routers.udp_port() if kind.startswith("udp") else routers.tcp_port() for side, kind in (("a", first), ("b", second))}
+    port = {side: routers.udp_port() if kind.startswith("udp") else routers.tcp_port()
+            for side, kind in (("a", first), ("b", second))}
     urls = [f"{kind}://127.0.0.1:{port[side]}" for side, kind in (("a", first), ("b", second))]
-    names = {"udpin": "udpout:127.0.0.1:{}", "udpout": "udpin:127.0.0.1:{}", "tcpin": "tcp:127.0.0.1:{}", "tcpout": "tcpin:127.0.0.1:{}"}
+    names = {"udpin": "udpout:127.0.0.1:{}", "udpout": "udpin:127.0.0.1:{}", "tcpin": "tcp:127.0.0.1:{}",
+             "tcpout": "tcpin:127.0.0.1:{}"}
     early = {side: mavutil.mavlink_connection(names[kind].format(port[side]), source_system=system)
              for side, kind, system in (("a", first, 1), ("b", second, 2)) if kind.endswith("out")}
     # Two pymavlink listeners wait to be spoken to: the router's own heartbeat does.
@@ -546,7 +564,8 @@ def test_s4_33_of_33_heartbeats_between_pymavlink_programs(spawn, first, second)
     sender, receiver = sides["a"], sides["b"]
 
     def meet(one, other):
-        """Beats until the other side hears it: a UDP side must have spoken, a pymavlink server must have been spoken to."""
+        """Beats until the other side hears it: a UDP side must have spoken, a pymavlink server must have been spoken
+        to."""
         def look():
             one.recv_match(blocking=False)
             for side in (one, other):
@@ -576,13 +595,15 @@ def test_s4_33_of_33_heartbeats_between_pymavlink_programs(spawn, first, second)
 def test_f1_a_position_crosses(net, kind):
     sut = net(kind)
 
-    assert sut.send(1, make(mavlink.MAVLink_global_position_int_message(unique(), 473977418, 85455939, 488000, 1000, 1, 2, 3, 9000))) == [2]
+    position = mavlink.MAVLink_global_position_int_message(unique(), 473977418, 85455939, 488000, 1000, 1, 2, 3, 9000)
+    assert sut.send(1, make(position)) == [2]
 
 
 def test_f2_n8_an_id_without_definition_crosses_byte_for_byte(net, kind):
     sut = net(kind, 3)
     sut.send(1, heartbeat((0, 0)))  # a byte stream has to be in step first
-    sent = [unknown(message_id=70371), unknown(message_id=4_000_021), raw(255, 7, unique().to_bytes(4, "little") + b"\1", version=1)]
+    sent = [unknown(message_id=70371), unknown(message_id=4_000_021),
+            raw(255, 7, unique().to_bytes(4, "little") + b"\1", version=1)]
 
     assert [sut.send(1, frame) for frame in sent] == [[2, 3]] * 3
     assert sut.link(1)["unknown_ids"] == 3
@@ -593,7 +614,8 @@ def test_f2_n8_an_id_without_definition_crosses_byte_for_byte(net, kind):
 
 def big(source=(1, 1)):
     """A frame of 266 bytes for nobody in particular."""
-    return make(mavlink.MAVLink_file_transfer_protocol_message(0, 0, 0, list(unique().to_bytes(4, "little") * 62 + b"end")), source)
+    payload = list(unique().to_bytes(4, "little") * 62 + b"end")
+    return make(mavlink.MAVLink_file_transfer_protocol_message(0, 0, 0, payload), source)
 
 
 @pytest.mark.short
@@ -683,7 +705,8 @@ def test_n7_a_damaged_frame_is_not_forwarded(net, kind):
     assert sut.link(1)["crc_error"] == 1
 
 
-@pytest.mark.parametrize("stalled_kind", [pytest.param("tcpin", marks=pytest.mark.short), "tcpout", pytest.param("serial", marks=pytest.mark.short)])
+@pytest.mark.parametrize("stalled_kind", [pytest.param("tcpin", marks=pytest.mark.short), "tcpout",
+                                          pytest.param("serial", marks=pytest.mark.short)])
 def test_n9_n10_a_stalled_reader_harms_itself_only(net, stalled_kind):
     sut = net((stalled_kind, "tcpin", "udpout"), 3, options={1: "queue_bytes=64KiB"})
     sent = [big() for _ in range(200)]
@@ -751,7 +774,8 @@ def echo_for(sut, seconds):
     return commands
 
 
-@pytest.mark.parametrize("kind, seconds", [pytest.param("serial", 1, marks=pytest.mark.short), ("udpout", 1), pytest.param("serial", 65, marks=pytest.mark.long)])
+@pytest.mark.parametrize("kind, seconds", [pytest.param("serial", 1, marks=pytest.mark.short), ("udpout", 1),
+                                           pytest.param("serial", 65, marks=pytest.mark.long)])
 def test_n12_commands_reach_a_link_that_echoes(net, kind, seconds):
     sut = net(("udpin", kind))
     sut.send(2, heartbeat(VEHICLE))
@@ -763,7 +787,8 @@ def test_n12_commands_reach_a_link_that_echoes(net, kind, seconds):
 
 @pytest.mark.short
 def test_an_echo_of_some_frames_is_no_loss(net):
-    """QGroundControl speaks to PX4 and to the router, and PX4 passes to the router what is not addressed: each fourth of its frames comes back."""
+    """QGroundControl speaks to PX4 and to the router, and PX4 passes to the router what is not addressed: each fourth
+    of its frames comes back."""
     sut = net(("udpin", "udpout"))
     for number in range(40):
         frame = heartbeat(GCS)
@@ -780,7 +805,8 @@ def test_an_echo_of_some_frames_is_no_loss(net):
 
 
 def attitude_at(boot_ms, sequence) -> bytes:
-    return mavlink.MAVLink_attitude_message(boot_ms, 0.1, -0.2, 3.0, 0.01, 0.02, 0.03).pack(frames.sender(*VEHICLE, sequence))
+    message = mavlink.MAVLink_attitude_message(boot_ms, 0.1, -0.2, 3.0, 0.01, 0.02, 0.03)
+    return message.pack(frames.sender(*VEHICLE, sequence))
 
 
 @pytest.mark.short
@@ -857,10 +883,11 @@ def test_n15_a_clock_that_is_stepped_back_changes_nothing(spawn, tmp_path, progr
     port, out_port = routers.udp_port(), routers.udp_port()
     end, far = UdpEnd(("127.0.0.1", port)), UdpEnd()
     log = tmp_path / "out.tlog"
-    router = Router(spawn, f"udpin://127.0.0.1:{port}?idle=10", f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{out_port}", f"tlog://{log}",
+    router = Router(spawn, f"udpin://127.0.0.1:{port}?idle=10",
+                    f"udpout://127.0.0.1:{far.port}?bind=127.0.0.1:{out_port}", f"tlog://{log}",
                     rules={"dedup_ms": 400, "route_timeout": 12},
-                    env={"LD_PRELOAD": str(faketime_library()), "FAKETIME_TIMESTAMP_FILE": str(clock), "FAKETIME_NO_CACHE": "1",
-                         "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
+                    env={"LD_PRELOAD": str(faketime_library()), "FAKETIME_TIMESTAMP_FILE": str(clock),
+                         "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
     far.target = ("127.0.0.1", out_port)
     assert "libfaketime" in pathlib.Path(f"/proc/{router.process.pid}/maps").read_text()
 
@@ -942,7 +969,8 @@ def test_n18_a_target_that_is_cut_off_is_everybody(net, kind):
     sut = net(kind, 3)
     short = make(mavlink.MAVLink_command_ack_message(400, 0, 0, unique() % 100 + 1))  # target 0/0 at the end: cut off
     assert short[1] < 9
-    version_1 = raw(77, 143, (unique() % 60000).to_bytes(2, "little") + b"\0", version=1)  # MAVLink 1 has no extension fields
+    # MAVLink 1 has no extension fields
+    version_1 = raw(77, 143, (unique() % 60000).to_bytes(2, "little") + b"\0", version=1)
 
     assert sut.send(1, short, version_1) == [[2, 3], [2, 3]]
 
@@ -953,7 +981,8 @@ def test_n20_commands_follow_a_station_that_moves(spawn, kind):
     port = routers.udp_port() if kind == "peers" else routers.tcp_port()
     scheme = "udpin" if kind == "peers" else "tcpin"
     far_port, vehicle = routers.udp_port(), UdpEnd()
-    router = Router(spawn, f"{scheme}://127.0.0.1:{port}?idle=2", f"udpout://127.0.0.1:{vehicle.port}?bind=127.0.0.1:{far_port}", rules={"route_timeout": 2})
+    router = Router(spawn, f"{scheme}://127.0.0.1:{port}?idle=2",
+                    f"udpout://127.0.0.1:{vehicle.port}?bind=127.0.0.1:{far_port}", rules={"route_timeout": 2})
     vehicle.target = ("127.0.0.1", far_port)
 
     def station():
@@ -1075,7 +1104,8 @@ def test_max_bytes_lets_so_many_out_in_a_second(net, filter_kind):
 
 
 @pytest.mark.short
-@pytest.mark.parametrize("option, counter", [("max_rate=*:1", "out_rate_limited"), ("max_bytes=560", "out_bytes_limited")])
+@pytest.mark.parametrize("option, counter",
+                         [("max_rate=*:1", "out_rate_limited"), ("max_bytes=560", "out_bytes_limited")])
 def test_commands_and_heartbeats_pass_the_limits_of_all(net, option, counter):
     sut = net(("udpout", "tcpin"), options={2: option})
     sut.hears(2, (12, 1))
@@ -1102,7 +1132,8 @@ def test_a_private_link_gets_what_is_for_exactly_a_pair_heard_there(net, filter_
     others = [attitude(), unknown(), command(VEHICLE, (0, 0)), command(VEHICLE, (66, 6))]
     whole_system = [command(VEHICLE, (7, component)) for component in (0, 2)]
     exact = command(VEHICLE, (7, 1))
-    sut.send(1, heartbeat((0, 0)), watched=[1, 2])  # a byte stream has to be in step before an id without definition is believed
+    # a byte stream has to be in step before an id without definition is believed
+    sut.send(1, heartbeat((0, 0)), watched=[1, 2])
 
     assert sut.send(1, *others, *whole_system, exact, watched=[1, 2]) == [[2]] * 4 + [[]] * 3
     assert sut[3].until(exact) == []

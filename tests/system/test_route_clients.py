@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Real clients at the router: pymavlink, MAVProxy and MAVSDK load parameters, change one and move missions through it, to and from a vehicle that
-is made with pymavlink. What is for one of them reaches no other."""
+"""Real clients at the router: pymavlink, MAVProxy and MAVSDK load parameters, change one and move missions through it,
+to and from a vehicle that is made with pymavlink. A frame for one of them reaches no other."""
 import json
 import os
 import subprocess
@@ -18,7 +18,8 @@ from routers import Router
 from vehicle_stub import Vehicle
 
 VEHICLE = (vehicle_stub.SYSTEM, vehicle_stub.COMPONENT)
-PYMAVLINK_URL = {"udpin": "udpout:127.0.0.1:{}", "udpout": "udpin:127.0.0.1:{}", "tcpin": "tcp:127.0.0.1:{}", "tcpout": "tcpin:127.0.0.1:{}"}
+PYMAVLINK_URL = {"udpin": "udpout:127.0.0.1:{}", "udpout": "udpin:127.0.0.1:{}", "tcpin": "tcp:127.0.0.1:{}",
+                 "tcpout": "tcpin:127.0.0.1:{}"}
 
 
 class Side:
@@ -75,7 +76,8 @@ class Station:
 
     def upload(self, items):
         self.connection.mav.mission_count_send(*VEHICLE, len(items), 0)
-        while (message := self.next("MISSION_REQUEST_INT", "MISSION_REQUEST", "MISSION_ACK")).get_type() != "MISSION_ACK":
+        while (message := self.next("MISSION_REQUEST_INT", "MISSION_REQUEST",
+                                    "MISSION_ACK")).get_type() != "MISSION_ACK":
             self.connection.mav.mission_item_int_send(*VEHICLE, *items[message.seq], 0)
         return message.type
 
@@ -90,14 +92,16 @@ class Station:
 
 
 def plain(item):
-    return (item.seq, item.frame, item.command, item.current, item.autocontinue, item.param1, item.param2, item.param3, item.param4, item.x, item.y, item.z)
+    return (item.seq, item.frame, item.command, item.current, item.autocontinue, item.param1, item.param2, item.param3,
+            item.param4, item.x, item.y, item.z)
 
 
 def mission(count=40):
     """Home, a take-off and a row of waypoints, in numbers that a float carries exactly."""
     frame = mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
-    return [(number, frame, mavlink.MAV_CMD_NAV_TAKEOFF if number == 1 else mavlink.MAV_CMD_NAV_WAYPOINT, int(number == 0), 1, 0.5 * number, 0.0, 0.0, 0.0,
-             473977418 + 1000 * number, 85455939 - 1000 * number, 10.0 + number) for number in range(count)]
+    return [(number, frame, mavlink.MAV_CMD_NAV_TAKEOFF if number == 1 else mavlink.MAV_CMD_NAV_WAYPOINT,
+             int(number == 0), 1, 0.5 * number, 0.0, 0.0, 0.0, 473977418 + 1000 * number, 85455939 - 1000 * number,
+             10.0 + number) for number in range(count)]
 
 
 @pytest.fixture
@@ -134,7 +138,8 @@ def test_a_client_hears_the_routers_heartbeat_only_where_it_is_asked_for(spawn, 
 
 
 @pytest.mark.short
-@pytest.mark.parametrize("air, ground", [("udpin", "udpin"), ("udpin", "tcpin"), ("tcpin", "udpin"), ("udpout", "tcpin"), ("tcpout", "udpin"), ("udpin", "udpout")])
+@pytest.mark.parametrize("air, ground", [("udpin", "udpin"), ("udpin", "tcpin"), ("tcpin", "udpin"),
+                                         ("udpout", "tcpin"), ("tcpout", "udpin"), ("udpin", "udpout")])
 def test_pymavlink_parameters_and_a_mission(spawn, vehicle, air, ground):
     air, ground = Side(air), Side(ground)
     if ground.kind.endswith("out"):  # a listener of pymavlink is there before it is called
@@ -192,9 +197,11 @@ class Mavproxy:
     def __init__(self, spawn_process, side, folder):
         program = os.path.join(os.path.dirname(sys.executable), "mavproxy.py")
         self.folder = folder
-        self.process = spawn_process([sys.executable, "-u", program, f"--master={side.client_url}", "--default-modules=param,wp,arm,cmdlong,link",
-                                      f"--state-basedir={folder}", "--source-system=253"],
-                                     stdin=subprocess.PIPE, cwd=folder, env={**os.environ, "HOME": str(folder), "TERM": "dumb"})
+        self.process = spawn_process([sys.executable, "-u", program, f"--master={side.client_url}",
+                                      "--default-modules=param,wp,arm,cmdlong,link", f"--state-basedir={folder}",
+                                      "--source-system=253"],
+                                     stdin=subprocess.PIPE, cwd=folder,
+                                     env={**os.environ, "HOME": str(folder), "TERM": "dumb"})
 
     def type(self, text):
         self.process.process.stdin.write(text.encode() + b"\n")
@@ -220,7 +227,8 @@ def write_waypoints(path, items):
     """The text form that MAVProxy and Mission Planner read."""
     lines = ["QGC WPL 110"]
     for seq, frame, what, current, more, p1, p2, p3, p4, x, y, z in items:
-        lines.append("\t".join(str(v) for v in (seq, current, 3, what, p1, p2, p3, p4, f"{x / 1e7:.7f}", f"{y / 1e7:.7f}", z, more)))
+        lines.append("\t".join(str(v) for v in (seq, current, 3, what, p1, p2, p3, p4, f"{x / 1e7:.7f}",
+                                                f"{y / 1e7:.7f}", z, more)))
     path.write_text("\n".join(lines) + "\n")
     return path
 
@@ -242,7 +250,8 @@ def test_mavproxy_parameters_and_a_mission(spawn, vehicle, mavproxy, tmp_path, a
     saved = tmp_path / "saved.txt"
     sut.type(f"wp save {saved}")
     sut.says(r"Saved \d+ waypoints to")
-    harness.wait_for(lambda: saved.exists() and len(saved.read_text().splitlines()) == 31, what="the mission to come back")
+    harness.wait_for(lambda: saved.exists() and len(saved.read_text().splitlines()) == 31,
+                     what="the mission to come back")
 
     def of_items(all_items):
         return [(what, p1, z) for _, _, what, _, _, p1, _, _, _, _, _, z in all_items[1:]]
@@ -275,7 +284,7 @@ assert system, "no vehicle was heard"
 answer = {}
 parameters = Param(system)
 everything = parameters.get_all_params()
-answer["parameters"] = {p.name: p.value for p in everything.int_params} | {p.name: p.value for p in everything.float_params}
+answer["parameters"] = {p.name: p.value for p in [*everything.int_params, *everything.float_params]}
 parameters.set_param_float("TEST_003", 77.25)
 parameters.set_param_int("TEST_004", 4321)
 answer["set"] = [parameters.get_param_float("TEST_003"), parameters.get_param_int("TEST_004")]
@@ -297,7 +306,8 @@ def test_mavsdk_parameters_and_a_mission(spawn, vehicle, air, ground):
     router = Router(spawn, air.url, ground.url)
     craft = vehicle(air)
     items = mission(30)
-    client = subprocess.run([sys.executable, "-c", MAVSDK_CLIENT, url, json.dumps(items)], capture_output=True, text=True, timeout=110)
+    client = subprocess.run([sys.executable, "-c", MAVSDK_CLIENT, url, json.dumps(items)], capture_output=True,
+                            text=True, timeout=110)
     assert client.returncode == 0, client.stderr[-4000:] + client.stdout[-4000:]
     answer = json.loads(client.stdout.splitlines()[-1])
     if "cannot" in answer:

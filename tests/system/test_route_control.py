@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Around the routing: ctl, stat, metrics, reload, --explain, keys and signatures at the border, recordings, and what bad input gets."""
+"""Around the routing: ctl, stat, metrics, reload, --explain, keys and signatures at the border, recordings, and what
+bad input gets."""
 import contextlib
 import fcntl
 import json
@@ -25,11 +26,12 @@ import harness
 import routers
 from frames import mavlink
 from routers import Net, Router, UdpEnd, attitude, command, damaged, heartbeat, unknown
-from pymavlink import mavutil  # after frames, which says that it is MAVLink 2
+from pymavlink import mavutil  # after frames, which sets MAVLink 2
 
 pytestmark = pytest.mark.short
 
 GCS, VEHICLE = (255, 190), (1, 1)
+CLOCK_STEP_S = 0.02  # the router reads its clock once a turn of its loop
 
 
 @pytest.fixture
@@ -79,7 +81,8 @@ def test_ctl_remove_closes_one_link(net, ctl, kind):
     gone, stays = sut.link(1)["link"], sut.link(2)["link"]
     assert ctl(sut.router, "remove", gone).status == 0
 
-    assert gone not in {link["link"] for link in sut.router.links()} and stays in {link["link"] for link in sut.router.links()}
+    assert gone not in {link["link"] for link in sut.router.links()}
+    assert stays in {link["link"] for link in sut.router.links()}
     assert sut.router.routes() == {route for route in sut.router.routes() if route[2] != gone}
     frame = attitude((2, 1))
     sut[2].send(frame)
@@ -101,7 +104,8 @@ def test_a_group_has_one_mode(net, ctl, run, udp_port):
     assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air").status == 0, "it takes the group's"
 
     assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=sea&group_mode=primary&name=boat").status == 0
-    assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=sea").status == 0, "of a group that came by ctl too"
+    assert ctl(sut.router, "add",
+               f"udpin://127.0.0.1:{udp_port()}?group=sea").status == 0, "of a group that came by ctl too"
 
     both = [f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode={mode}" for mode in ("best", "all")]
     done = run("route", *both, "--for", "1s")
@@ -111,13 +115,21 @@ def test_a_group_has_one_mode(net, ctl, run, udp_port):
 def test_ctl_routes_are_what_was_heard(net, ctl):
     sut = net(("udpout", "tcpin"))
     sut.hears(1, VEHICLE)
+    begin = time.monotonic()
     sut.hears(1, VEHICLE)
+    heard = time.monotonic()
+    harness.wait_for(lambda: time.monotonic() > heard + 0.2, what="an age")
     sut.hears(2, GCS)
+    asked = time.monotonic()
     routes = lines_of(ctl(sut.router, "routes"))
+    now = time.monotonic()
 
-    assert {(r["sys"], r["comp"], r["frames"]) for r in routes} == {(1, 1, 2), (255, 190, 1)}
-    assert next(r["link"] for r in routes if r["sys"] == 1) == "A"
-    assert all(r["kind"] == "route" and 0 <= r["age_s"] < harness.DEFAULT_TIMEOUT_S for r in routes)
+    assert {(r["kind"], r["sys"], r["comp"], r["frames"]) for r in routes} == {
+        ("route", 1, 1, 2), ("route", 255, 190, 1)}
+    vehicle, station = sorted(routes, key=lambda route: route["sys"])
+    assert vehicle["link"] == "A"
+    assert asked - heard - CLOCK_STEP_S <= vehicle["age_s"] <= now - begin + CLOCK_STEP_S
+    assert 0 <= station["age_s"] <= now - heard - 0.2 + CLOCK_STEP_S
 
 
 def test_ctl_stats_has_sources_messages_and_unknown_targets(net, ctl):
@@ -130,7 +142,8 @@ def test_ctl_stats_has_sources_messages_and_unknown_targets(net, ctl):
     sut.command(1, VEHICLE, (66, 6))
     stats = lines_of(ctl(sut.router, "stats"))
 
-    assert {line["kind"] for line in stats} == {"router", "endpoint", "gone", "link", "source", "message", "unknown_target"}
+    assert {line["kind"] for line in stats} == {"router", "endpoint", "gone", "link", "source", "message",
+                                                "unknown_target"}
     source = next(s for s in stats if s["kind"] == "source" and s["sys"] == 7)
     assert (source["frames"], source["lost"], source["link"]) == (3, 3, "A")
     message = next(m for m in stats if m["kind"] == "message" and m["name"] == "ATTITUDE")
@@ -151,12 +164,36 @@ def test_stats_keep_what_a_link_had_that_is_gone(net):
     assert gone["endpoint"] == had["endpoint"]
 
 
+VERDICTS = ("forwarded", "nowhere", "filtered", "rate_limited", "duplicate", "echo", "unknown_target", "consumed",
+            "tap", "private_link")
+
+
 def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
-    sut = net(("udpout", "udpout", "udpout"), options={2: "tap=true", 3: "private=true"})
-    for end in (2, 3):
-        sut[end].send(attitude((7, end)))
-    sut.router.wait_counter(sut[2], "tap", 1)
-    sut.router.wait_counter(sut[3], "private_link", 1)
+    sut = net(("udpout", "udpout", "udpout", "udpout"), rules={"dedup_ms": 60_000, "heartbeat": "7/191"},
+              options={2: "tap=true", 3: "private=true", 4: "in_block=ATTITUDE&max_rate=HEARTBEAT:0.01"})
+    sent = attitude(VEHICLE)
+    wanted = {number: dict.fromkeys(VERDICTS, 0) for number in (1, 2, 3, 4)}
+    for number, frame, verdict in (
+            (1, heartbeat(VEHICLE), "forwarded"), (1, heartbeat(VEHICLE), "rate_limited"), (1, sent, "forwarded"),
+            (1, sent, "duplicate"), (4, sent, "filtered"), (1, command(GCS, VEHICLE), "nowhere"),
+            (1, command(GCS, (66, 6)), "unknown_target"), (1, command(GCS, (7, 191)), "consumed"),
+            (2, attitude((7, 2)), "tap"), (3, attitude((7, 3)), "private_link")):
+        sut[number].send(frame)
+        wanted[number][verdict] += 1
+        sut.router.wait_counter(sut[number], verdict, wanted[number][verdict])
+    there = command(GCS, (5, 5))
+    sut[4].send(heartbeat((5, 5)))
+    wanted[4]["forwarded"] += 1
+    sut.router.wait_counter(sut[4], "forwarded", 1)
+    for number, verdict in ((1, "forwarded"), (4, "echo")):  # out to the only link that has its target, and back
+        sut[number].send(there)
+        wanted[number][verdict] += 1
+        sut.router.wait_counter(sut[number], verdict, wanted[number][verdict])
+
+    for number, verdicts in wanted.items():
+        link = sut.link(number)
+        assert {verdict: link[verdict] for verdict in VERDICTS} == verdicts
+        assert link["frames_in"] == sum(verdicts.values())
 
 
 def test_ctl_add_and_remove_while_it_runs(net, ctl):
@@ -173,7 +210,8 @@ def test_ctl_add_and_remove_while_it_runs(net, ctl):
     sut[2].count(2)
     before = sut.link(2)
     assert lines_of(ctl(sut.router, "remove", "tablet")) == []
-    sut.router.process.wait_output("^mavloom: tablet: added by ctl\n(.*\n)*mavloom: tablet: removed by ctl$", stream="err")
+    sut.router.process.wait_output("^mavloom: tablet: added by ctl\n(.*\n)*mavloom: tablet: removed by ctl$",
+                                   stream="err")
     assert sut.send(1, attitude()) == [2]
 
     assert port.now() == []
@@ -217,8 +255,9 @@ def test_the_socket_survives_whatever_is_said(net):
     sut = net(("udpout", "tcpin"))
     path = control_path(sut.router)
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
-    for said, refused in ((b"garbage\n", True), (b"[1,2]\n", True), (b'{"cmd":7}\n', True), (b'{"cmd":"jump"}\n', True), (b'{"cmd":"add"}\n', True),
-                          (b"\xff\xfe\n", True), (b"x" * 100_000, False), (b'{"cmd":"links"', False), (b"", False)):
+    for said, refused in ((b"garbage\n", True), (b"[1,2]\n", True), (b'{"cmd":7}\n', True), (b'{"cmd":"jump"}\n', True),
+                          (b'{"cmd":"add"}\n', True), (b"\xff\xfe\n", True), (b"x" * 100_000, False),
+                          (b'{"cmd":"links"', False), (b"", False)):
         with socket.socket(socket.AF_UNIX) as client:
             client.connect(str(path))
             client.settimeout(harness.DEFAULT_TIMEOUT_S)
@@ -277,11 +316,13 @@ def test_too_many_clients_are_told_so(spawn, run):
 
 def test_without_a_name_a_second_router_does_without_a_socket(spawn, tmp_path):
     env = {"MAVLOOM_RUN": str(tmp_path)}
-    first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env) for _ in range(2))
+    first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env)
+                     for _ in range(2))
     for router in (first, second):
         router.wait_output(r"metrics at port \d+", stream="err")
 
-    assert any("no control socket: " in router.stderr and "--name gives this one another name" in router.stderr for router in (first, second))
+    assert any("no control socket: " in router.stderr and "--name gives this one another name" in router.stderr
+               for router in (first, second))
     assert first.alive and second.alive
 
 
@@ -293,7 +334,8 @@ def test_of_routers_that_start_at_once_one_gets_the_socket(spawn, left):
     killed.process.process.wait()
     if not left:
         os.unlink(path)
-    starting = [spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", killed.name, env=killed.env) for _ in range(6)]
+    starting = [spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", killed.name, env=killed.env)
+                for _ in range(6)]
     harness.wait_for(lambda: sum(not router.alive for router in starting) == 5, what="five to be refused")
     refused = [router.wait() for router in starting if not router.alive]
 
@@ -333,10 +375,13 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
     (folder / "router.ctl.lock").touch(0o600)
     for place in (*list(tmp_path.parents)[:3], tmp_path, folder):
         place.chmod(0o777)
-    other = subprocess.run(["unshare", "--mount", "sh", "-c", f"mount -t tmpfs -o mode=755 none /run && exec setpriv --reuid=12345 --clear-groups {program} route"
-                            f" udpin://127.0.0.1:{routers.udp_port()} --for 100ms"], capture_output=True, text=True, timeout=60, env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))
+    script = ("mount -t tmpfs -o mode=755 none /run && exec setpriv --reuid=12345 --clear-groups "
+              f"{program} route udpin://127.0.0.1:{routers.udp_port()} --for 100ms")
+    other = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True, timeout=60,
+                           env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))
 
-    assert other.returncode == 0 and "no control socket: " in other.stderr and "is served by a router that runs" in other.stderr, other
+    assert (other.returncode == 0 and "no control socket: " in other.stderr
+            and "is served by a router that runs" in other.stderr), other
 
 
 def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
@@ -386,8 +431,8 @@ def test_a_key_of_somebody_else_is_a_bad_input_file(program, tmp_path):
     key = folder / "x.key"
     key.write_text("ab" * 32 + "\n")
     key.chmod(0o600)
-    done = subprocess.run([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}?verify={key}"], capture_output=True, text=True,
-                          timeout=harness.DEFAULT_TIMEOUT_S, **user)
+    done = subprocess.run([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}?verify={key}"], capture_output=True,
+                          text=True, timeout=harness.DEFAULT_TIMEOUT_S, **user)
     shutil.rmtree(folder)
     shutil.rmtree(os.path.dirname(copy))
 
@@ -401,9 +446,11 @@ def test_a_folder_whose_name_is_too_long_for_a_socket(program):
     try:
         env = harness.environment({"MAVLOOM_RUN": folder})
         for args in (("ctl", "x", "links"), ("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", "x")):
-            done = subprocess.run([copy, *args], env=env, capture_output=True, text=True, timeout=harness.DEFAULT_TIMEOUT_S, **user)
+            done = subprocess.run([copy, *args], env=env, capture_output=True, text=True,
+                                  timeout=harness.DEFAULT_TIMEOUT_S, **user)
             assert done.returncode == 1 and "a socket's path has at most 107 bytes" in done.stderr, done
-        unnamed = harness.Running([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}", "--for", "200ms"], env=env, **user)
+        unnamed = harness.Running([copy, "route", f"udpin://127.0.0.1:{routers.udp_port()}", "--for", "200ms"], env=env,
+                                  **user)
         done = unnamed.wait()
         assert done.status == 0 and "a socket's path has at most 107 bytes" in done.stderr
     finally:
@@ -423,8 +470,10 @@ def test_stat_as_text_and_as_json(net, ctl):
     lines = lines_of(ctl(sut.router, "--json", command="stat"))
 
     assert text.status == 0
-    for pattern in (r"^up \d+ s; ", r"^link A$", r"^link B#127.0.0.1:\d+$", r"^  in 6 frames, \d+ bytes; out 3 frames, \d+ bytes$", r"unknown_target 1",
-                    r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$", r"^message HEARTBEAT +1/1 +1 frame +0\.00 Hz  A$", r"^message 70371 ",
+    for pattern in (r"^up \d+ s; ", r"^link A$", r"^link B#127.0.0.1:\d+$",
+                    r"^  in 6 frames, \d+ bytes; out 3 frames, \d+ bytes$", r"unknown_target 1",
+                    r"^source 1/1 on A: 3 frames, 0 lost \(0\.00 %\)$",
+                    r"^message HEARTBEAT +1/1 +1 frame +0\.00 Hz  A$", r"^message 70371 ",
                     r"^not routed: 1 frame for 66/6, which was not heard on any link$"):
         assert re.search(pattern, text.stdout, re.MULTILINE), f"{pattern}\n{text.stdout}"
 
@@ -434,13 +483,15 @@ def test_stat_as_text_and_as_json(net, ctl):
 
 
 def fetch(port, path="/metrics", method="GET"):
-    with urllib.request.urlopen(urllib.request.Request(f"http://127.0.0.1:{port}{path}", method=method), timeout=harness.DEFAULT_TIMEOUT_S) as answer:
+    with urllib.request.urlopen(urllib.request.Request(f"http://127.0.0.1:{port}{path}", method=method),
+                                timeout=harness.DEFAULT_TIMEOUT_S) as answer:
         return answer.headers["Content-Type"], answer.read().decode()
 
 
 def metrics_of(text):
     """{(name, frozenset of labels): value} by Prometheus' own parser."""
-    return {(sample.name, frozenset(sample.labels.items())): sample.value for family in text_string_to_metric_families(text) for sample in family.samples}
+    return {(sample.name, frozenset(sample.labels.items())): sample.value
+            for family in text_string_to_metric_families(text) for sample in family.samples}
 
 
 def test_metrics_are_what_prometheus_reads(net, tmp_path):
@@ -456,7 +507,8 @@ def test_metrics_are_what_prometheus_reads(net, tmp_path):
 
     assert content_type.startswith("text/plain; version=0.0.4")
     expected = {}
-    label_of = {"router": (), "endpoint": ("endpoint",), "gone": ("endpoint",), "link": ("link",), "source": ("link", "sys", "comp"), "recording": ("endpoint",)}
+    label_of = {"router": (), "endpoint": ("endpoint",), "gone": ("endpoint",), "link": ("link",),
+                "source": ("link", "sys", "comp"), "recording": ("endpoint",)}
     for line in sut.router.ask("stats"):
         if line["kind"] not in label_of:
             continue
@@ -514,7 +566,8 @@ class Reloadable:
         self.client.next()
 
     def write(self, *more, router_table="", air="idle=60"):
-        urls = [f"udpin://127.0.0.1:{self.air_port}?name=air&{air}", f"tcpin://127.0.0.1:{self.base_port}?name=base", *more]
+        urls = [f"udpin://127.0.0.1:{self.air_port}?name=air&{air}", f"tcpin://127.0.0.1:{self.base_port}?name=base",
+                *more]
         self.file.write_text(router_table + "".join(f"[[endpoint]]\nurl = '{url}'\n" for url in urls))
 
     def reload(self, says="was read again"):
@@ -561,7 +614,8 @@ def test_reload_leaves_what_did_not_change_alone(reloadable):
     assert len(kept) == 2 and {name: after[name] for name in kept} == {name: before[name] for name in kept}
     assert sut.router.routes() == routes
     sut.passes()
-    assert sut.router.link_of(sut.peer)["frames_in"] == before[next(n for n in kept if n.startswith("air"))]["frames_in"] + 1
+    assert (sut.router.link_of(sut.peer)["frames_in"]
+            == before[next(n for n in kept if n.startswith("air"))]["frames_in"] + 1)
     assert sorted(e["endpoint"] for e in sut.router.stats("endpoint")) == ["air", "base", "copy", "more"]
     for said in ("copy: removed", "copy: added", "more: added"):
         assert said in sut.router.process.stderr
@@ -603,7 +657,8 @@ def test_a_broken_file_changes_nothing(reloadable, broken, said):
 def test_a_file_whose_group_has_another_mode_on_the_command_line_changes_nothing(reloadable):
     sut = reloadable(arguments=[f"udpin://127.0.0.1:{routers.udp_port()}?name=own&group=radios&group_mode=best"])
     before = sut.names()
-    sut.file.write_text(f'[router]\nheartbeat = "7/191"\n[[endpoint]]\nurl = "udpin://127.0.0.1:{routers.udp_port()}?group=radios&group_mode=primary"\n')
+    sut.file.write_text('[router]\nheartbeat = "7/191"\n[[endpoint]]\n'
+                        f'url = "udpin://127.0.0.1:{routers.udp_port()}?group=radios&group_mode=primary"\n')
     sut.reload(says="nothing was changed")
     assert sut.names() == before and "was read again" not in sut.router.process.stderr
 
@@ -637,7 +692,8 @@ def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable):
     assert sut.router.process.stderr.count("air: added") == 1
 
 
-@pytest.mark.parametrize("make, said", [(lambda path: None, "No such file"), (lambda path: os.mkfifo(path, 0o600), "is no regular file"),
+@pytest.mark.parametrize("make, said", [(lambda path: None, "No such file"),
+                                        (lambda path: os.mkfifo(path, 0o600), "is no regular file"),
                                         (lambda path: (path.touch(), path.chmod(0o644)), "can be read by others")],
                          ids=["missing", "fifo", "readable"])
 def test_reload_with_a_bad_key_changes_nothing(reloadable, tmp_path, make, said):
@@ -675,7 +731,8 @@ def test_reload_takes_what_a_key_file_holds_now(reloadable, tmp_path):
     sut.write(air=f"verify={key}")
     sut.reload()
     now = ticks_now()
-    first, again, other = (heartbeat(VEHICLE, signing=(bytes([byte]) * 32, 5, now + i)) for i, byte in enumerate((0x11, 0x11, 0x22)))
+    first, again, other = (heartbeat(VEHICLE, signing=(bytes([byte]) * 32, 5, now + i))
+                           for i, byte in enumerate((0x11, 0x11, 0x22)))
     sut.peer.send(first)
     sut.client.until(first)
     sut.reload()
@@ -766,7 +823,8 @@ def test_reload_takes_the_level_of_the_log(reloadable):
 
 def test_reload_leaves_the_command_line_and_the_recording_alone(reloadable, tmp_path):
     log = tmp_path / "x.tlog"
-    sut = reloadable(arguments=(f"udpout://127.0.0.1:{routers.udp_port()}?name=typed",), router_table=f"[record]\npath = '{log}'\n")
+    sut = reloadable(arguments=(f"udpout://127.0.0.1:{routers.udp_port()}?name=typed",),
+                     router_table=f"[record]\npath = '{log}'\n")
     sut.write(f"udpout://127.0.0.1:{routers.udp_port()}?name=more", router_table=f"[record]\npath = '{log}'\n")
     sut.reload()
 
@@ -779,15 +837,17 @@ def test_reload_leaves_the_command_line_and_the_recording_alone(reloadable, tmp_
 
 
 def test_reload_keeps_a_groups_order_of_the_file(spawn, tmp_path):
-    """The first link of a `primary` group stays the first when it alone is opened anew."""
+    """The first link of a `primary` group stays the first when it alone is opened again."""
     first, second, station = (routers.UdpEnd(label=label) for label in ("first", "second", "station"))
     for end in (first, second, station):
         end.target = ("127.0.0.1", routers.udp_port())
     path = tmp_path / "router.toml"
 
     def write(first_options=""):
-        path.write_text("".join(f"[[endpoint]]\nurl = \"udpout://127.0.0.1:{end.port}?name={end.label}&bind=127.0.0.1:{end.target[1]}{options}\"\n"
-                                for end, options in ((first, "&group=sky&group_mode=primary" + first_options), (second, "&group=sky&group_mode=primary"), (station, ""))))
+        group = "&group=sky&group_mode=primary"
+        urls = [f"udpout://127.0.0.1:{end.port}?name={end.label}&bind=127.0.0.1:{end.target[1]}{options}"
+                for end, options in ((first, group + first_options), (second, group), (station, ""))]
+        path.write_text("".join(f'[[endpoint]]\nurl = "{url}"\n' for url in urls))
     write()
     router = Router(spawn, "--config", path)
     router.wait_links(3)
@@ -827,7 +887,8 @@ def explained(sut, pattern):
 
 
 def test_explain_says_for_every_link_why(net):
-    sut = net(("udpout", "udpout", "udpout", "udpout"), options={3: "out_block=ATTITUDE", 4: "tap=true"}, extra=["--explain"])
+    sut = net(("udpout", "udpout", "udpout", "udpout"), options={3: "out_block=ATTITUDE", 4: "tap=true"},
+              extra=["--explain"])
     sut[2].send(heartbeat(GCS))
     sut[1].until(sut[4].next())
     sut[1].send(attitude(VEHICLE))
@@ -842,9 +903,11 @@ def test_explain_says_for_every_link_why(net):
         assert found, f"{head}\n{text}"
         return [line.strip() for line in found[1].splitlines()]
     assert block(r"ATTITUDE 1/1 seq \d+ from A: forwarded") == [
-        "x A: it came from this link", "-> B: sent", "x C: filtered on the way out", "-> D: sent, a tap gets everything"]
+        "x A: it came from this link", "-> B: sent", "x C: filtered on the way out",
+        "-> D: sent, a tap gets everything"]
     assert block(r"COMMAND_LONG 1/1 seq \d+ from A: forwarded") == [
-        "x A: it came from this link", "-> B: sent", "x C: its target was not heard on this link", "-> D: sent, a tap gets everything"]
+        "x A: it came from this link", "-> B: sent", "x C: its target was not heard on this link",
+        "-> D: sent, a tap gets everything"]
     assert block(r"COMMAND_LONG 1/1 seq \d+ from A: unknown_target")[1:] == [
         "x B: the frame goes to no link", "x C: the frame goes to no link", "-> D: sent, a tap gets everything"]
     assert block(r"id 70371 1/1 seq \d+ from A: forwarded")[1:3] == ["-> B: sent", "-> C: sent"]
@@ -861,11 +924,12 @@ def test_explain_of_one_message(net, named):
 
 
 def explaining_to_a_pipe(spawn):
-    """A router between two sockets: its process, the end of the pipe that it explains to, and what sends a frame through it and returns what came."""
+    """A router between two sockets: its process, the end of the pipe that it explains to, and what sends a frame
+    through it and returns what came."""
     port, station = routers.udp_port(), harness.udp_socket()
     reading, writing = os.pipe()
-    process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain", "--name", f"explain-{port}",
-                    stdout=writing)
+    process = spawn("route", f"udpin://127.0.0.1:{port}", f"udpout://127.0.0.1:{station.getsockname()[1]}", "--explain",
+                    "--name", f"explain-{port}", stdout=writing)
     os.close(writing)
     vehicle = harness.udp_socket()
 
@@ -957,14 +1021,15 @@ def ticks_now():
 
 
 def unsigned_part(frame):
-    """What signing must not change: everything but the flag, the checksum and the signature."""
+    """The bytes that signing must not change: all but the flag, the checksum and the signature."""
     return frame[:2] + bytes([frame[2] & ~1]) + frame[3:10 + frame[1]]
 
 
 def test_signatures_at_the_border(net, run, tmp_path):
     inner, outer = new_key(run, tmp_path / "inner.key"), new_key(run, tmp_path / "outer.key")
     sut = net(("udpout", "udpout", "udpout", "udpout"),
-              options={1: f"verify={tmp_path}/inner.key", 2: f"sign={tmp_path}/outer.key", 4: f"verify={tmp_path}/inner.key&sign={tmp_path}/inner.key"})
+              options={1: f"verify={tmp_path}/inner.key", 2: f"sign={tmp_path}/outer.key",
+                       4: f"verify={tmp_path}/inner.key&sign={tmp_path}/inner.key"})
     sent = [attitude(VEHICLE, signing=(inner, 1, ticks_now() + i)) for i in range(3)]
     for frame in sent:
         sut[1].send(frame)
@@ -976,12 +1041,14 @@ def test_signatures_at_the_border(net, run, tmp_path):
         assert [unsigned_part(frame) for frame in got] == [unsigned_part(frame) for frame in sent]
         assert all(frame[2] == 1 and frame not in sent for frame in got)
         decoded = [mav.decode(bytearray(frame)) for frame in got]
-        assert [m.time_boot_ms for m in decoded] == [mavlink.MAVLink(None).decode(bytearray(f)).time_boot_ms for f in sent]
+        assert [m.time_boot_ms for m in decoded] == [mavlink.MAVLink(None).decode(bytearray(f)).time_boot_ms
+                                                     for f in sent]
     with pytest.raises(mavlink.MAVError):
         verifier(inner).decode(bytearray(sut_frame(sut, 1, attitude(VEHICLE, signing=(inner, 1, ticks_now() + 10)), 2)))
 
     # Not signed, wrongly signed, an old signature again, MAVLink 1: not taken.
-    for refused in (attitude(VEHICLE), attitude(VEHICLE, signing=(outer, 1, ticks_now() + 100)), sent[2], attitude(VEHICLE, version=1)):
+    for refused in (attitude(VEHICLE), attitude(VEHICLE, signing=(outer, 1, ticks_now() + 100)), sent[2],
+                    attitude(VEHICLE, version=1)):
         sut[1].send(refused)
     last = attitude(VEHICLE, signing=(inner, 1, ticks_now() + 200))
     sut[1].send(last)
@@ -997,8 +1064,10 @@ def sut_frame(sut, start, frame, end):
 
 def test_nothing_is_signed_for_who_was_not_verified(net, run, tmp_path):
     key = new_key(run, tmp_path / "link.key")
-    sut = net(("udpout", "udpout", "udpout"), options={1: f"verify={tmp_path}/link.key", 2: f"sign={tmp_path}/link.key"})
-    foreign = [attitude((5, 5)), attitude((5, 5), version=1), attitude((5, 5), signing=(key, 9, ticks_now())), unknown((5, 5))]
+    sut = net(("udpout", "udpout", "udpout"),
+              options={1: f"verify={tmp_path}/link.key", 2: f"sign={tmp_path}/link.key"})
+    foreign = [attitude((5, 5)), attitude((5, 5), version=1), attitude((5, 5), signing=(key, 9, ticks_now())),
+               unknown((5, 5))]
     for frame in foreign:
         sut[3].send(frame)
 
@@ -1059,9 +1128,11 @@ def test_a_pymavlink_station_with_signing_through_the_border(spawn, run, tmp_pat
     key, port = new_key(run, tmp_path / "link.key"), routers.tcp_port()
     vehicle, near = UdpEnd(), routers.udp_port()
     vehicle.target = ("127.0.0.1", near)
-    # Trusted inside, signed outside: what comes from the vehicle's own link counts as verified only with verify=; so it signs, too.
-    router = Router(spawn, f"tcpin://127.0.0.1:{port}?verify={tmp_path}/link.key&sign={tmp_path}/link.key",
-                    f"udpout://127.0.0.1:{vehicle.port}?bind=127.0.0.1:{near}&verify={tmp_path}/link.key&sign={tmp_path}/link.key")
+    # Trusted inside, signed outside: what comes from the vehicle's own link counts as verified only with verify=; so it
+    # signs, too.
+    keys = f"verify={tmp_path}/link.key&sign={tmp_path}/link.key"
+    router = Router(spawn, f"tcpin://127.0.0.1:{port}?{keys}",
+                    f"udpout://127.0.0.1:{vehicle.port}?bind=127.0.0.1:{near}&{keys}")
     station = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190)
     station.setup_signing(key, sign_outgoing=True)
     router.wait_links(2)
@@ -1082,7 +1153,8 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
     log = tmp_path / "flight.tlog"
     sut = net(("udpout", "tcpin", "udpout"), options={3: "in_block=ATTITUDE"}, extra=[f"tlog://{log}"])
     begin = time.time()
-    sent = [heartbeat(GCS), command(VEHICLE, GCS), command(VEHICLE, (66, 6)), attitude(VEHICLE), unknown(VEHICLE), attitude((9, 9), version=1)]
+    sent = [heartbeat(GCS), command(VEHICLE, GCS), command(VEHICLE, (66, 6)), attitude(VEHICLE), unknown(VEHICLE),
+            attitude((9, 9), version=1)]
     sut[2].send(sent[0])
     sut[1].until(sent[0])
     for frame in sent[1:5]:
@@ -1092,13 +1164,15 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
     sut.router.wait_counter(sut[3], "filtered", 1)
     sut[1].send(damaged())
     sut.router.wait_counter(sut[1], "crc_error", 1)
-    # What is there can be read while it goes on.
+    # The records can be read while the router runs.
     harness.wait_for(lambda: log.stat().st_size == sum(8 + len(frame) for frame in sent), what="the records")
-    recording = harness.wait_for(lambda: (r := sut.router.stats("recording")[0])["frames"] == 6 and r, what="the counters")
+    recording = harness.wait_for(lambda: (r := sut.router.stats("recording")[0])["frames"] == 6 and r,
+                                 what="the counters")
     sut.router.process.stop()
     end = time.time()
 
-    assert (recording["frames"], recording["bytes"], recording["queue_full"], recording["write_error"]) == (6, sum(map(len, sent)), 0, 0)
+    assert (recording["frames"], recording["bytes"], recording["queue_full"],
+            recording["write_error"]) == (6, sum(map(len, sent)), 0, 0)
     records = frames.read_tlog(log)
     assert [frame for _, frame in records] == sent
     assert all(begin - 0.001 <= time_us / 1e6 <= end + 0.001 for time_us, _ in records)
@@ -1106,8 +1180,8 @@ def test_n19_a_recording_holds_everything_that_arrived(net, tmp_path):
     read = []
     while (message := reader.recv_msg()) is not None:
         read.append((message.get_type(), message.get_srcSystem(), getattr(message, "target_system", None)))
-    assert read == [("HEARTBEAT", 255, None), ("COMMAND_LONG", 1, 255), ("COMMAND_LONG", 1, 66), ("ATTITUDE", 1, None), ("UNKNOWN_70371", 0, None),
-                    ("ATTITUDE", 9, None)]
+    assert read == [("HEARTBEAT", 255, None), ("COMMAND_LONG", 1, 255), ("COMMAND_LONG", 1, 66), ("ATTITUDE", 1, None),
+                    ("UNKNOWN_70371", 0, None), ("ATTITUDE", 9, None)]
 
 
 def test_a_recording_is_no_link(net, tmp_path):
@@ -1181,15 +1255,20 @@ BAD_FILES = [
     ("unknown option in a URL", "\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?idel=2'\n", "bad.toml:3: "),
     ("unknown key of an endpoint", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\nidel = 2\n", "bad.toml:3: "),
     ("an endpoint without place", "[[endpoint]]\nname = 'x'\n", "bad.toml:1: "),
-    ("unknown message", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\nin_block = ['ATITUDE']\n", "did you mean 'ATTITUDE'?"),
-    ("two of one name", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n", "bad.toml:3: "),
+    ("unknown message", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\nin_block = ['ATITUDE']\n",
+     "did you mean 'ATTITUDE'?"),
+    ("two of one name",
+     "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n", "bad.toml:3: "),
     ("port 0", "[[endpoint]]\nurl = 'udpin://127.0.0.1:0'\n", "port 0"),
-    ("no key", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?sign=/none.key'\n", "bad.toml:2: sign: cannot open key file /none.key"),
-    ("a rule of the router", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?dedup=5'\n", "'dedup_ms' is a key of [router]"),
+    ("no key", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?sign=/none.key'\n",
+     "bad.toml:2: sign: cannot open key file /none.key"),
+    ("a rule of the router", "[[endpoint]]\nurl = 'udpin://127.0.0.1:14550?dedup=5'\n",
+     "'dedup_ms' is a key of [router]"),
 ]
 
 
-@pytest.mark.parametrize("arguments, status, said", [case[1:] for case in BAD_ARGUMENTS], ids=[case[0] for case in BAD_ARGUMENTS])
+@pytest.mark.parametrize("arguments, status, said", [case[1:] for case in BAD_ARGUMENTS],
+                         ids=[case[0] for case in BAD_ARGUMENTS])
 def test_bad_arguments(run, tmp_path, arguments, status, said):
     (tmp_path / "bad.key").write_text("no key\n")
     (tmp_path / "bad.key").chmod(0o600)
@@ -1197,11 +1276,13 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
     (tmp_path / "open.key").chmod(0o644)
     udp, tcp = harness.udp_socket(), socket.create_server(("127.0.0.1", 0))
     with udp, tcp:
-        values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1], "folder": tmp_path}
+        values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1],
+                  "folder": tmp_path}
         done = run("route", *(argument.format(**values) for argument in arguments))
 
     assert done.status == status and said in done.stderr, done
-    complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]
+    complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line
+                  and "MAVLOOM_PROGRAM" not in line and not line.startswith("Try 'mavloom")]
     assert len(complaints) == 1 and complaints[0].startswith("mavloom: "), done
     assert done.stdout == ""
 
@@ -1221,7 +1302,8 @@ def test_a_bad_variable(run):
     assert done.status == 3 and "did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?" in done.stderr
 
 
-@pytest.mark.parametrize("url", ["udpout://no-such-host.invalid:14550", "tcpout://no-such-host.invalid:5760", "serial:///dev/no-such-port"])
+@pytest.mark.parametrize("url", ["udpout://no-such-host.invalid:14550", "tcpout://no-such-host.invalid:5760",
+                                 "serial:///dev/no-such-port"])
 def test_what_may_come_later_is_awaited(spawn, url):
     router = Router(spawn, url, f"udpin://127.0.0.1:{routers.udp_port()}")
 
@@ -1230,7 +1312,8 @@ def test_what_may_come_later_is_awaited(spawn, url):
 
 
 def test_garbage_from_strangers_harms_no_link(net):
-    rng = random.Random(4)  # the same each time: in one run of sixty other bytes would hold a frame with a true checksum
+    # the same each time: in one run of sixty other bytes would hold a frame with a true checksum
+    rng = random.Random(4)
     sut = net(("udpin", "udpout"))
     strangers = [UdpEnd(sut[1].target) for _ in range(5)]
     for number in range(200):

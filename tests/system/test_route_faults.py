@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mavloom route among hostile strangers, stalled clients, full disks, loops, and after being stopped and killed: what is not hit loses
-nothing, and what is lost has a name."""
+"""mavloom route among hostile strangers, stalled clients, full disks, loops, and after being stopped and killed: what
+is not hit loses nothing, and what is lost has a name."""
 import contextlib
 import os
 import pathlib
@@ -24,7 +24,7 @@ STRANGER_BYTES = 200
 
 
 def has_sanitizer(program) -> bool:
-    """Its allocator keeps what was freed: memory says nothing then."""
+    """Its allocator keeps freed memory, so that memory use proves nothing."""
     return any(mark in program.read_bytes() for mark in (b"__asan_init", b"__tsan_init"))
 
 
@@ -39,7 +39,8 @@ def endpoint(router, label) -> dict:
 
 def bulk(count, source=(1, 1)) -> list:
     """Telemetry of 280 bytes whose frames are not superseded by newer ones."""
-    return [routers.make(frames.mavlink.MAVLink_encapsulated_data_message(i % 65536, os.urandom(252) + b"\x01"), source) for i in range(count)]
+    return [routers.make(frames.mavlink.MAVLink_encapsulated_data_message(i % 65536, os.urandom(252) + b"\x01"), source)
+            for i in range(count)]
 
 
 class Pair:
@@ -49,7 +50,8 @@ class Pair:
         self.port = routers.udp_port()
         self.vehicle, self.station = UdpEnd((LOCALHOST, self.port)), UdpEnd(label="station")
         query = f"?{options}" if options else ""
-        self.router = Router(spawn, f"udpin://{LOCALHOST}:{self.port}{query}", f"udpout://{LOCALHOST}:{self.station.port}?name=station", *others, **more)
+        self.router = Router(spawn, f"udpin://{LOCALHOST}:{self.port}{query}",
+                             f"udpout://{LOCALHOST}:{self.station.port}?name=station", *others, **more)
         self.first = self.say()
         self.address = self.station.sock.recvfrom(65536)[1]  # of the router's udpout
         self.station.target = self.address
@@ -100,11 +102,12 @@ def noise(rng, size) -> bytes:
 
 
 def garbage(rng) -> bytes:
-    """What looks least like nothing: beginnings of frames, broken ones, noise."""
+    """Garbage that resembles frames: beginnings of frames, broken ones, noise."""
     good = routers.attitude((66, 66))
     broken = bytearray(good)
     broken[12] ^= 1 << rng.randrange(8)
-    return rng.choice([noise(rng, STRANGER_BYTES), bytes(broken), good[:-3], b"\xfd" * STRANGER_BYTES, b"\xfd\xff" + noise(rng, 20), b""])
+    return rng.choice([noise(rng, STRANGER_BYTES), bytes(broken), good[:-3], b"\xfd" * STRANGER_BYTES,
+                       b"\xfd\xff" + noise(rng, 20), b""])
 
 
 def test_garbage_of_a_stranger_harms_nobody(pair, rng):
@@ -118,7 +121,8 @@ def test_garbage_of_a_stranger_harms_nobody(pair, rng):
                 stranger.send(garbage(rng))
                 with contextlib.suppress(BlockingIOError):
                     intruder.send(garbage(rng))
-            net.passes(*(routers.attitude() for _ in range(5)))  # which also keeps the socket's buffer from running over
+            # which also keeps the socket's buffer from running over
+            net.passes(*(routers.attitude() for _ in range(5)))
         net.answers()
         links = net.router.links()
         assert len(links) == 3  # the stranger is none
@@ -139,10 +143,10 @@ def test_ten_thousand_peers_of_one_host_take_bounded_memory(pair, program):
             peer.bind((f"127.1.{number >> 8 & 255}.{number & 255}", 0))
             peer.sendto(routers.heartbeat((200, 1)), (LOCALHOST, net.port))
         if number % 10 == 0:
-            frame = net.say()  # at least once in any two seconds, as a vehicle does: it never gives way
+            frame = net.say()  # at least once in any two seconds, as a vehicle does: it is never evicted
         if number % 50 == 0:
-            seen = harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"] + e["peers_refused"] >= number + 1 - most and e,
-                                    what=f"{number} peers to be seen")
+            seen = harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"]
+                                    + e["peers_refused"] >= number + 1 - most and e, what=f"{number} peers to be seen")
             assert len([link for link in net.router.links() if link["endpoint"] == "in"]) <= most
             net.station.until(frame)
             net.answers()
@@ -160,7 +164,8 @@ def test_a_crowd_that_comes_and_goes_is_told_in_few_lines(pair):
     for number in range(crowd):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as peer:
             peer.sendto(routers.heartbeat((200, 1)), (LOCALHOST, net.port))
-    harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"] + e["peers_refused"] + e["kernel_drop"] >= crowd - 4, what="the crowd to be seen")
+    harness.wait_for(lambda: (e := endpoint(net.router, "in"))["peers_evicted"] + e["peers_refused"]
+                     + e["kernel_drop"] >= crowd - 4, what="the crowd to be seen")
     net.process.wait_output(r"(\d+) more times a link came or went", stream="err")
 
     assert net.process.stderr.count(": up") + net.process.stderr.count(": down") < 200
@@ -176,7 +181,8 @@ def test_sources_and_messages_of_peers_that_are_gone_give_their_places_back(pair
             crowd = b"".join(routers.heartbeat((200, component)) for component in range(1, 60))
             peer.sendto(crowd, (LOCALHOST, net.port))
         if number % 50 == 0:
-            harness.wait_for(lambda: endpoint(net.router, "in")["peers_evicted"] >= number - 4, what="the peers to be seen")
+            harness.wait_for(lambda: endpoint(net.router, "in")["peers_evicted"] >= number - 4,
+                             what="the peers to be seen")
             net.station.now()
 
     def is_listed():
@@ -211,7 +217,7 @@ def fill_until_dropped(net, label, sent):
 
 
 def resumes_with_whole_frames(net, end, label, sent):
-    """What a reader gets who begins to read again: whole frames in order, and what is missing is counted."""
+    """A reader that begins to read again gets whole frames in order, and missing ones are counted."""
     last = net.say()
     sent.append(last)
     got = [*end.until(last), last]  # an End asserts that frame follows frame
@@ -308,8 +314,9 @@ def test_without_file_descriptors_it_lives_on_and_recovers(pair, run):
 def test_with_too_few_descriptors_it_says_so(program, most):
     if has_sanitizer(program):
         pytest.skip("a sanitizer needs descriptors of its own")
-    done = subprocess.run(["prlimit", f"--nofile={most}", program, "route", f"udpin://{LOCALHOST}:{routers.udp_port()}", "--metrics",
-                           f"{LOCALHOST}:{routers.tcp_port()}", "--for", "50ms", "--name", f"few-{os.getpid()}"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["prlimit", f"--nofile={most}", program, "route", f"udpin://{LOCALHOST}:{routers.udp_port()}",
+                           "--metrics", f"{LOCALHOST}:{routers.tcp_port()}", "--for", "50ms", "--name",
+                           f"few-{os.getpid()}"], capture_output=True, text=True, timeout=60)
 
     assert done.returncode in (0, 1), done
     assert done.returncode == 0 or "oo many open files" in done.stderr, done
@@ -334,7 +341,7 @@ class SmallLimit:
 
 
 class Tape:
-    """What is sent through a router, and what it says of its recording."""
+    """Sends frames through a router and reads the counters of its recording."""
 
     def __init__(self, net):
         self.net, self.sent = net, [net.first]
@@ -365,7 +372,8 @@ def test_a_full_disk_stops_the_recording_only_and_only_while_it_is_full(pair, tm
         net.process.wait_output("records are written again", stream="err")
         assert "write_error" in net.process.stderr
 
-        harness.wait_for(lambda: (r := tape.counters())["frames"] + r["write_error"] == len(tape.sent) + 1, what="the last record")
+        harness.wait_for(lambda: (r := tape.counters())["frames"] + r["write_error"] == len(tape.sent) + 1,
+                         what="the last record")
         end = tape.counters()
         assert net.process.stop().status == 130
         recorded = [frame for _, frame in frames.read_tlog(path)]  # whole records and nothing else
@@ -441,7 +449,8 @@ def test_a_router_that_cannot_start_leaves_recordings_alone(run, tmp_path):
         taken.bind((LOCALHOST, 0))
         port = taken.getsockname()[1]
         assert run("route", f"tlog://{path}", f"udpin://{LOCALHOST}:{port}").status == 1
-    assert run("route", f"tlog://{path}", f"tlog://{tmp_path}/./flight.tlog?name=again", f"udpin://{LOCALHOST}:{port}").status == 2
+    assert run("route", f"tlog://{path}", f"tlog://{tmp_path}/./flight.tlog?name=again",
+               f"udpin://{LOCALHOST}:{port}").status == 2
     assert run("route", f"tlog://{path}", f"udpin://{LOCALHOST}:{port}", "--explain", "NOPE").status == 2
 
     assert os.listdir(tmp_path) == ["flight.tlog"] and path.read_bytes() == before
@@ -460,8 +469,10 @@ def test_a_clock_that_jumps_by_an_hour_changes_nothing(pair, program, tmp_path):
     step = tmp_path / "step"
     step.write_text("+0s\n")
     port, path = routers.tcp_port(), tmp_path / "flight.tlog"
-    net = pair(f"tcpin://{LOCALHOST}:{port}?name=tcp", f"tlog://{path}?name=tape", rules={"dedup_ms": 60_000, "route_timeout": 60}, options="idle=60",
-               env={"LD_PRELOAD": str(library), "FAKETIME_TIMESTAMP_FILE": str(step), "FAKETIME_NO_CACHE": "1", "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
+    net = pair(f"tcpin://{LOCALHOST}:{port}?name=tcp", f"tlog://{path}?name=tape",
+               rules={"dedup_ms": 60_000, "route_timeout": 60}, options="idle=60",
+               env={"LD_PRELOAD": str(library), "FAKETIME_TIMESTAMP_FILE": str(step), "FAKETIME_NO_CACHE": "1",
+                    "FAKETIME_DONT_FAKE_MONOTONIC": "1"})
     client = routers.tcp_client(port)
     with contextlib.closing(client):
         net.router.wait_links(3)
@@ -498,7 +509,8 @@ def test_a_clock_that_jumps_by_an_hour_changes_nothing(pair, program, tmp_path):
 def loop_with_itself(spawn):
     port = routers.udp_port()
     station = UdpEnd(label="station")
-    return port, station, [Router(spawn, f"udpin://{LOCALHOST}:{port}?name=in", f"udpout://{LOCALHOST}:{port}?name=loop",
+    return port, station, [Router(spawn, f"udpin://{LOCALHOST}:{port}?name=in",
+                                  f"udpout://{LOCALHOST}:{port}?name=loop",
                                   f"udpout://{LOCALHOST}:{station.port}?name=station")]
 
 
@@ -513,7 +525,8 @@ def two_that_call_each_other(spawn):
 def two_joined_twice(spawn):
     here, first, second = routers.udp_port(), routers.udp_port(), routers.udp_port()
     station = UdpEnd(label="station")
-    return here, station, [Router(spawn, f"udpin://{LOCALHOST}:{here}", f"udpout://{LOCALHOST}:{first}", f"udpout://{LOCALHOST}:{second}"),
+    return here, station, [Router(spawn, f"udpin://{LOCALHOST}:{here}", f"udpout://{LOCALHOST}:{first}",
+                                  f"udpout://{LOCALHOST}:{second}"),
                            Router(spawn, f"udpin://{LOCALHOST}:{first}", f"udpin://{LOCALHOST}:{second}",
                                   f"udpout://{LOCALHOST}:{station.port}?name=station")]
 
@@ -522,8 +535,10 @@ def ring_of_three(spawn):
     ports = [routers.tcp_port() for _ in range(3)]
     here = routers.udp_port()
     station = UdpEnd(label="station")
-    extra = [f"udpin://{LOCALHOST}:{here}", f"udpout://{LOCALHOST}:{station.port}?name=station", f"udpin://{LOCALHOST}:{routers.udp_port()}"]
-    ring = [Router(spawn, f"tcpin://{LOCALHOST}:{ports[i]}", f"tcpout://{LOCALHOST}:{ports[(i + 1) % 3]}", extra[i]) for i in range(3)]
+    extra = [f"udpin://{LOCALHOST}:{here}", f"udpout://{LOCALHOST}:{station.port}?name=station",
+             f"udpin://{LOCALHOST}:{routers.udp_port()}"]
+    ring = [Router(spawn, f"tcpin://{LOCALHOST}:{ports[i]}", f"tcpout://{LOCALHOST}:{ports[(i + 1) % 3]}", extra[i])
+            for i in range(3)]
     for router, others in zip(ring, (2, 3, 2)):
         router.wait_links(others)
     return here, station, ring
@@ -537,7 +552,7 @@ def test_a_loop_ends(spawn, make):
         sent = [routers.attitude() for _ in range(100)]
         for frame in sent:
             vehicle.send(frame)
-            vehicle.send(frame)  # a network that doubles, or a sender who repeats himself
+            vehicle.send(frame)  # a network that doubles, or a sender that repeats frames
         got = station.until(sent[-1])
 
         def moved():
@@ -569,7 +584,8 @@ def test_stopped_and_continued_it_has_what_the_kernel_kept(pair):
         for frame in by_tcp:
             client.send(frame)
         net.process.send(signal.SIGCONT)
-        harness.wait_for(lambda: net.router.link_of(net.vehicle)["frames_in"] - 1 + endpoint(net.router, "in")["kernel_drop"] == len(sent),
+        harness.wait_for(lambda: net.router.link_of(net.vehicle)["frames_in"] - 1
+                         + endpoint(net.router, "in")["kernel_drop"] == len(sent),
                          what="every frame to be taken or counted")
         assert 0 < endpoint(net.router, "in")["kernel_drop"] < len(sent)
 
@@ -610,7 +626,8 @@ def test_killed_and_started_again_everything_comes_back(pair, spawn, tmp_path):
     harness.wait_for(lambda: any(link["link"] == "up" for link in other.links()), what="the other router to come back")
     again = net.say()
     net.station.target = net.station.sock.recvfrom(65536)[1]
-    assert harness.wait_for(lambda: [e for e in other.stats("endpoint") if e["endpoint"] == "up"][0]["reconnects"] == 1, what="the count")
+    assert harness.wait_for(lambda: [e for e in other.stats("endpoint") if e["endpoint"] == "up"][0]["reconnects"] == 1,
+                            what="the count")
     with contextlib.closing(UdpEnd((LOCALHOST, far_port))) as far:
         far.send(heartbeat := routers.heartbeat((9, 9)))
         assert net.station.until(heartbeat) == []
@@ -662,7 +679,8 @@ def own_hosts(program, tmp_path):
 
     def start(*args, env=None):
         inside = 'mount --bind "$0" /etc/hosts && exec "$@"'
-        running.append(harness.Running(["unshare", "-m", "sh", "-c", inside, file, program, *args], env={**os.environ, **(env or {})}))
+        running.append(harness.Running(["unshare", "-m", "sh", "-c", inside, file, program, *args],
+                                       env={**os.environ, **(env or {})}))
         return running[-1]
     start.file = file
     yield start
@@ -672,7 +690,9 @@ def own_hosts(program, tmp_path):
 @pytest.mark.parametrize("scheme", ["udpout", "tcpout"])
 def test_a_host_is_looked_up_until_it_has_an_address(own_hosts, scheme):
     port = routers.udp_port()
-    with socket.create_server((LOCALHOST, 0)) as server, contextlib.closing(UdpEnd((LOCALHOST, port))) as vehicle, contextlib.closing(UdpEnd()) as far:
+    with (socket.create_server((LOCALHOST, 0)) as server,
+          contextlib.closing(UdpEnd((LOCALHOST, port))) as vehicle,
+          contextlib.closing(UdpEnd()) as far):
         far_port = far.port if scheme == "udpout" else server.getsockname()[1]
         router = Router(own_hosts, f"udpin://{LOCALHOST}:{port}", f"{scheme}://ground.invalid:{far_port}?name=far")
         router.process.wait_output(r"far: .*trying again", stream="err")
@@ -689,10 +709,10 @@ def test_a_host_is_looked_up_until_it_has_an_address(own_hosts, scheme):
 def test_an_endpoint_that_hears_nothing_says_so_once(spawn):
     """A PX4 that talks to somebody else already takes what the router sends, and answers nobody."""
     with UdpEnd() as px4, UdpEnd() as copy:
-        router = Router(spawn, f"udpout://{LOCALHOST}:{px4.port}?name=px4", f"udpout://{LOCALHOST}:{copy.port}?name=copy&tap=true",
-                        rules={"heartbeat": "255/191"})
+        router = Router(spawn, f"udpout://{LOCALHOST}:{px4.port}?name=px4",
+                        f"udpout://{LOCALHOST}:{copy.port}?name=copy&tap=true", rules={"heartbeat": "255/191"})
         told = router.process.wait_output(r"px4: nothing heard for 5 s; .*", stream="err")[0]
-        px4.count(60)  # it goes on
+        px4.count(60)  # it continues
 
     assert f"{LOCALHOST}:{px4.port}" in told and "PX4" in told
     assert router.process.stderr.count("nothing heard") == 1

@@ -21,16 +21,18 @@ def keys_by_kind():
 
 @pytest.fixture
 def router(spawn, udp_port, udp_socket, tmp_path):
-    """(name, metrics URL) of a router that has something of every kind to tell."""
+    """(name, metrics URL) of a router whose answers contain every kind."""
     port = udp_port()
     name = f"guide-{port}"
-    running = spawn("route", f"udpin://127.0.0.1:{port}", tmp_path / "all.tlog", "--name", name, "--metrics", "127.0.0.1:0")
+    running = spawn("route", f"udpin://127.0.0.1:{port}", tmp_path / "all.tlog", "--name", name, "--metrics",
+                    "127.0.0.1:0")
     metrics = running.wait_output(r"metrics at port (\d+)")[1]
     vehicle, ground = udp_socket(), udp_socket()
     vehicle.sendto(next(frames.heartbeats(1)), ("127.0.0.1", port))
     running.wait_output(r"#127\.0\.0\.1:%d: up" % vehicle.getsockname()[1])
     ground.sendto(next(frames.heartbeats(1, 255, 190)), ("127.0.0.1", port))
-    ground.sendto(frames.mavlink.MAVLink_command_long_message(77, 1, 400, 0, 1, 0, 0, 0, 0, 0, 0).pack(frames.sender(255, 190, 1)),
+    ground.sendto(frames.mavlink.MAVLink_command_long_message(77, 1, 400, 0, 1, 0, 0, 0, 0, 0,
+                                                              0).pack(frames.sender(255, 190, 1)),
                   ("127.0.0.1", port))
     assert vehicle.recv(1000)
     return name, f"http://127.0.0.1:{metrics}/metrics"
@@ -55,9 +57,11 @@ def test_every_key_is_in_the_guide(run, router, wait_for):
 
 
 def test_every_key_is_explained():
-    explained = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| ", PAGE.split("| key | is |")[1], re.MULTILINE))))
+    explained = set(re.findall(r"`(\w+)`",
+                               "".join(re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| ", PAGE.split("| key | is |")[1],
+                                                  re.MULTILINE))))
     undescribed = set().union(*keys_by_kind().values()) - explained
-    assert undescribed <= {"scheme", "up", "frames", "bytes"}  # the words say it
+    assert undescribed <= {"scheme", "up", "frames", "bytes"}  # the names explain themselves
 
 
 def test_metrics_have_the_documented_names(router):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""mavloom route over bad networks: redundant links of every group mode through a seeded impairer, TCP in pieces, lossy and narrow cables."""
+"""mavloom route over bad networks: redundant links of every group mode through a seeded impairer, TCP in pieces, lossy
+and narrow cables."""
 import contextlib
 import ctypes
 import dataclasses
@@ -48,7 +49,8 @@ class Sky:
         self.links = [UdpImpairer((LOCALHOST, port), rng, profile) for port, profile in zip(ports, profiles)]
         common = f"group=sky&group_mode={mode}&mtu=0"  # one frame a datagram: the impairer's losses are the links'
         self.air = Router(spawn, f"udpin://{LOCALHOST}:{self.vehicle.target[1]}",
-                          *(f"udpout://{LOCALHOST}:{link.port}?name=a{i}&{common}" for i, link in enumerate(self.links)), rules=rules)
+                          *(f"udpout://{LOCALHOST}:{link.port}?name=a{i}&{common}"
+                            for i, link in enumerate(self.links)), rules=rules)
         self.ground = Router(spawn, *(f"udpin://{LOCALHOST}:{port}?name=g{i}&{common}" for i, port in enumerate(ports)),
                              f"udpout://{LOCALHOST}:{self.station.port}?name=station", rules=rules)
 
@@ -72,7 +74,8 @@ class Sky:
                     return False  # lost on both links: the next heartbeat
                 self.station.target = self.station.sock.recvfrom(65536)[1]
             self.station.send(routers.heartbeat(GROUND_STATION))
-            return all(len([link for link in router.links() if link["endpoint"][0] == letter and link["frames_in"]]) == 2
+            return all(len([link for link in router.links() if link["endpoint"][0] == letter and link["frames_in"]])
+                       == 2
                        for router, letter in ((self.air, "a"), (self.ground, "g")))
         harness.wait_for(heard, what="both links")
         self.settle()
@@ -87,8 +90,10 @@ class Sky:
         air, ground = self.totals(self.air), self.totals(self.ground)
         if air[""]["frames_in"] != self.vehicle.sent or ground["station"]["frames_in"] != self.station.sent:
             return False
-        return all(link.idle and air[f"a{i}"]["frames_out"] == link.forth.taken and ground[f"g{i}"]["frames_out"] == link.back.taken and
-                   ground[f"g{i}"]["frames_in"] == len(link.forth.delivered) and air[f"a{i}"]["frames_in"] == len(link.back.delivered)
+        return all(link.idle and air[f"a{i}"]["frames_out"] == link.forth.taken and ground[f"g{i}"]["frames_out"]
+                   == link.back.taken and
+                   ground[f"g{i}"]["frames_in"] == len(link.forth.delivered) and air[f"a{i}"]["frames_in"]
+                   == len(link.back.delivered)
                    for i, link in enumerate(self.links))
 
     @staticmethod
@@ -105,7 +110,7 @@ class Sky:
         return [frame for frame in self.links[number].forth.delivered[since:] if frame[7] == ATTITUDE]
 
 
-# A link that brings the same bytes again has a sender who repeats himself, unless `dedup_ms` says otherwise (docs/guide/routing.md).
+# The same bytes again on one link count as a sender's repetition, unless `dedup_ms` is set (docs/guide/routing.md).
 @pytest.mark.parametrize("profile, rules", [(BAD, None), (DOUBLING, {"dedup_ms": 1500})], ids=["losing", "doubling"])
 def test_of_two_bad_links_each_frame_comes_once(spawn, rng, profile, rules):
     with Sky(spawn, rng, "all", [profile, profile], rules) as sky:
@@ -171,9 +176,10 @@ class Flow:
         return harness.wait_for(stepped, what=what)
 
     def carries(self, *numbers, count=40):
-        """Goes on until one link of `numbers` alone has carried so much: which."""
+        """Continues until one link of `numbers` alone has carried so much: which."""
         marks = [len(link.forth.delivered) for link in self.sky.links]
-        return self.until(lambda: [n for n in numbers if not self.moved(marks, 1 - n) and self.moved(marks, n) >= count], f"link {numbers} to carry")[0]
+        return self.until(lambda: [n for n in numbers if not self.moved(marks, 1 - n)
+                                   and self.moved(marks, n) >= count], f"link {numbers} to carry")[0]
 
     def moved(self, marks, number):
         moved = len(self.sky.carried(number, marks[number]))
@@ -272,7 +278,8 @@ def test_tcp_in_pieces_keeps_frames_whole_and_in_order(spawn, rng):
                 if number == 50:
                     link.reset()
                 vehicle.send(frame)
-            harness.wait_for(lambda n=before: link.connections == n + 1 and len(air.links()) == 2, what="the next connection")
+            harness.wait_for(lambda n=before: link.connections == n + 1 and len(air.links()) == 2,
+                             what="the next connection")
             last = routers.heartbeat()
             vehicle.send(last)
             got = station.until(last)  # an End asserts that frame follows frame
@@ -295,7 +302,8 @@ def spawn_in(program):
 
     def on(machine):
         def start(*args, env=None):
-            running.append(harness.Running(machine.command("env", *(f"{k}={v}" for k, v in (env or {}).items()), program, *args)))
+            running.append(harness.Running(machine.command("env", *(f"{k}={v}" for k, v in (env or {}).items()),
+                                                           program, *args)))
             return running[-1]
         return start
     yield on
@@ -319,13 +327,16 @@ PORT = 14550
 
 
 def test_what_a_cable_loses_is_the_links_own_loss(machines, spawn_in):
-    """Of every three datagrams the second machine's kernel drops one: by the router's sequence tracking exactly that is missing."""
+    """Of every three datagrams the second machine's kernel drops one: by the router's sequence tracking exactly that is
+    missing."""
     here, there = machines
-    on(there, "iptables", "-A", "INPUT", "-p", "udp", "--dport", str(PORT), "-m", "statistic", "--mode", "nth", "--every", "3", "--packet", "0", "-j", "DROP")
+    on(there, "iptables", "-A", "INPUT", "-p", "udp", "--dport", str(PORT), "-m", "statistic", "--mode", "nth",
+       "--every", "3", "--packet", "0", "-j", "DROP")
     vehicle, station = machine_end(here, ("127.0.0.1", PORT)), machine_end(there)
     with contextlib.closing(vehicle), contextlib.closing(station):
         Router(spawn_in(here), f"udpin://127.0.0.1:{PORT}", f"udpout://{there.host}:{PORT}?mtu=0")
-        ground = Router(spawn_in(there), f"udpin://0.0.0.0:{PORT}?name=in", f"udpout://127.0.0.1:{station.port}?name=station")
+        ground = Router(spawn_in(there), f"udpin://0.0.0.0:{PORT}?name=in",
+                        f"udpout://127.0.0.1:{station.port}?name=station")
         sent = [routers.attitude() for _ in range(901)]  # one is dropped first: the numbers 0, 3, 6, ...
         for frame in sent:
             vehicle.send(frame)
@@ -360,16 +371,19 @@ class Narrow:
             self.station = machine_end(self.there, (here.host, near))
             self.station.send(routers.heartbeat(GROUND_STATION))
         elif scheme == "tcpin":
-            self.station = TcpEnd(in_machine(self.there, lambda: socket.create_connection((here.host, near), timeout=60)))
+            self.station = TcpEnd(in_machine(self.there,
+                                             lambda: socket.create_connection((here.host, near), timeout=60)))
         self.vehicle.send(routers.heartbeat())
         harness.wait_for(lambda: len(self.router.links()) == 2, what="both links")
-        on(here, "tc", "qdisc", "replace", "dev", here.interface, "root", "tbf", "rate", f"{self.RATE_BITS}bit", "burst", "3000", "limit", str(limit))
+        on(here, "tc", "qdisc", "replace", "dev", here.interface, "root", "tbf", "rate", f"{self.RATE_BITS}bit",
+           "burst", "3000", "limit", str(limit))
 
     def link(self):
         return next(link for link in self.router.ask("links") if link["endpoint"] == "far")
 
     def widen(self):
-        on(self.here, "tc", "qdisc", "change", "dev", self.here.interface, "root", "tbf", "rate", "100mbit", "burst", "100000", "limit", "1000000")
+        on(self.here, "tc", "qdisc", "change", "dev", self.here.interface, "root", "tbf", "rate", "100mbit", "burst",
+           "100000", "limit", "1000000")
 
     def close(self):
         self.vehicle.close()
@@ -377,7 +391,7 @@ class Narrow:
 
 
 def in_machine(machine, make):
-    """What `make` makes, in the machine's network."""
+    """Calls `make` in the machine's network and returns its result."""
     made = []
 
     def run():
@@ -392,20 +406,24 @@ def in_machine(machine, make):
 
 def bulk(count):
     """Telemetry of 280 bytes that no newer one replaces."""
-    return [routers.make(frames.mavlink.MAVLink_encapsulated_data_message(i % 65536, os.urandom(252) + b"\x01")) for i in range(count)]
+    return [routers.make(frames.mavlink.MAVLink_encapsulated_data_message(i % 65536, os.urandom(252) + b"\x01"))
+            for i in range(count)]
 
 
 def urgent():
     """One of each kind that somebody waits for: class 0."""
     m = frames.mavlink
-    return [routers.heartbeat(), routers.command(VEHICLE, (0, 0)), routers.make(m.MAVLink_command_ack_message(400, 0, routers.unique() % 256)),
+    return [routers.heartbeat(), routers.command(VEHICLE, (0, 0)),
+            routers.make(m.MAVLink_command_ack_message(400, 0, routers.unique() % 256)),
             routers.make(m.MAVLink_statustext_message(6, b"%d" % routers.unique())),
             routers.make(m.MAVLink_param_value_message(b"P", routers.unique(), 9, 1, 0))]
 
 
-@pytest.mark.parametrize("scheme, options", [("udpout", ""), ("udpin", ""), ("udpbcast", "&fixed=true"), ("udpmcast", ""), ("tcpin", "")])
+@pytest.mark.parametrize("scheme, options",
+                         [("udpout", ""), ("udpin", ""), ("udpbcast", "&fixed=true"), ("udpmcast", ""), ("tcpin", "")])
 def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, spawn_in, scheme, options):
-    """Much more than the cable carries: heartbeats, commands and acknowledgements all get through, telemetry is dropped and counted."""
+    """Much more than the cable carries: heartbeats, commands and acknowledgements all get through, telemetry is dropped
+    and counted."""
     net = Narrow(machines, spawn_in, scheme, "queue_bytes=20k" + options)
     with contextlib.closing(net):
         wanted, other = [], []
@@ -414,7 +432,8 @@ def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, sp
             other += bulk(30)
             for frame in wanted[-5:] + other[-30:]:
                 net.vehicle.send(frame)
-            harness.wait_for(lambda: sum(link["frames_in"] for link in net.router.links()) >= len(wanted) + len(other), what="all to be in")
+            harness.wait_for(lambda: sum(link["frames_in"] for link in net.router.links()) >= len(wanted) + len(other),
+                             what="all to be in")
         net.widen()
         last = routers.heartbeat()
         net.vehicle.send(last)
@@ -427,15 +446,18 @@ def test_through_a_narrow_cable_comes_first_what_somebody_waits_for(machines, sp
 
 @pytest.mark.parametrize("scheme", ["udpout", "tcpin"])
 def test_telemetry_does_not_grow_old_in_a_queue(machines, spawn_in, scheme):
-    """A queue that may hold all, for 300 ms: what is older goes, counted; then the cable carries what is new at once."""
+    """A queue that may hold all, for 300 ms: what is older goes, counted;
+    then the cable carries what is new at once."""
     net = Narrow(machines, spawn_in, scheme, "queue_bytes=4M&queue_age=300ms")
     with contextlib.closing(net):
         sent = bulk(2500)
         for number, frame in enumerate(sent):
             net.vehicle.send(frame)
             if number % 250 == 249:
-                harness.wait_for(lambda n=number: sum(link["frames_in"] for link in net.router.links()) >= n, what="all to be in")
-        dropped = harness.wait_for(lambda: net.link()["queue_age"] + net.link()["frames_out"] >= len(sent) and net.link()["queue_age"], what="the old ones to go")
+                harness.wait_for(lambda n=number: sum(link["frames_in"] for link in net.router.links()) >= n,
+                                 what="all to be in")
+        dropped = harness.wait_for(lambda: net.link()["queue_age"] + net.link()["frames_out"] >= len(sent)
+                                   and net.link()["queue_age"], what="the old ones to go")
         assert net.link()["queue_bytes"] == 0
         net.widen()
         last = routers.attitude()

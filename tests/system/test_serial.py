@@ -39,7 +39,7 @@ class Port:
             data = data[os.write(self.far, data):]
 
     def read(self):
-        """What is there now."""
+        """The bytes that are there now."""
         got = b""
         try:
             while chunk := os.read(self.far, 1 << 16):
@@ -82,7 +82,8 @@ def relay_to(spawn, url, *options):
 
 
 @pytest.mark.short
-@pytest.mark.parametrize("spelling, baud", [("serial://{}", 57600), ("serial://{}?baud=1234567", 1234567), ("{}", 57600), ("{},115200", 115200)])
+@pytest.mark.parametrize("spelling, baud", [("serial://{}", 57600), ("serial://{}?baud=1234567", 1234567),
+                                            ("{}", 57600), ("{},115200", 115200)])
 def test_listen_takes_both_spellings(spawn, port, spelling, baud):
     far = port()
     listen = spawn("listen", spelling.format(far.device), "--json", "--count", "3")
@@ -274,7 +275,8 @@ exec "$@" < /dev/pts/ptmx
 
 # The number of a USB port may be another one after it was plugged in again; its name in /dev/serial/by-id stays.
 @pytest.mark.short
-@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare"), reason="a /dev of its own needs root and util-linux")
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare"),
+                    reason="a /dev of its own needs root and util-linux")
 def test_a_port_comes_back_under_a_new_number(program, port, tmp_path):
     first = port()
     first.write(next(frames.heartbeats(1)))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The router as a service: what it tells a service manager (a socket of ours stands in for systemd's), and the unit that is installed."""
+"""The router as a service: its notifications to a service manager (a socket of ours stands in for systemd's), and the
+installed unit."""
 import os
 import re
 import shutil
@@ -47,7 +48,8 @@ def router(spawn, tmp_path, udp_port, manager, manager_address):
         port = udp_port()
         config = tmp_path / "router.toml"
         config.write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{port}"\n')
-        return spawn("route", "--config", config, "--name", f"service-{port}", env={"NOTIFY_SOCKET": manager_address, **env})
+        return spawn("route", "--config", config, "--name", f"service-{port}",
+                     env={"NOTIFY_SOCKET": manager_address, **env})
     return start
 
 
@@ -95,8 +97,8 @@ def test_a_watchdog_for_another_process_is_not_fed(router, manager):
 
 @pytest.mark.parametrize("address", ["/nowhere/notify", "@", "notify", "/" + "x" * 200])
 def test_a_manager_that_is_not_there_is_none(run, address):
-    done = run("route", "tcpin://127.0.0.1:%d" % harness.free_port(socket.SOCK_STREAM), "--for", "50ms", "--name", f"none-{os.getpid()}",
-               env={"NOTIFY_SOCKET": address, "WATCHDOG_USEC": "10000"})
+    done = run("route", "tcpin://127.0.0.1:%d" % harness.free_port(socket.SOCK_STREAM), "--for", "50ms", "--name",
+               f"none-{os.getpid()}", env={"NOTIFY_SOCKET": address, "WATCHDOG_USEC": "10000"})
 
     assert done.status == 0, done
 
@@ -123,7 +125,8 @@ def test_the_unit_has_no_fault(analyze):
 
 
 def test_the_unit_is_hardened(analyze):
-    done = analyze("security", "--offline=true", "--threshold=20", "--no-pager")  # of 100; a unit without protection has 96
+    # of 100; a unit without protection has 96
+    done = analyze("security", "--offline=true", "--threshold=20", "--no-pager")
     if "nrecognized option" in done.stderr or "nknown option" in done.stderr:
         pytest.skip("this systemd-analyze is older than 250")
 
@@ -145,7 +148,8 @@ def test_the_user_of_the_unit_is_made(tmp_path):
     if not shutil.which("systemd-sysusers"):
         pytest.skip("systemd-sysusers is not installed")
     (tmp_path / "etc").mkdir()
-    done = subprocess.run(["systemd-sysusers", f"--root={tmp_path}", str(SYSUSERS)], capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["systemd-sysusers", f"--root={tmp_path}", str(SYSUSERS)], capture_output=True, text=True,
+                          timeout=60)
 
     assert done.returncode == 0, done.stderr
     assert re.search(r"^mavloom:", (tmp_path / "etc" / "passwd").read_text(), re.MULTILINE)

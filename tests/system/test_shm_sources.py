@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""shm://NAME in listen, record and relay, and as a destination. ring_tool (tests/tools) writes the records, with the times and links of the recording."""
+"""shm://NAME in listen, record and relay, and as a destination.
+ring_tool (tests/tools) writes the records, with the times and links of the recording."""
 import contextlib
 import json
 import os
@@ -36,13 +37,15 @@ def ring():
 @pytest.fixture
 def feed():
     """feed(ring, policy="wait", capacity=65536, names={}) -> a writer of the ring; killed at the end of the test."""
-    path = pathlib.Path(os.environ.get("MAVLOOM_RING_TOOL", harness.program_path().parent.parent / "tests" / "bin" / "ring_tool"))
+    path = pathlib.Path(os.environ.get("MAVLOOM_RING_TOOL",
+                                       harness.program_path().parent.parent / "tests" / "bin" / "ring_tool"))
     assert path.is_file(), f"{path} is missing: build the target ring_tool, or name it in MAVLOOM_RING_TOOL"
     writers = []
 
     class Writer(harness.Running):
         def write(self, records):
-            """[(Unix microseconds, bytes)], [(Unix microseconds, bytes, link)] or [(Unix microseconds, bytes, "LINK/KIND/VERDICT")]."""
+            """[(Unix microseconds, bytes)], [(Unix microseconds, bytes, link)] or [(Unix microseconds, bytes,
+            "LINK/KIND/VERDICT")]."""
             lines = [f"{time_us * 1000} {(link or [0])[0]} {data.hex()}\n" for time_us, data, *link in records]
             self.process.stdin.write("".join(lines).encode())
             self.process.stdin.flush()
@@ -58,7 +61,8 @@ def feed():
 
     def start(ring, policy="wait", capacity=65536, names=()):
         words = [f"{link}={name}" for link, name in dict(names).items()]
-        writers.append(Writer([path, "feed", ring, policy, capacity, *words], env=harness.environment(), stdin=subprocess.PIPE))
+        writers.append(Writer([path, "feed", ring, policy, capacity, *words], env=harness.environment(),
+                              stdin=subprocess.PIPE))
         writers[-1].wait_output("ready")
         return writers[-1]
     yield start
@@ -100,7 +104,8 @@ def stat_of(run, ring):
 
 
 def wait_readers(run, ring, count=1):
-    harness.wait_for(lambda: len((stat_of(run, ring) or {"readers": []})["readers"]) == count, what=f"{count} readers of {ring}")
+    harness.wait_for(lambda: len((stat_of(run, ring) or {"readers": []})["readers"]) == count,
+                     what=f"{count} readers of {ring}")
 
 
 def wait_written(run, ring, count):
@@ -207,7 +212,8 @@ def test_a_killed_writer_is_waited_for_and_the_next_one_carries_on(run, spawn, f
 
 
 @short
-def test_a_removed_ring_is_drained_and_the_next_one_of_its_name_read_from_its_oldest(run, spawn, feed, ring, sink, flight):
+def test_a_removed_ring_is_drained_and_the_next_one_of_its_name_read_from_its_oldest(run, spawn, feed, ring, sink,
+                                                                                     flight):
     first = feed(ring)
     relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}")
     wait_readers(run, ring)
@@ -231,7 +237,8 @@ def test_a_killed_relay_lets_go_of_the_writer(run, spawn, feed, ring, sink):
     relay.send(signal.SIGSTOP)
     writing = threading.Thread(target=writer.write, args=(records,))
     writing.start()
-    held = harness.wait_for(lambda: (n := stat_of(run, ring)["records"]) > 500 and n == stat_of(run, ring)["records"] and n, what="a held writer")
+    held = harness.wait_for(lambda: (n := stat_of(run, ring)["records"]) > 500 and n == stat_of(run, ring)["records"]
+                            and n, what="a held writer")
     assert held < 4000
     relay.process.kill()
     writing.join(harness.DEFAULT_TIMEOUT_S)
@@ -261,7 +268,7 @@ def test_a_lapped_listener_is_told_exactly_what_it_missed(run, spawn, feed, ring
     assert done.status == 130 and totals["lapped"] > 0
     assert totals["frames"] + totals["lapped"] == 10_000
     assert totals["frames"] == len(done.lines) - 1
-    # What the ring lost is not taken for loss of the link, though sequence numbers are missing.
+    # Records that the ring lost do not count as loss of the link, though sequence numbers are missing.
     assert [source["lost"] for source in stats_of(done)["sources"]] == [0]
 
 
@@ -330,9 +337,11 @@ def test_links_have_the_names_of_the_counter_page(run, spawn, feed, ring):
     writer = feed(ring, names={3: "udpin://0.0.0.0:14540#10.0.0.7:5000"})
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "3")
     wait_readers(run, ring)
-    writer.write([(1_700_000_000_123_456, frames.attitude(), 3), (1_700_000_000_200_000, frames.attitude(), 4), (1_700_000_000_300_000, frames.attitude(), 3)])
+    writer.write([(1_700_000_000_123_456, frames.attitude(), 3), (1_700_000_000_200_000, frames.attitude(), 4),
+                  (1_700_000_000_300_000, frames.attitude(), 3)])
     heard = [json.loads(line) for line in listener.wait().lines]
-    assert [h["link"] for h in heard] == ["udpin://0.0.0.0:14540#10.0.0.7:5000", f"shm://{ring}/4", "udpin://0.0.0.0:14540#10.0.0.7:5000"]
+    assert [h["link"] for h in heard] == ["udpin://0.0.0.0:14540#10.0.0.7:5000", f"shm://{ring}/4",
+                                          "udpin://0.0.0.0:14540#10.0.0.7:5000"]
     assert [h["time_us"] for h in heard] == [1_700_000_000_123_456, 1_700_000_000_200_000, 1_700_000_000_300_000]
 
 
@@ -345,7 +354,8 @@ def test_the_next_writer_gives_links_other_numbers(run, spawn, feed, ring):
     harness.wait_for(lambda: len(listener.stdout.splitlines()) == 2, what="the first writer's frames")
     listener.send(signal.SIGSTOP)  # it never sees the ring without a writer
     writer.kill_now()
-    feed(ring, names={1: "usb", 2: "wifi"}).write([(1_700_000_000_000_002, frames.attitude(), 1), (1_700_000_000_000_003, frames.attitude(), 2)])
+    feed(ring, names={1: "usb", 2: "wifi"}).write([(1_700_000_000_000_002, frames.attitude(), 1),
+                                                   (1_700_000_000_000_003, frames.attitude(), 2)])
     wait_written(run, ring, 4)
     listener.send(signal.SIGCONT)
     assert [json.loads(line)["link"] for line in listener.wait().lines] == ["radio", "usb", "usb", "wifi"]
@@ -400,7 +410,8 @@ def test_an_absent_ring_is_told_in_one_line_with_the_rings_there_are(run, feed, 
         done = run("listen", f"shm://{ring}", "--for", "300ms")
         assert done.status == 0
         lines = done.stderr.splitlines()
-        assert len(lines) == 1 and f"there is no ring {ring}" in lines[0] and f"{ring}-b" in lines[0] and lines[0].endswith("waiting for it")
+        assert len(lines) == 1 and f"there is no ring {ring}" in lines[0] and f"{ring}-b" in lines[0]
+        assert lines[0].endswith("waiting for it")
     finally:
         assert run("shm", "remove", f"{ring}-b", "--force").status == 0
 
@@ -420,11 +431,12 @@ def test_several_rings_and_a_socket_are_served_together(run, spawn, feed, ring, 
     port, other = udp_port(), f"{ring}-b"
     one, two = feed(ring), feed(other)
     try:
-        listener = spawn("listen", f"shm://{ring}", f"shm://{other}", f"udpin://127.0.0.1:{port}", "--json", "--count", "30")
+        listener = spawn("listen", f"shm://{ring}", f"shm://{other}", f"udpin://127.0.0.1:{port}", "--json", "--count",
+                         "30")
         wait_readers(run, ring)
         wait_readers(run, other)
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
-            for n in range(10):  # each alone: whoever sleeps is woken by any of them
+            for n in range(10):  # each alone: any of them wakes a sleeping reader
                 one.write(numbered(1, n))
                 harness.wait_for(lambda n=n: len(listener.stdout.splitlines()) == 3 * n + 1, what="the first ring")
                 two.write(numbered(1, n))
@@ -444,7 +456,8 @@ def test_records_of_other_kinds_are_skipped(run, spawn, feed, ring):
     writer = feed(ring)
     listener = spawn("listen", f"shm://{ring}", "--json", "--stats", "--count", "2")
     wait_readers(run, ring)
-    tagged = [(b"own bytes", "0/300/0"), (heartbeat(), "0/2/0"), (heartbeat(sequence=1), "0/1/1"), (heartbeat(sequence=2), "0/0/0")]
+    tagged = [(b"own bytes", "0/300/0"), (heartbeat(), "0/2/0"), (heartbeat(sequence=1), "0/1/1"),
+              (heartbeat(sequence=2), "0/0/0")]
     writer.write([(1_700_000_000_000_000, data, tags) for data, tags in tagged])
     done = listener.wait()
     assert done.status == 0 and len(done.lines) == 3
@@ -454,7 +467,8 @@ def test_records_of_other_kinds_are_skipped(run, spawn, feed, ring):
 
 @short
 def test_a_relay_leaves_out_what_the_router_marked_as_copy_or_echo(run, spawn, feed, ring, sink):
-    """Verdicts by docs/formats/ring.md: 1 forwarded, 4 rate limited, 5 copy, 6 echo, 7 unknown target; bits 4 and 5 the signature."""
+    """Verdicts by docs/formats/ring.md: 1 forwarded, 4 rate limited, 5 copy, 6 echo, 7 unknown target;
+    bits 4 and 5 the signature."""
     writer = feed(ring)
     relay = spawn("relay", f"shm://{ring}", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "8")
@@ -475,7 +489,8 @@ def test_an_echo_in_a_ring_is_no_loss(run, spawn, feed, ring):
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "6", "--stats")
     wait_readers(run, ring)
     told = [(0, 1), (1, 1), (200, 6), (2, 1), (90, 6), (3, 1)]
-    writer.write([(1_700_000_000_000_000, heartbeat(sequence=sequence), f"0/1/{verdict}") for sequence, verdict in told])
+    writer.write([(1_700_000_000_000_000, heartbeat(sequence=sequence), f"0/1/{verdict}")
+                  for sequence, verdict in told])
     stats = stats_of(listener.wait())
     assert stats["totals"]["frames"] == 6
     assert [(source["lost"], source["late"], source["resync"]) for source in stats["sources"]] == [(0, 0, 0)]
@@ -608,7 +623,8 @@ def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn
         router = closing.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM))
         router.settimeout(0.05)
         place = pathlib.Path(run, "mavloom", f"{ring}.in")
-        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}", env={"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": run})
+        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"shm://{ring}",
+                      env={"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": run})
         relay.wait_output(rf"cannot send to .*{place}: No such file or directory; trying again")
         assert not os.listdir(run)
         place.parent.mkdir()
@@ -624,11 +640,13 @@ def test_an_inlet_is_found_where_it_is_not_where_the_sender_could_make_one(spawn
 
 @short
 @pytest.mark.parametrize("signed", [False, True], ids=["unsigned", "signed"])
-def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink, tmp_path, signed):
+def test_what_a_destination_answers_goes_to_the_inlet_and_does_not_come_back(run, spawn, feed, inlet, ring, sink,
+                                                                             tmp_path, signed):
     router, writer = inlet(), feed(ring)
     key = tmp_path / "key"
     assert run("key", "new", key).status == 0
-    relay = spawn("relay", f"shm://{ring}" + f"?sign={key}" * signed, "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
+    relay = spawn("relay", f"shm://{ring}" + f"?sign={key}" * signed, "--to",
+                  f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
     wait_readers(run, ring)
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""sign= and verify= over a restart: a recording of before is a replay after it, and what is signed never goes back in time."""
+"""sign= and verify= over a restart: a recording of before is a replay after it, and what is signed never goes back in
+time."""
 import json
 import os
 import re

@@ -9,14 +9,16 @@ import pytest
 import harness
 
 FORBIDDEN = re.compile(
-    r"_*(v?f?printf(_chk)?|puts|fputs|putchar|putc|perror|psignal|exit|_exit|_Exit|quick_exit|abort|stdout|stderr|syslog)"
+    r"_*(v?f?printf(_chk)?|puts|fputs|putchar|putc|perror|psignal|stdout|stderr|syslog"
+    r"|exit|_exit|_Exit|quick_exit|abort)"
     r"|std::(cout|cerr|clog|exit|_Exit|quick_exit|abort)"
     r"|fmt::v\d+::(v?print(ln)?)\(.*"
     r"|spdlog::.*")
 
 
 def forbidden_symbols(binary: pathlib.Path) -> set:
-    listing = subprocess.run(["nm", "--undefined-only", "--demangle", "--format=just-symbols", binary], capture_output=True, text=True, check=True)
+    listing = subprocess.run(["nm", "--undefined-only", "--demangle", "--format=just-symbols", binary],
+                             capture_output=True, text=True, check=True)
     symbols = {line.split("@")[0].strip() for line in listing.stdout.splitlines()}
     return {symbol for symbol in symbols if FORBIDDEN.fullmatch(symbol)}
 

@@ -53,10 +53,12 @@ def test_we_find_every_intact_record_of_a_damaged_file(run, data, tmp_path, rng)
     records = [bytes(content[a:b]) for a, b in zip(starts, starts[1:])]
     damaged = set(rng.sample(range(len(records)), 500))
     for number in damaged:
-        # Not in the time, which no checksum protects, nor in the id: one wrong id in 256 could be a frame of a message nobody knows.
+        # Not in the time, which no checksum protects, nor in the id: one wrong id in 256 could be a frame of a message
+        # nobody knows.
         places = [*range(starts[number] + 8, starts[number] + 15), *range(starts[number] + 18, starts[number + 1])]
         content[rng.choice(places)] ^= rng.randrange(1, 256)
     (tmp_path / "x.tlog").write_bytes(content)
 
-    intact = [(int.from_bytes(r[:8], "big"), *id_and_sequence(r[8:])) for number, r in enumerate(records) if number not in damaged]
+    intact = [(int.from_bytes(r[:8], "big"), *id_and_sequence(r[8:])) for number, r in enumerate(records)
+              if number not in damaged]
     assert read_by_us(run, tmp_path / "x.tlog") == intact

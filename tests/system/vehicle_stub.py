@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A vehicle made with pymavlink that answers as an ArduPilot does: heartbeat, parameters, missions, commands. What has a target is sent to who asked."""
+"""A vehicle made with pymavlink that answers as an ArduPilot does: heartbeat, parameters, missions, commands.
+A frame with a target goes to the sender that asked."""
 import threading
 import time
 
@@ -13,7 +14,8 @@ SYSTEM, COMPONENT = 1, 1
 def parameters(count=150):
     """{name: (value, type)}: whole and broken numbers, one with the longest name."""
     made = {f"TEST_{number:03d}": (float(number) + (0.5 if number % 3 == 0 else 0.0),
-                                   mavlink.MAV_PARAM_TYPE_REAL32 if number % 3 == 0 else mavlink.MAV_PARAM_TYPE_INT32) for number in range(count - 1)}
+                                   mavlink.MAV_PARAM_TYPE_REAL32 if number % 3 == 0 else mavlink.MAV_PARAM_TYPE_INT32)
+            for number in range(count - 1)}
     made["SIXTEEN_LETTERS_"] = (16.25, mavlink.MAV_PARAM_TYPE_REAL32)
     return made
 
@@ -102,13 +104,15 @@ class Vehicle:
             self._ask_next()
 
     def _on_mission_request_list(self, message, system, component):
-        self.mav.mission_count_send(system, component, len(self.mission) if message.mission_type == 0 else 0, message.mission_type)
+        self.mav.mission_count_send(system, component, len(self.mission) if message.mission_type == 0 else 0,
+                                    message.mission_type)
 
     def _on_mission_request_int(self, message, system, component):
         if message.seq < len(self.mission):
             item = self.mission[message.seq]
-            self.mav.mission_item_int_send(system, component, item.seq, item.frame, item.command, item.current, item.autocontinue,
-                                           item.param1, item.param2, item.param3, item.param4, item.x, item.y, item.z, 0)
+            self.mav.mission_item_int_send(system, component, item.seq, item.frame, item.command, item.current,
+                                           item.autocontinue, item.param1, item.param2, item.param3, item.param4,
+                                           item.x, item.y, item.z, 0)
 
     _on_mission_request = _on_mission_request_int
 
@@ -120,9 +124,13 @@ class Vehicle:
 
     def _on_command_long(self, message, system, component):
         self.commands.append(message.command)
-        known = message.command in (mavlink.MAV_CMD_COMPONENT_ARM_DISARM, mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) or \
-            message.command == mavlink.MAV_CMD_REQUEST_MESSAGE and message.param1 == mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION
-        self.mav.command_ack_send(message.command, mavlink.MAV_RESULT_ACCEPTED if known else mavlink.MAV_RESULT_UNSUPPORTED, 0, 0, system, component)
+        known = (message.command in (mavlink.MAV_CMD_COMPONENT_ARM_DISARM,
+                                     mavlink.MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES)
+                 or (message.command == mavlink.MAV_CMD_REQUEST_MESSAGE
+                     and message.param1 == mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION))
+        result = mavlink.MAV_RESULT_ACCEPTED if known else mavlink.MAV_RESULT_UNSUPPORTED
+        self.mav.command_ack_send(message.command, result, 0, 0, system, component)
         if known and message.command != mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
-            capabilities = mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
+            capabilities = (mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT
+                            | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2)
             self.mav.autopilot_version_send(capabilities, 0x04060000, 0, 0, 0, [0] * 8, [0] * 8, [0] * 8, 0, 0, 42)

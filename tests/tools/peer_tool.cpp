@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What tests/system/test_pymavlink_peer.py talks to: one JSON request a line on stdin, one JSON answer a line on stdout.
-//   {"frame":HEX, "key":HEX?, "now":TICKS?}                 -> {"line":{the JSON form}, "text":…, "copied":HEX, "rebuilt":HEX, "verdict":…}
-//   {"name":…, "fields":{…}, "version":1|2, "seq":…, "sys":…, "comp":…, "key":HEX?, "link_id":…, "now":TICKS} -> {"frame":HEX}
-// `copied` is the frame made again from its payload as a whole, `rebuilt` the one made field by field from the decoded values. Field values
-// in requests are as in the JSON form, and {"hex":…} for text of any bytes. A refusal is {"error":…}.
+// What tests/system/test_pymavlink_peer.py talks to: one JSON request a line on stdin, one JSON answer a line on
+// stdout.
+//   {"frame":HEX, "key":HEX?, "now":TICKS?}
+//       -> {"line":{the JSON form}, "text":…, "copied":HEX, "rebuilt":HEX, "verdict":…}
+//   {"name":…, "fields":{…}, "version":1|2, "seq":…, "sys":…, "comp":…, "key":HEX?, "link_id":…, "now":TICKS}
+//       -> {"frame":HEX}
+// `copied` is the frame made again from its payload as a whole, `rebuilt` the one made field by field from the decoded
+// values. Field values in requests are as in the JSON form, and {"hex":…} for text of any bytes. A refusal is
+// {"error":…}.
 #include <fmt/format.h>
 
 #include <iostream>

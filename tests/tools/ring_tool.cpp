@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Writers and readers of a ring for tests/system/test_shm.py and test_shm_sources.py, which kill them.
-//   ring_tool write NAME COUNT POLICY       COUNT records (0: without end); "ready" on stdout once the ring is open
-//   ring_tool die NAME RECORDS STEP         RECORDS whole ones, then SIGKILL of itself before the STEPth access to shared memory from then on
-//   ring_tool read NAME lossy|lossless|polling COUNT   until record COUNT - 1 was there (0: until killed); checks each, ends with a JSON object
-//   ring_tool count NAME                    for ever, evicting, records that hold their sequence number and nothing else: tens of millions a second
-//   ring_tool follow NAME COUNT             a lossy reader of these, until number COUNT - 1 was there; it dozes off now and then until it is lapped; a JSON object
-//   ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" or "TIME_NS LINK/KIND/VERDICT HEX" of stdin becomes a record; "ready" on stdout;
-//                                           a counter page where names are given
-//   ring_tool check NAME                    all that the ring holds, whole and in order; a JSON object
+//  ring_tool write NAME COUNT POLICY       COUNT records (0: until killed); "ready" on stdout once the ring is open
+//  ring_tool die NAME RECORDS STEP         RECORDS whole ones; from then on kills itself with SIGKILL before the STEPth
+//                                          access to shared memory
+//  ring_tool read NAME lossy|lossless|polling COUNT   until record COUNT - 1 was there (0: until killed); checks each,
+//                                          ends with a JSON object
+//  ring_tool count NAME                    until killed, evicting, records that hold only their sequence number: tens
+//                                          of millions a second
+//  ring_tool follow NAME COUNT             a lossy reader of these, until number COUNT - 1 was there; it sleeps now and
+//                                          then until it is lapped; ends with a JSON object
+//  ring_tool feed NAME POLICY CAPACITY [LINK=NAME]...   each line "TIME_NS LINK HEX" or "TIME_NS LINK/KIND/VERDICT HEX"
+//                                          of stdin becomes a record; "ready" on stdout; a counter page if names are
+//                                          given
+//  ring_tool check NAME                    all that the ring holds, whole and in order; a JSON object
 // The record with sequence number n has (n * 7919) % 1500 bytes that follow from n.
 #include <fmt/format.h>
 #include <unistd.h>
@@ -234,7 +239,8 @@ int read(const std::string& name, std::string_view kind, std::uint64_t count) {
         }
         if (!record) fail(to_text(record.error()));
         if (delivered != 0 && record->sequence != next + record->missed) fail("a record was left out and not counted");
-        // A view whose hold an evicting writer took meanwhile may be overwritten: looked at first, asked about afterwards.
+        // A view whose hold an evicting writer took meanwhile may be overwritten: looked at first, asked about
+        // afterwards.
         if (!is_good(*record) && reader->holds())
             fail(fmt::format("record {} is not what was written", record->sequence));
         next = record->sequence + 1;

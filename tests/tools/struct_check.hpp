@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The generated structs against MessageView, which finds fields by the run-time tables: two ways to one layout. Which members belong to which
-// names is written by struct_check_generator.cpp from the definitions.
+// The generated structs against MessageView, which finds fields by the run-time tables: two ways to one layout. Which
+// members belong to which names is written by struct_check_generator.cpp from the definitions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,8 @@
 
 namespace mavloom::test {
 
-// Compares members with the fields of those names. Nothing here is a template but for the forwarding of types: 400 structs pass through.
+// Compares members with the fields of those names. Nothing here is a template but for the forwarding of types: 400
+// structs pass through.
 class StructCheck {
 public:
     explicit StructCheck(const message::MessageView& view) : view_(view) {}

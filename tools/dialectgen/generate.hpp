@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a dialect as C++: tables that give a dialect::Dialect without reading XML, and one header per message and enum with typed structs.
-// The output depends on the definitions alone: the same input gives the same bytes.
+// Writes a dialect as C++: tables that give a dialect::Dialect without reading XML, and one header per message and enum
+// with typed structs. The output depends on the definitions alone: the same input gives the same bytes.
 #pragma once
 
 #include <filesystem>

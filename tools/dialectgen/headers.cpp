@@ -28,7 +28,7 @@ std::string member_type(const Field& field) {
     return fmt::format("std::array<{}, {}>", cpp_type(field.type), field.array_length);
 }
 
-// What the definition says of a field, for the comment behind it.
+// The definition's facts about a field, for the comment behind it.
 std::string note(const Field& field) {
     std::vector<std::string> facts;
     if (!field.units.empty()) facts.push_back(fmt::format("[{}]", field.units));

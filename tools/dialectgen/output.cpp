@@ -34,7 +34,7 @@ constexpr std::string_view macros[] = {"assert", "errno",   "stdin",  "stdout", 
                                        "minor",  "makedev", "NAN",    "INFINITY", "NULL",     "EOF",
                                        "linux",  "unix",    "DOMAIN", "OVERFLOW", "UNDERFLOW"};
 
-// What the generated struct itself calls something: its members, the parameter of `encode`, the namespaces it names.
+// Names that the generated struct itself uses: its members, the parameter of `encode`, the namespaces it names.
 constexpr std::string_view struct_names[] = {"id",     "name",   "crc_extra", "min_length", "max_length",
                                              "decode", "encode", "out",       "mavloom",    "std"};
 

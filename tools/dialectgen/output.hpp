@@ -15,7 +15,8 @@ namespace mavloom::dialectgen {
 // "ATTITUDE_QUATERNION" to "AttitudeQuaternion"; an underscore stays between two digits.
 [[nodiscard]] std::string pascal_case(std::string_view name);
 [[nodiscard]] std::string lower_case(std::string_view name);
-// `name`, with a trailing underscore where C++ or a generated struct has another use for it, never beginning with a digit.
+// `name`, with a trailing underscore where C++ or a generated struct has another use for it, never beginning with a
+// digit.
 [[nodiscard]] std::string safe_member(std::string_view name, std::string_view struct_name);
 [[nodiscard]] std::string safe_enumerator(std::string_view name);
 

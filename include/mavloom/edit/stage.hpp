@@ -55,7 +55,7 @@ struct Counters {
     Counter backward;           // input frames, backward direction
 };
 
-// What to do with the frame. All values but `forward` mean that it was dropped, and have a counter of the same name.
+// The decision about a frame. All values but `forward` mean that it was dropped, and have a counter of the same name.
 enum class Verdict : std::uint8_t { forward, filtered, rate_limited, not_v1 };
 
 struct Outcome {

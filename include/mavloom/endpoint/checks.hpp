@@ -11,7 +11,7 @@
 
 namespace mavloom::endpoint {
 
-// What to do with an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. They are an
+// How to treat an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. They are an
 // error (`refused`), or the owner of the links (the router) applies them (`by_owner`). In the second case the owner
 // also decides which frames count for a link's loss, because only it recognises echoes.
 enum class RoutingOptions : std::uint8_t { refused, by_owner };

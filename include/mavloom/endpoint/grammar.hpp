@@ -40,7 +40,7 @@ using mavloom::shown;
 [[nodiscard]] std::vector<std::string_view> option_names_for(Scheme scheme);
 [[nodiscard]] std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept;
 
-// The keys of [router] in the configuration file. Users sometimes give them as endpoint options; the error then says
+// The keys of [router] in the configuration file. Users sometimes give them as endpoint options; the error then states
 // where they belong.
 inline constexpr std::array<std::string_view, 6> router_keys{"dedup_ms",      "unknown_component", "unknown_target",
                                                              "route_timeout", "heartbeat",         "request_streams"};

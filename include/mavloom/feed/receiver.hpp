@@ -89,7 +89,7 @@ private:
     SourceLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
 
     // The receiving thread adds a name when a link comes up. The consumer caches the last name that it looked up, so it
-    // seldom takes the lock.
+    // rarely takes the lock.
     std::mutex names_mutex_;
     std::unordered_map<LinkId, std::string> names_;  // guarded by names_mutex_; never erased: views stay valid
     LinkId last_named_;                              // used by the consumer only

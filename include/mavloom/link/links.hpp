@@ -92,7 +92,7 @@ struct EndpointInfo {
     }
 };
 
-// What a program that forwards frames does with its links. Links implements it; tests may, too.
+// The operations on links for a program that forwards frames. Links implements it; tests may, too.
 class LinkSet {
 public:
     LinkSet() = default;
@@ -137,7 +137,7 @@ public:
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
     // far side (name look-up, connect) continue in the background if they take long.
     // With `required=true` the call fails if the far side is absent. It waits up to 5 s for a look-up, and up to 5 s
-    // for each TCP connection attempt. After the first turn it never waits, whatever `required` says.
+    // for each TCP connection attempt. After the first turn it never waits, whatever the value of `required`.
     // An option that live links do not support is an error.
     // If `dialect` is given, this endpoint's links use it to find and queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
@@ -193,7 +193,7 @@ public:
     // Reads SO_MEMINFO of every UDP socket into `kernel_drop`. Call it before taking a snapshot and at the end.
     void refresh_kernel_drops();
 
-    // What exists now. A link's `counters` stay valid until its on_link_down has returned.
+    // The links that exist now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
     [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept override;

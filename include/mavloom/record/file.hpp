@@ -19,7 +19,7 @@ namespace mavloom::record {
 
 class File {
 public:
-    // What `read` does while a pipe or device is empty: wait for data, or return an error at once.
+    // The behaviour of `read` while a pipe or device is empty: wait for data, or return an error at once.
     enum class Empty : std::uint8_t { wait, tell };
     // Opens a FIFO at once even if it has no writer; the FIFO stays empty until a writer opens it.
     [[nodiscard]] static SetupResult<File> open_to_read(const std::filesystem::path& path, Empty empty = Empty::wait);

@@ -30,13 +30,13 @@ struct ReadCounters {
 
 class TlogReader {
 public:
-    // `table` must outlive the reader. `empty` says what `next` does while a pipe or device is empty.
+    // `table` must outlive the reader. `empty` selects what `next` does while a pipe or device is empty.
     [[nodiscard]] static SetupResult<TlogReader> open(const std::filesystem::path& path, const wire::MessageTable& table,
                                                       File::Empty empty = File::Empty::wait);
 
     enum class Stop : std::uint8_t {
         end,          // the end of the file was reached
-        failed,       // reading failed; `error` says why
+        failed,       // reading failed; `error` has the reason
         nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; call again
         damage,       // the byte limit was reached without a record that `next` or `next_of` looks for; call again
     };

@@ -85,7 +85,7 @@ struct Decision {
 enum class Reason : std::uint8_t {
     sent,
     tap,            // sent: a tap gets every frame
-    dropped,        // the frame went to no link; the verdict says why
+    dropped,        // the frame went to no link; the verdict is the reason
     ingress,        // the frame arrived on this link
     same_group,     // the frame arrived on another link of the same group
     source_here,    // the frame's sender was heard on this link

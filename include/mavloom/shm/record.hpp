@@ -29,7 +29,7 @@ struct RingRecord {
     std::uint64_t missed = 0;    // records that this reader missed directly before this one
 };
 
-// What a writer does when lossless readers block the ring.
+// The behaviour of a writer when lossless readers block the ring.
 enum class WhenFull : std::uint8_t {
     wait,         // wait for room, until the caller's deadline
     drop_newest,  // drop the new record and count it

@@ -80,7 +80,7 @@ private:
     // If a start byte within it is decided next, that needs as many bytes again.
     static constexpr std::size_t most_kept = max_frame_length + 1;
     static constexpr std::size_t short_chunk = 128;
-    // Holds several short chunks, so that the kept bytes are seldom moved.
+    // Holds several short chunks, so that the kept bytes are rarely moved.
     static constexpr std::size_t buffer_length = 1024;
     static constexpr std::size_t slack = detail::Scanner::enough_slack;
     static_assert(most_kept + std::max(most_kept, short_chunk) <= buffer_length);

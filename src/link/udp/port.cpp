@@ -174,7 +174,7 @@ void UdpPort::flush() {
     });
 }
 
-// Sends the batch. Returns false if the kernel accepts no more for now. What was not sent stays queued.
+// Sends the batch. Returns false if the kernel accepts no more for now. Unsent datagrams stay queued.
 bool UdpPort::submit() {
     net::SendBatch& batch = core_.send_batch;
     int refusals = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds for all definitions: the layout rules of the MAVLink guide, and that it does not matter how definitions are spread over files.
+// What holds for all definitions: the layout rules of the MAVLink guide, and that it does not matter how definitions
+// are spread over files.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

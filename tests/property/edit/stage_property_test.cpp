@@ -22,7 +22,7 @@ std::unique_ptr<Stage> stage(const Options& options) {
     return std::move(*Stage::create(dialect::default_dialect(), options));
 }
 
-// One frame with a good checksum and what the parser says of it; empty if `bytes` are not exactly that.
+// One frame with a good checksum and the parser's view of it; empty if `bytes` are not exactly that.
 bool is_one_good_frame(ByteView bytes) {
     wire::DatagramParser parser(dialect::default_dialect().wire_table());
     int frames = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Decode and encode are inverse, whichever way a field is reached; both printed forms stay within their bounds for any bytes.
+// Decode and encode are inverse, whichever way a field is reached; both printed forms stay within their bounds for any
+// bytes.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

@@ -61,7 +61,7 @@ struct Model {
             earlier.push_back(b);
         }
     }
-    // What was pinned may go again.
+    // Pinned blocks may be dropped again.
     void rewind() {
         if (std::exchange(begun, 0) != 0) jammed = false;
     }

@@ -74,7 +74,8 @@ RC_GTEST_PROP(Tlog, WhatWasWrittenIsRead, ()) {
     RC_ASSERT(reader->counters().lost_bytes.value() == 0u);
 }
 
-// Some bytes are overwritten, taken out or put in. Every record that overlaps none of that is found, in order, and every byte is accounted for.
+// Some bytes are overwritten, taken out or put in. Every record that overlaps none of that is found, in order, and
+// every byte is accounted for.
 RC_GTEST_PROP(Tlog, DamageLosesOnlyWhatItTouches, ()) {
     const auto recording = *rc::gen::nonEmpty(rc::gen::container<std::vector<Sample>>(samples()));
     const TempDir dir;
@@ -99,7 +100,8 @@ RC_GTEST_PROP(Tlog, DamageLosesOnlyWhatItTouches, ()) {
     auto reader = TlogReader::open(path, golden_table());
     const auto found = read_samples(*reader);
 
-    // Put-in bytes between two records can happen to leave the one around them whole, so more may be found than is certain.
+    // Put-in bytes between two records can happen to leave the one around them whole, so more may be found than is
+    // certain.
     auto next = found.begin();
     for (const auto& sample : intact) {
         next = std::find(next, found.end(), sample);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The engine against the naive model over random lives of a network: links come and go, time passes, frames of few sources, targets and
-// sequence numbers, so that copies, echoes, roaming and reboots happen.
+// The engine against the naive model over random lives of a network: links come and go, time passes, frames of few
+// sources, targets and sequence numbers, so that copies, echoes, roaming and reboots happen.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The routing rules once more, naively: lists, linear scans, nothing remembered but what happened. Written from the rules' text, not from the
-// engine.
+// The routing rules once more, naively: lists, linear scans, nothing remembered but what happened. Written from the
+// rules' text, not from the engine.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,7 @@ public:
         if (policy.tap) link.policy.group = 0;
         links_[id] = link;
     }
-    // A frame of this source told of a reboot. False where the source is not known on that link.
+    // A frame of this source revealed a reboot. False where the source is not known on that link.
     bool reboot(std::uint32_t link, std::uint8_t system, std::uint8_t component, MonoTime now) {
         const auto is_it = [&](const Heard& h) {
             return h.link == link && h.system == system && h.component == component;
@@ -198,8 +198,8 @@ private:
         return !link.last_heard || now_ - *link.last_heard >= std::chrono::seconds{3};
     }
 
-    // A link that was silent begins even with the best of its group; who has heard 256 HEARTBEATs halves what all have heard.
-    // HEARTBEATs of a source that was heard on one link of the group only do not count.
+    // A link that was silent begins even with the best of its group; who has heard 256 HEARTBEATs halves what all have
+    // heard. HEARTBEATs of a source that was heard on one link of the group only do not count.
     void count_heartbeat(Link& link, const wire::FrameView& frame, bool doubled) {
         const auto each_of_group = [&](auto change) {
             for (auto& [id, other] : links_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What holds for every input: chunking changes nothing; garbage costs no frame that it does not overlap; every byte is counted once; a frame
-// that is written is found with the same content.
+// What holds for every input: chunking changes nothing; garbage costs no frame that it does not overlap; every byte is
+// counted once; a frame that is written is found with the same content.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -77,7 +77,8 @@ RC_GTEST_PROP(StreamParserProperty, AnyChunkingGivesTheSameEvents, ()) {
     RC_ASSERT(actual.frames == expected.frames);
 }
 
-// With one definition only most frames are of unknown id: what was learned of them must not depend on where chunks end either.
+// With one definition only most frames are of unknown id: what was learned of them must not depend on where chunks end
+// either.
 RC_GTEST_PROP(StreamParserProperty, AnyChunkingGivesTheSameEventsForUnknownIds, ()) {
     const MessageTable only_heartbeat{std::span(test::golden_messages).first(1)};
     Bytes bytes;
@@ -135,8 +136,8 @@ RC_GTEST_PROP(StreamParserProperty, GarbageLosesNoFrameItDoesNotOverlap, ()) {
     RC_ASSERT(log.frames == sent);
 }
 
-// A damaged frame takes none of its intact neighbours with it. (Bytes that the damage turns into a false start may claim a neighbour's bytes,
-// but the scan goes on behind that start.)
+// A damaged frame takes none of its intact neighbours with it. (Bytes that the damage turns into a false start may
+// claim a neighbour's bytes, but the scan continues behind that start.)
 RC_GTEST_PROP(DatagramParserProperty, DamageStaysWithTheDamagedFrame, ()) {
     const auto before = *rc::gen::elementOf(good_frames);
     const auto after = *rc::gen::elementOf(good_frames);
@@ -182,8 +183,8 @@ RC_GTEST_PROP(FrameWriterProperty, WhatIsWrittenIsFoundAgain, ()) {
     RC_ASSERT(found == std::vector<Bytes>{sent});
 }
 
-// Intact frames that a brute-force search sees, checked against what the parser finds: a frame may only be missing where it lies inside
-// another good frame.
+// Intact frames that a brute-force search sees, checked against what the parser finds: a frame may only be missing
+// where it lies inside another good frame.
 RC_GTEST_PROP(DatagramParserProperty, FindsWhatBruteForceFinds, ()) {
     const auto bytes = *line_noise();
     DatagramParser sut{table};

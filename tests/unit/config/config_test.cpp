@@ -337,7 +337,7 @@ TEST(Config, SaysWhyAFileCannotBeRead) {
     EXPECT_EQ(load_config(dir / "long.toml").error().code, SetupCode::bad_input);
 }
 
-// What `check` shows as the default is the default.
+// The default that `check` shows is the default.
 TEST(EndpointOptions, DefaultTextsGiveTheDefaultValues) {
     for (const auto* url : {"udpin://127.0.0.1:1", "udpbcast://192.168.1.255:1", "tcpin://127.0.0.1:1",
                             "serial:///dev/ttyS0", "shm://a", "tlog://a"}) {

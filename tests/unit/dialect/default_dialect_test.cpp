@@ -11,7 +11,8 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// What a PX4 (main of August 2026) and QGroundControl sent in six recordings, by tools that know no dialect.
+// Message ids that a PX4 (main of August 2026) and QGroundControl sent in six recordings, by tools that know no
+// dialect.
 TEST(DefaultDialect, KnowsEveryIdThatPx4AndQGroundControlSent) {
     constexpr std::uint32_t ids[] = {
         0,   1,   2,   4,   8,   11,  20,  21,  22,  23,  24,  29,  30,  31,  32,  33,  36,  41,  42,  43,    44,   45,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The default dialect, compiled in and read from XML, against pymavlink's generator (tools/make_golden_dialect.py), for every message and enum.
+// The default dialect, compiled in and read from XML, against pymavlink's generator (tools/make_golden_dialect.py), for
+// every message and enum.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -221,7 +221,7 @@ TEST(Dialect, OutlivesCopiesAndMoves) {
     EXPECT_EQ(copy.wire_table().find(MessageId{1})->max_length, 4);
 }
 
-// `--dialect FILE`: what the file says stands, the rest stays.
+// `--dialect FILE`: definitions of the file replace, the rest stays.
 TEST(Dialect, WithAnotherReplacesByIdNameAndEntryValue) {
     const XmlFolder folder;
     folder.write(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frames that go in are pymavlink's (tests/support/golden_frames.hpp); frames that must come out are pymavlink's too, made with the same values:
-// its MAVLink_*_message.pack() of the stock wheel 2.4.50, or its x25crc over bytes that were put together by hand.
+// Frames that go in are pymavlink's (tests/support/golden_frames.hpp); frames that must come out are pymavlink's too,
+// made with the same values: its MAVLink_*_message.pack() of the stock wheel 2.4.50, or its x25crc over bytes that were
+// put together by hand.
 #include "mavloom/edit/stage.hpp"
 
 #include <gmock/gmock.h>

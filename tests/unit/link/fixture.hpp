@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of Links share: a small message table, frames, handlers that remember, plain sockets, and waiting for a condition.
+// What the tests of Links share: a small message table, frames, handlers that remember, plain sockets, and waiting for
+// a condition.
 #pragma once
 
 #include <arpa/inet.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What Links refuses, and how it says so.
+// Options that Links refuses, and its error messages.
 #include <sys/stat.h>
 
 #include <fstream>

@@ -25,7 +25,8 @@ std::string content(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Of the key in SetUp: the first 8 bytes of hashlib.sha256(b"mavloom: which signing key" + b"\xaa" * 32), as a little-endian number.
+// Of the key in SetUp: the first 8 bytes of hashlib.sha256(b"mavloom: which signing key" + b"\xaa" * 32), as a
+// little-endian number.
 constexpr std::string_view key_line = "key 9383837124702055004\n";
 
 class SigningTimes : public testing::Test {

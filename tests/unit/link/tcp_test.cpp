@@ -99,7 +99,7 @@ TEST_F(LinksTcp, CountersAreThereWhileALinkGoesDown) {
     EXPECT_EQ(last.frames_in, 2u);
 }
 
-// DESIGN.md rule 2: a stalled client harms itself only, and gets whole frames when it reads again.
+// A stalled client harms itself only, and gets whole frames when it reads again.
 TEST_F(LinksTcp, ASlowClientLosesWholeFramesOnlyAndTheOthersNone) {
     const auto slow = connect(4096), quick = connect();
     ASSERT_TRUE(until([&] { return node.recorder.ups.size() == 2; }, node));

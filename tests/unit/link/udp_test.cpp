@@ -44,7 +44,8 @@ TEST(LinksUdp, ReceiveTimesAreTheKernels) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");
     const auto peer = PlainSocket::udp();
-    // The kernel switches time stamps on some time after the first socket asked; until then it stamps when the datagram is read.
+    // The kernel switches time stamps on some time after the first socket asked; until then it stamps when the datagram
+    // is read.
     bool stamped_on_arrival = false;
     const MonoTime deadline = mono_now() + std::chrono::seconds(60);
     for (std::uint8_t i = 0; !stamped_on_arrival && mono_now() < deadline; ++i) {
@@ -340,7 +341,7 @@ TEST(LinksUdp, ARefusalIsForgottenAfterASecond) {
     const auto out = node.add(to("udpout", port));
     ASSERT_EQ(node.links->send(out, view(heartbeat(0))), 1u);
     ASSERT_TRUE(until([&] { return node.info(out).counters->send_errors.value() == 1; }, node));
-    const auto far_side = PlainSocket::udp(port);  // listens, and says nothing
+    const auto far_side = PlainSocket::udp(port);  // listens, and sends nothing
     ASSERT_TRUE(until([&, last = mono_now()] { return mono_now() - last > std::chrono::seconds(1); }, node));
     EXPECT_EQ(node.links->send(out, view(attitude(0))), 1u);
     node.poll();
@@ -381,7 +382,7 @@ TEST(LinksUdp, CallingANameTriesItsNextAddress) {
     const LinkCounters& counters = *caller.links->links().at(0).counters;
     ASSERT_TRUE(until([&] { return counters.frames_out.value() != 0; }, listener, caller));
     const auto refused = counters.refused.value(), sent = counters.frames_out.value();
-    caller.links->send(out, view(heartbeat(1)));  // what the first address refused says nothing of this one
+    caller.links->send(out, view(heartbeat(1)));  // a refusal by the first address proves nothing about this one
     ASSERT_TRUE(until([&] { return counters.frames_out.value() == sent + 1; }, listener, caller));
     EXPECT_EQ(counters.refused.value(), refused);
 }

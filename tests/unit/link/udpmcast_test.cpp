@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// IPv4 over the loopback interface, which carries its groups when it is named; IPv6 groups have no route there and take another interface,
-// with ttl=0, so that nothing leaves this machine.
+// IPv4 over the loopback interface, which carries its groups when it is named; IPv6 groups have no route there and take
+// another interface, with ttl=0, so that nothing leaves this machine.
 #include <ifaddrs.h>
 #include <net/if.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every message of the built-in dialect against tests/golden/messages.tsv: frames and values by pymavlink (tools/make_golden_messages.py).
+// Every message of the built-in dialect against tests/golden/messages.tsv: frames and values by pymavlink
+// (tools/make_golden_messages.py).
 #include <gtest/gtest.h>
 
 #include <fstream>

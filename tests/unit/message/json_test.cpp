@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The JSON form is a contract: DESIGN.md section 5. Expected lines are written by hand from it.
+// The JSON form is a contract: docs/guide/listen.md. Expected lines are written by hand from it.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -128,7 +128,8 @@ TEST(Json, EveryCharacterAtEveryPlaceReadsBack) {
     }
 }
 
-// The formatter with keys made ahead prints what append_json prints; here over all kinds of message, and one of another dialect.
+// The formatter with keys made ahead prints what append_json prints; here over all kinds of message, and one of another
+// dialect.
 TEST(JsonFormatter, PrintsTheSameObject) {
     const JsonFormatter sut(sample_dialect());
     std::vector<Message> definitions(std::begin(messages), std::end(messages));

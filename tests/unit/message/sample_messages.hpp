@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hand-written definitions for the tests of module message, laid out by hand from the public XML, so that these tests need neither the XML
-// reader nor the built-in tables.
+// Hand-written definitions for the tests of module message, laid out by hand from the public XML, so that these tests
+// need neither the XML reader nor the built-in tables.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ using dialect::Message;
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();
 constexpr float inf_f = std::numeric_limits<float>::infinity();
 
-// What a definition leaves out is meant to be left out.
+// Members that a definition leaves out are left out on purpose.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 

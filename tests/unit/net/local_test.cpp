@@ -110,7 +110,8 @@ TEST_F(LocalSocketTest, RefusesATakenPlaceAndAPathThatIsTooLong) {
     EXPECT_FALSE(LocalSocket::open(dir / std::string(200, 'x'), 0600));
 }
 
-// The kernel says "refused" once, and not even that to a batch whose first datagrams went; from then on "not connected".
+// The kernel reports "refused" once, and not even that to a batch whose first datagrams went; from then on "not
+// connected".
 TEST_F(LocalSocketTest, ASenderWhoseFarSideWentIsToldSoEachTime) {
     auto far_side = LocalSocket::open(path, 0600);
     ASSERT_TRUE(far_side);

@@ -44,7 +44,7 @@ public:
     void write(const std::vector<std::uint8_t>& bytes) const {
         EXPECT_EQ(::write(fd_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
     }
-    // What is there now.
+    // The bytes that are there now.
     [[nodiscard]] std::vector<std::uint8_t> read() const {
         std::vector<std::uint8_t> bytes(65536);
         const ssize_t count = ::read(fd_, bytes.data(), bytes.size());

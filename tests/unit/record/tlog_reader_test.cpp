@@ -187,7 +187,7 @@ TEST(TlogReader, RefusesAnUnknownIdThatEndsNowhere) {
 }
 
 TEST(TlogReader, SkipsAndCountsFramesWithAnUndefinedFlag) {
-    // heartbeat_v2 with incompatibility flag 0x04 and its checksum made anew by pymavlink's x25crc.
+    // heartbeat_v2 with incompatibility flag 0x04 and its checksum by pymavlink's x25crc.
     const Bytes flagged = test::hex("fd09040007010100000000000402020c510403921c");
     const auto outcome = read_bytes(record(t0, flagged) + record(t0 + 1, test::attitude_v2));
 
@@ -371,7 +371,7 @@ TEST(TlogReader, GivesWayWhereThereIsNothingButDamage) {
     }
 }
 
-// Who reads one message of a long recording gets to signals although it does not occur.
+// A program that reads one message of a long recording handles signals although the message does not occur.
 TEST(TlogReader, GivesWayWhereOnlyOtherMessagesAre) {
     const TempDir dir;
     Bytes content;

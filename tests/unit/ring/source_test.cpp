@@ -58,7 +58,7 @@ struct RingSourceTest : ::testing::Test {
     }
 };
 
-// Nothing of a writer that goes on may keep a loop from waiting for its other sources.
+// A writer that continues must not keep a loop from waiting for its other sources.
 TEST_F(RingSourceTest, AtItsEndItIsNeverDueHoweverMuchIsWritten) {
     ASSERT_TRUE(sut.open());
     write(3);

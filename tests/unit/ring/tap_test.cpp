@@ -248,7 +248,7 @@ TEST(RingPage, TheBusiestHaveRowsAndTheRestASum) {
     EXPECT_EQ(unlinked(*seen)["links"], 300u);
     EXPECT_EQ(unlinked(*seen)["inlet_stray_bytes"], 77u);
 
-    // Who becomes busy gets a row, and somebody idle gives his back: again and again, in as much room.
+    // A source that becomes busy gets a row, and an idle one returns its row: again and again, in the same room.
     for (std::size_t busy = 256; busy < 300; ++busy) {
         links[busy].counters.frames_in.set(1000);
         page->refresh(infos(links), endpoints, link::EndpointId{4}, {});

@@ -161,7 +161,8 @@ TEST(Engine, ARebootOnALinkThatIsGoneForgetsNothing) {
     EXPECT_EQ(sut.engine.counters().reboots.value(), 0u);
 }
 
-// A router that hears itself, or two that hear each other: the first heartbeat is sent while there is no link yet that brings it back.
+// A router that hears itself, or two that hear each other: the first heartbeat is sent while there is no link yet that
+// brings it back.
 TEST(Engine, TheOwnFrameThatComesBackByALaterLinkIsNotSentAgain) {
     Network sut;
     sut.links(1);
@@ -275,7 +276,8 @@ TEST(Engine, CopyFromAnotherLinkGoesOnlyWhereTheFrameHasNotBeen) {
     EXPECT_EQ(sut.counters(late).duplicate.value(), 1u);
 }
 
-// One router reaches the other through its udpout, and the other it through its own: whatever comes back comes on a link to which it was not sent.
+// One router reaches the other through its udpout, and the other it through its own: whatever comes back comes on a
+// link to which it was not sent.
 TEST(Engine, LoopOfTwoRoutersEndsAlsoForAFrameThatTheNetworkDoubles) {
     Network sut;
     sut.links(3);  // the vehicle, the way to the other router, the way back

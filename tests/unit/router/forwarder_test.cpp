@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a router does with a frame, over links that the test plays. Rules: docs/guide/routing.md and docs/guide/route.md.
-// Which links a frame goes to is the engine's decision: unit/route.
+// What a router does with a frame, over links that the test plays. Rules: docs/guide/routing.md and
+// docs/guide/route.md. Which links a frame goes to is the engine's decision: unit/route.
 #include "router/forwarder.hpp"
 
 #include <gmock/gmock.h>

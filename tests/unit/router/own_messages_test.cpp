@@ -39,7 +39,7 @@ struct Router {
                },
                [this](LinkId) { return answered; }}) {}
 
-    // What is sent from `from` for so long, looked at as often as it asks to be.
+    // Returns what is sent from `from` on for `length`. Runs it whenever it asks to be run.
     std::vector<Sent> run(MonoTime from, Nanoseconds length) {
         sent.clear();
         for (MonoTime now = from; now < from + length; now = std::max(sut.next_due(), now + 1ms)) sut.send_due(now);

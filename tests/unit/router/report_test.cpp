@@ -22,7 +22,7 @@ struct RouterReport : testing::Test {
     std::unique_ptr<Router> router;
 };
 
-// Its text is made on another thread, while the router goes on.
+// Its text is made on another thread, while the router continues.
 TEST_F(RouterReport, IsACopyThatNeedsNoRouter) {
     const auto stats = report_stats(*router);
     const auto metrics = report_metrics(*router);
@@ -34,7 +34,7 @@ TEST_F(RouterReport, IsACopyThatNeedsNoRouter) {
                             StartsWith(R"({"kind":"gone","endpoint":"far",)"),
                             StartsWith(R"({"kind":"link","link":"far","endpoint":"far",)")));
     EXPECT_THAT(metrics(), HasSubstr("mavloom_link_frames_in_total{link=\"far\"} 0\n"));
-    // What is judged again may fall: Prometheus would take that of a counter for a restart.
+    // These numbers are corrected later and may fall, which Prometheus takes for the restart of a counter.
     EXPECT_THAT(metrics(), AllOf(HasSubstr("# TYPE mavloom_link_lost_total gauge\n"),
                                  HasSubstr("# TYPE mavloom_gone_resync_total gauge\n"),
                                  HasSubstr("# TYPE mavloom_link_frames_in_total counter\n")));

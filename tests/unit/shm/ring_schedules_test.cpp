@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ring's algorithm in every schedule of a few operations (support/schedule.hpp): what each reader gets must be the records that were written, whole and
-// in order, and what it is told to have missed must make up for the rest.
+// The ring's algorithm in every schedule of a few operations (support/schedule.hpp): what each reader gets must be the
+// records that were written, whole and in order, and the reported number of missed records must account for the rest.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -71,7 +71,7 @@ std::uint64_t content_in(const RingRecord& record) {
     return content;
 }
 
-// What one reader got; no heap, for it lives on an actor's stack or is captured.
+// The records that one reader got. Uses no heap, because it lives on an actor's stack or is captured.
 struct Log {
     std::uint64_t expected = 0;  // sequence of the next record
     std::uint64_t delivered = 0;
@@ -119,7 +119,8 @@ Bounds within(int preemptions, int delays = 0) {
 
 bool failed() { return ::testing::Test::HasFailure(); }
 
-// A lossy reader at the oldest record of a ring that is one record short of a lap, while so many more are written. Returns the number of schedules.
+// A lossy reader at the oldest record of a ring that is one record short of a lap, while so many more are written.
+// Returns the number of schedules.
 std::size_t lap_a_lossy_reader(Bounds bounds, unsigned writes) {
     return explore(
         bounds,
@@ -167,7 +168,7 @@ TEST(RingSchedules, ALosslessReaderThatComesWhileTheWriterRunsMissesNothingFromT
                     RingRecord record;
                     if (!intact || reader.next(record) != Found::record) return;
                     const std::uint64_t before = content_in(record);
-                    test::running_schedule->step();  // the writer may go on, but not over this record
+                    test::running_schedule->step();  // the writer may continue, but not over this record
                     intact = content_in(record) == before;
                     log.take(record);
                 });
@@ -180,8 +181,8 @@ TEST(RingSchedules, ALosslessReaderThatComesWhileTheWriterRunsMissesNothingFromT
             failed);
 }
 
-// A lossless reader at the oldest record of a ring that is one record short of a lap, from which a writer takes the hold for so many records.
-// `read(reader, look)`: false for damage.
+// A lossless reader at the oldest record of a ring that is one record short of a lap, from which a writer takes the
+// hold for so many records. `read(reader, look)`: false for damage.
 template <class Read>
 void evict_a_lossless_reader(unsigned writes, Read read) {
     explore(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The system calls by which rings are made and locked, defined here once more for this program: they count, and end the process where a test says so.
+// The system calls by which rings are made and locked, defined here once more for this program: they count, and end the
+// process where a test asks for it.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -558,7 +558,7 @@ TEST(Ring, StatusTellsWhoIsAttachedAndHowFarBehind) {
     EXPECT_THAT(ring_names(), ::testing::Contains(name.text()));
 }
 
-// Whoever waits for a reader to be listed may count on it that what is written from then on reaches it.
+// Once a reader is listed, it gets every record that is written from then on.
 TEST(Ring, AReaderIsListedOnceItHasItsPlace) {
     const RingName name;
     const auto writer = open_writer(name);

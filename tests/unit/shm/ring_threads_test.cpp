@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads that share one mapping, so that the thread sanitizer sees both sides (two mappings of one file are two places to it). Judged by what was read,
-// never by speed.
+// Threads that share one mapping, so that the thread sanitizer sees both sides (two mappings of one file are two places
+// to it). Judged by what was read, never by speed.
 #include <gtest/gtest.h>
 
 #include <atomic>

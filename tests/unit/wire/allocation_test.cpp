@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finding frames, tracking their sequence and writing them allocates nothing once the objects exist, for good bytes and bad.
+// Finding frames, tracking their sequence and writing them allocates nothing once the objects exist, for good bytes and
+// bad.
 #include <gtest/gtest.h>
 
 #include "mavloom/wire/datagram_parser.hpp"

@@ -47,8 +47,8 @@ TEST(Crc, AllFormsAgreeByteByByteAtEveryLength) {
     }
 }
 
-// Each length with just its own bytes readable, and with a whole group of 64 more; a single wrong bit is never accepted, neither in CRC_EXTRA
-// nor in the checksum.
+// Each length with just its own bytes readable, and with a whole group of 64 more; a single wrong bit is never
+// accepted, neither in CRC_EXTRA nor in the checksum.
 TEST(Crc, AllFormsCheckWhatTheByteByByteFormComputes) {
     Bytes bytes(400);
     std::uint32_t state = 54321;

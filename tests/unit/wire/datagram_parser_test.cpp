@@ -25,7 +25,8 @@ struct DatagramParserTest : ::testing::Test {
     }
 };
 
-// A heartbeat with an incompatibility flag that nobody has defined, and the checksum that belongs to it (by pymavlink's x25crc).
+// A heartbeat with an incompatibility flag that nobody has defined, and the checksum that belongs to it (by pymavlink's
+// x25crc).
 const Bytes heartbeat_flag_4 = test::hex("fd09040007010100000000000402020c510403921c");
 
 }  // namespace

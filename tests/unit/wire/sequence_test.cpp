@@ -254,7 +254,7 @@ TEST(Restart, IsThatOfAnAutopilot) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(camera.send(attitude, 300).verdict, Verdict::good);
 
     EXPECT_EQ(camera.send(system_time, 100'000).verdict, Verdict::good);
-    EXPECT_EQ(camera.send(system_time, 300).verdict, Verdict::reboot);  // whoever sends SYSTEM_TIME
+    EXPECT_EQ(camera.send(system_time, 300).verdict, Verdict::reboot);  // any component that sends SYSTEM_TIME
 }
 
 TEST(Restart, IsNotToldByAClockOfZero) {

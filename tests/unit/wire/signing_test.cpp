@@ -161,7 +161,7 @@ TEST(Verifier, BoundsItsStreams) {
 
     EXPECT_EQ(accepted, Verifier::max_streams);
     sender.link = 0;
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}, 0), noon), Verdict::good);  // known streams go on
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}, 0), noon), Verdict::good);  // known streams continue
 }
 
 TEST(Signer, NeverRepeatsATimeWhenTheClockStands) {

@@ -53,7 +53,8 @@ TEST_F(StreamParserTest, FindsFramesCutAnywhereInTwo) {
     }
 }
 
-// routing.md case N5: one byte is missing; at most that frame is lost and what is behind it comes without waiting for more input.
+// routing.md case N5: one byte is missing; at most that frame is lost and what is behind it comes without waiting for
+// more input.
 TEST_F(StreamParserTest, LosesOnlyTheFrameThatLacksAByte) {
     auto first = test::attitude_v1;
     first.erase(first.begin() + 12);
@@ -64,7 +65,8 @@ TEST_F(StreamParserTest, LosesOnlyTheFrameThatLacksAByte) {
     EXPECT_EQ(sut.counters().junk_bytes.value(), first.size());
 }
 
-// Case N6: a start byte in noise announces 255 bytes; what is held back is fewer than 280 bytes and no false frame comes of it.
+// Case N6: a start byte in noise announces 255 bytes; what is held back is fewer than 280 bytes and no false frame
+// comes of it.
 TEST_F(StreamParserTest, AFalseStartHoldsBackLessThan280Bytes) {
     feed({0xfd, 255, 0, 0, 0, 1, 1, 30, 0, 0});
     std::size_t fed = 10;

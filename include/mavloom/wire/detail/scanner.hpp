@@ -13,7 +13,7 @@
 
 namespace mavloom::wire::detail {
 
-// What may follow the bytes that were passed.
+// Whether more bytes may follow those that were passed.
 enum class End : std::uint8_t {
     open,    // more bytes of the stream: an incomplete frame waits
     idle,    // nothing for now: an incomplete frame still waits, a whole frame of unknown id is complete
@@ -40,7 +40,8 @@ public:
         return at;
     }
 
-    // One step of `scan`: a frame, or one byte that begins none. Returns 0 if more bytes are needed. `bytes` is not empty.
+    // One step of `scan`: a frame, or one byte that begins none. Returns 0 if more bytes are needed. `bytes` is not
+    // empty.
     template <class Sink>
     std::size_t scan_one(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         const Candidate found = examine(bytes.data(), bytes.size(), end, slack);
