@@ -51,7 +51,7 @@ private:
     const Common& common_;
 };
 
-// What the relay did: as log lines, and as one JSON object.
+// Prints the relay's results: as log lines, and as one JSON object.
 void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
                 const feed::RelayOutcome& outcome) {
     say_sums(common, destinations);

@@ -21,8 +21,8 @@ namespace mavloom::feed {
 // Creates the recording of a tlog:// destination. It rotates as the endpoint's options say.
 [[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const endpoint::Endpoint& endpoint);
 
-// What became of the frames for one live destination, including those on links that are gone. docs/guide/relay.md
-// explains the counts.
+// Counts of the frames for one live destination, including those on links that are gone. docs/guide/relay.md
+// explains them.
 struct Delivery {
     std::string name;
     std::uint64_t frames = 0, bytes = 0;  // sent

@@ -19,7 +19,7 @@
 
 namespace mavloom::feed {
 
-// What a relay reports while it runs. It calls these functions on its own thread.
+// A relay reports here while it runs. It calls these functions on its own thread.
 class RelayHandler {
 public:
     virtual ~RelayHandler() = default;
