@@ -425,5 +425,11 @@ TEST_F(ChannelTest, LossesOfLinksOfOneNameAreAdded) {
     EXPECT_EQ(channel->names().find(LinkId{1}), "peer");
 }
 
+TEST_F(ChannelTest, AClosedChannelHasNoPeers) {
+    channel->on_link_up(LinkId{1}, "peer");
+    channel->close();
+    EXPECT_EQ(channel->peers(), 0u);
+}
+
 }  // namespace
 }  // namespace mavloom::feed

@@ -23,6 +23,13 @@ struct Reader {
     wire::FrameView frame;
 };
 
+// A frame with a payload of this length, whose last byte is not 0.
+Bytes cut_after(std::size_t length) {
+    Bytes payload(255);
+    payload[0] = payload[length - 1] = 1;
+    return frame_of(131, payload);
+}
+
 void push_numbers(FrameRing& ring, std::uint32_t first, std::uint32_t last) {
     for (auto number = first; number <= last; ++number) ring.push({}, view(numbered(number)));
 }
@@ -98,12 +105,13 @@ TEST(FrameRing, TheCapacityIsInBytes) {
 TEST(FrameRing, AsLongAsThereIsRoomNothingUnreadIsOverwritten) {
     FrameRing ring(smallest_buffer);
     Reader reader(ring);
-    const auto longest = frame_of(131, Bytes(255, 1));
+    std::vector<Bytes> frames;
+    for (const std::size_t length : {255, 17, 254, 101, 253, 240, 3}) frames.push_back(cut_after(length));
     std::uint64_t pushed = 0, read = 0;
-    for (int round = 0; round < 200; ++round) {
-        for (; ring.has_room(reader.at, 3); pushed += 3)
-            for (int i = 0; i < 3; ++i) ring.push({}, view(longest));
-        for (int i = 0; i < 5 + round; ++i) read += reader.next() != 0;
+    for (std::uint32_t round = 0; round < 20'000; ++round) {
+        for (; ring.has_room(reader.at, 1); ++pushed)  // of many lengths, so that the wrap comes anywhere
+            ring.push({}, view(frames[pushed % frames.size()]));
+        read += reader.next() != 0;
     }
     while (reader.next() != 0) ++read;
     EXPECT_EQ(reader.missed, 0u);
