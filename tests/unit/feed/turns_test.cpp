@@ -110,9 +110,12 @@ TEST(Turns, WhoTriesLosesNoTurnToAGlance) {
     });
     int refused = 0;
     while (glances < enough) {
-        const auto lock = turns.try_take();
-        if (lock.owns_lock()) --guarded;
-        else ++refused;
+        {
+            const auto lock = turns.try_take();
+            if (lock.owns_lock()) --guarded;
+            else ++refused;
+        }
+        std::this_thread::yield();  // to the glancing thread, so that it gets the lock too
     }
     glancing.join();
     EXPECT_EQ(refused, 0);
