@@ -33,9 +33,9 @@ def included_by() -> dict[str, set[str]]:
 
 
 def spelling_of(path: str) -> str:
-    """As an #include has it: below include/, src/, or in the file's own folder."""
+    """As an #include has it: below include/, src/ or python/src/, or in the file's own folder."""
     top = next(top for top in TOPS if path.startswith(top + "/"))
-    return path[len(top) + 1:] if top in ("include", "src") else pathlib.PurePath(path).name
+    return path[len(top) + 1:] if top != "apps" else pathlib.PurePath(path).name
 
 
 def main() -> int:

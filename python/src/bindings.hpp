@@ -9,6 +9,7 @@ namespace mavloom::python {
 void bind_parser(nanobind::module_& module);
 void bind_recording(nanobind::module_& module);
 void bind_link(nanobind::module_& module);
+void bind_subscription(nanobind::module_& module);
 void bind_columns(nanobind::module_& module);
 void bind_ring_writer(nanobind::module_& module);
 void bind_ring_reader(nanobind::module_& module);

@@ -3,9 +3,9 @@
 #include <nanobind/stl/string_view.h>
 
 #include "bindings.hpp"
-#include "definitions.hpp"
 #include "mavloom/base/version.hpp"
-#include "message.hpp"
+#include "message/definitions.hpp"
+#include "message/message.hpp"
 
 NB_MODULE(_core, module) {
     using namespace mavloom::python;

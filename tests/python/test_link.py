@@ -959,4 +959,4 @@ def test_nothing_takes_the_gil_back_but_at_the_end_of_without_gil():
     """A thread that asks for the GIL of an interpreter that has ended takes the process with it: WithoutGil's end knows
     of that."""
     sources = pathlib.Path(__file__).parents[2] / "python" / "src"
-    assert [path.name for path in sorted(sources.iterdir()) if "gil_scoped_acquire" in path.read_text()] == []
+    assert [path.name for path in sorted(sources.rglob("*.[ch]pp")) if "gil_scoped_acquire" in path.read_text()] == []

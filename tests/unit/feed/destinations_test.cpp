@@ -2,7 +2,7 @@
 #include "mavloom/feed/destinations.hpp"
 
 #include "mavloom/link/flush.hpp"
-#include "unit/feed/fixture.hpp"
+#include "unit/feed/sending_fixture.hpp"
 
 namespace mavloom::feed {
 namespace {

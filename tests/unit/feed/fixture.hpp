@@ -1,70 +1,115 @@
 // SPDX-License-Identifier: MIT
-// What the tests of Destinations and Relay share: recordings byte by byte (docs/formats/tlog.md), and what a plain
-// socket receives.
+// What the tests of the hub and its channels share: numbered frames, reading, descriptors, and waiting for a condition.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <utility>
+#include <poll.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include "mavloom/dialect/dialect.hpp"
-#include "mavloom/feed/destinations.hpp"
-#include "support/temp_dir.hpp"
+#include "mavloom/feed/channel.hpp"
 #include "unit/link/fixture.hpp"
 
 namespace mavloom::feed::testing {
 
+using namespace std::chrono_literals;
 using link::testing::Bytes;
+using link::testing::endpoint_of;
 using link::testing::PlainSocket;
+using link::testing::view;
 
-inline WallTime at_ms(std::int64_t ms) { return WallTime{std::chrono::milliseconds{ms}}; }
+inline constexpr std::size_t smallest_buffer = 64 * 1024;
+inline constexpr auto long_enough = 60s;
 
-// A record: the Unix time in microseconds, eight bytes, big-endian; then the frame.
-inline Bytes record(WallTime time, const Bytes& frame) {
-    using std::chrono::duration_cast, std::chrono::microseconds;
-    const auto us = static_cast<std::uint64_t>(duration_cast<microseconds>(time.time_since_epoch()).count());
-    Bytes bytes;
-    for (int shift = 56; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(us >> shift));
-    bytes.insert(bytes.end(), frame.begin(), frame.end());
-    return bytes;
+// A frame of the default dialect. A short payload is filled with zeros.
+inline Bytes frame_of(std::uint32_t id, Bytes payload = {}, Source source = {SystemId{1}, ComponentId{1}}) {
+    const auto& info = *dialect::default_dialect().wire_table().find(MessageId{id});
+    payload.resize(info.max_length);
+    wire::FrameBuffer buffer;
+    const auto frame = wire::write_frame(buffer, {wire::Version::v2, 0, source}, info, payload);
+    return {frame.bytes().begin(), frame.bytes().end()};
 }
 
-inline void append(Bytes& all, const Bytes& more) { all.insert(all.end(), more.begin(), more.end()); }
+inline constexpr std::uint32_t attitude_id = 30;
 
-// The frames of a recording of unsigned MAVLink 2 frames, one after another.
-inline Bytes frames_of(const std::filesystem::path& tlog) {
-    const Bytes all = test::content_of(tlog);
-    Bytes frames;
-    for (std::size_t at = 0; at + 10 < all.size();) {
-        const std::size_t begin = at + 8, length = 12u + all[begin + 1];
-        frames.insert(frames.end(), all.begin() + static_cast<std::ptrdiff_t>(begin),
-                      all.begin() + static_cast<std::ptrdiff_t>(begin + length));
-        at = begin + length;
+// An ATTITUDE that holds a number from 1 up and comes from `system`.
+inline Bytes numbered(std::uint32_t number, std::uint8_t system = 1) {
+    Bytes payload(sizeof number);
+    std::memcpy(payload.data(), &number, sizeof number);
+    return frame_of(attitude_id, payload, {SystemId{system}, ComponentId{1}});
+}
+inline std::uint32_t number_of(const wire::FrameView& frame) {
+    std::uint32_t number = 0;
+    const auto payload = frame.payload();
+    std::memcpy(&number, payload.data(), std::min(payload.size(), sizeof number));
+    return number;
+}
+
+inline std::shared_ptr<const dialect::Dialect> default_dialect() {
+    return {std::shared_ptr<void>(), &dialect::default_dialect()};
+}
+inline std::shared_ptr<Channel> make_channel(std::size_t buffer_bytes = smallest_buffer) {
+    return std::make_shared<Channel>(default_dialect(), std::make_shared<LinkNames>(), buffer_bytes, false);
+}
+
+inline link::RxFrame received(const Bytes& bytes, LinkId link, WallTime time) {
+    link::RxFrame rx;
+    rx.frame = view(bytes);
+    rx.info = dialect::default_dialect().wire_table().find(rx.frame.id());
+    rx.link = link;
+    rx.time = time;
+    return rx;
+}
+// As the loop thread does with a frame that it received.
+inline void receive(Channel& channel, const Bytes& bytes, LinkId link = LinkId{1}, MonoTime now = {}) {
+    channel.on_frame(received(bytes, link, WallTime{1s}), now);
+}
+inline void receive_numbers(Channel& channel, std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t number = first; number <= last; ++number) receive(channel, numbered(number));
+    channel.publish();
+}
+
+// All that `reader` has now.
+inline std::vector<std::uint32_t> numbers_in(Consumer& reader) {
+    std::vector<std::uint32_t> numbers;
+    FrameBatch batch;
+    for (bool more = true; more; batch.clear()) {
+        more = reader.take(batch, 256) && batch.size() != 0;
+        while (const auto* item = batch.next()) numbers.push_back(number_of(batch.frame(*item)));
     }
-    return frames;
+    return numbers;
+}
+inline std::vector<std::uint32_t> from_to(std::uint32_t first, std::uint32_t last) {
+    std::vector<std::uint32_t> numbers;
+    for (auto number = first; number <= last; ++number) numbers.push_back(number);
+    return numbers;
 }
 
-// Appends all that has arrived at the socket.
-inline void read_into(Bytes& all, const PlainSocket& socket) {
-    for (Bytes more = socket.read(); !more.empty(); more = socket.read()) append(all, more);
+// Whether the descriptor becomes readable. A test that expects no passes no time.
+inline bool is_readable(int fd, std::chrono::milliseconds within = 0ms) {
+    pollfd wanted{fd, POLLIN, 0};
+    return ::poll(&wanted, 1, static_cast<int>(within.count())) == 1;
+}
+// Reads an eventfd empty. Returns how often it was told since the last time.
+inline std::uint64_t read_count(int fd) {
+    std::uint64_t count = 0;
+    return ::read(fd, &count, sizeof count) == sizeof count ? count : 0;
 }
 
-inline std::string udpout(const PlainSocket& to) { return "udpout://127.0.0.1:" + std::to_string(to.port()); }
-
-inline std::vector<endpoint::Endpoint> endpoints_of(const std::vector<std::string>& urls) {
-    std::vector<endpoint::Endpoint> all;
-    for (const auto& url : urls) all.push_back(link::testing::endpoint_of(url));
-    return all;
+template <class Condition>
+[[nodiscard]] bool eventually(Condition&& condition) {
+    for (const auto limit = mono_now() + long_enough; !condition();) {
+        if (mono_now() > limit) return false;
+        std::this_thread::sleep_for(1ms);
+    }
+    return true;
 }
-
-inline Destinations open(const std::vector<std::string>& urls, link::Links& links) {
-    auto all = Destinations::open(endpoints_of(urls), links);
-    if (!all) throw std::runtime_error(all.error().text);
-    return std::move(*all);
-}
-
-// The port of the endpoint that was opened last.
-inline std::uint16_t last_port(const link::Links& links) { return links.endpoints().back().local_port; }
 
 }  // namespace mavloom::feed::testing

@@ -5,7 +5,7 @@
 #include <limits>
 #include <thread>
 
-#include "unit/feed/fixture.hpp"
+#include "unit/feed/sending_fixture.hpp"
 
 namespace mavloom::feed {
 namespace {

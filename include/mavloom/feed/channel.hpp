@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Channel: the frames of one endpoint, on their way from one loop thread to any number of readers. Consumer: one
+// reader.
+// The loop thread never waits for a reader: frames go into a bounded buffer, which overwrites the oldest ones, and each
+// reader counts those that it missed. Any thread, except for the functions under "loop thread". The channel must
+// outlive its readers, which hold a shared pointer to it.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "mavloom/feed/filter.hpp"
+#include "mavloom/feed/frame_batch.hpp"
+#include "mavloom/feed/frame_ring.hpp"
+#include "mavloom/feed/link_names.hpp"
+#include "mavloom/feed/newest_frames.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/wire/sequence.hpp"
+
+namespace mavloom::feed {
+
+class Consumer;
+
+// The loss of each source on each link. The key holds the name of the link.
+using Losses = std::map<std::tuple<std::string, Source>, wire::SequenceStats>;
+void add_to(Losses& losses, std::string link, const wire::SequenceStats& stats);
+
+class Channel {
+public:
+    // Frames of one message id with a wrong checksum: damaged, or encoded with another definition.
+    struct CrcErrors {
+        std::uint64_t count = 0;
+        bool always = false;  // no good frame of this id was ever received
+    };
+
+    // `buffer_bytes` is the size of the FrameRing. With `verifies`, the endpoint lets only valid signatures pass.
+    Channel(std::shared_ptr<const dialect::Dialect> dialect, std::shared_ptr<LinkNames> names, std::size_t buffer_bytes,
+            bool verifies)
+        : dialect_(std::move(dialect)), names_(std::move(names)), verifies_(verifies), ring_(buffer_bytes) {}
+
+    [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return *dialect_; }
+    [[nodiscard]] const LinkNames& names() const noexcept { return *names_; }
+    // How many peers are there now.
+    [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
+
+    // Returns a copy of the newest frame that matches: see NewestFrames.
+    [[nodiscard]] std::optional<NewestFrames::Entry> latest(const Filter& filter,
+                                                            const std::optional<Instance>& instance,
+                                                            MonoTime not_before) const;
+    // Frames that `latest` does not know, because NewestFrames had no place.
+    [[nodiscard]] std::uint64_t not_kept() const;
+    // Source of the first heartbeat from a vehicle; zeros before it.
+    [[nodiscard]] Source target() const;
+    [[nodiscard]] std::map<MessageId, CrcErrors> crc_errors() const;
+    // Losses of links that are gone.
+    [[nodiscard]] Losses losses() const;
+
+    // ---- loop thread
+    void on_frame(const link::RxFrame& rx, MonoTime now);
+    void on_link_up(LinkId link, std::string_view name);
+    void on_link_down(LinkId link, std::span<const wire::SequenceStats> losses);
+    void on_bad_checksum(MessageId id);
+    // Names a link of a ring. Such a link is not a peer: nothing can be sent to it.
+    void name_link(LinkId link, std::string_view name) { names_->add(link, std::string(name)); }
+    void forget_link(LinkId link, std::span<const wire::SequenceStats> losses);
+    // Wakes readers that wait for frames that arrived since the last call.
+    void publish();
+    // Ends the channel: no frames follow, and readers get none of those that are left.
+    void close();
+
+    // For a source that can pause, such as a lossless ring:
+    static constexpr std::size_t frames_a_turn = 128;
+    // Protects what `reader` has not read from being overwritten, as long as the caller obeys `has_room`. The
+    // protection ends when the reader is closed or destroyed. `room_made` is called with the mutex held.
+    void hold_for(const Consumer* reader, std::function<void()> room_made);
+    // Whether `frames_a_turn` frames fit without overwriting what is protected. If not, `room_made` is called once they
+    // do.
+    [[nodiscard]] bool has_room();
+
+private:
+    friend class Consumer;
+
+    // These limits bound the memory that forged sources and ids can take.
+    static constexpr std::size_t most_losses = 4096, most_bad_ids = 1024;
+
+    // Call these with mutex_ held.
+    void look_for_room();
+    void end_hold(const Consumer* reader);
+
+    const std::shared_ptr<const dialect::Dialect> dialect_;
+    const std::shared_ptr<LinkNames> names_;
+    const bool verifies_;
+    std::atomic<std::size_t> peers_{0};
+    std::atomic<bool> closed_{false};  // set with mutex_ held
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    // Guarded by mutex_:
+    FrameRing ring_;
+    NewestFrames newest_;
+    Source target_;
+    std::map<MessageId, std::uint64_t> bad_ids_;
+    Losses losses_;
+    std::vector<Consumer*> consumers_;
+    const Consumer* holder_ = nullptr;
+    std::function<void()> room_made_;
+    bool full_ = false;
+    bool news_ = false;
+};
+
+// One reader of a channel, with its own position. Any thread; several may read, and each frame goes to one of them.
+class Consumer {
+public:
+    // Reads what arrives from now on.
+    Consumer(std::shared_ptr<Channel> channel, Filter filter);
+    ~Consumer();
+    Consumer(const Consumer&) = delete;
+    Consumer& operator=(const Consumer&) = delete;
+
+    // Adds matching frames to the batch, up to `most` in the batch. Returns false if closed. If it adds none, use
+    // `wait` or the descriptor to learn when to call again. Both report at once if frames remain: one call looks at a
+    // limited number of frames.
+    bool take(FrameBatch& batch, std::size_t most);
+    // Waits until a frame arrives, the channel or the reader is closed, or the deadline passes. Returns after one slice
+    // (turns.hpp) at the latest, so that the caller can handle signals.
+    void wait(MonoTime deadline);
+    // Returns a descriptor. After a `take` that added no frame, it becomes readable when another call is worthwhile.
+    // Created at the first call; the reader closes it.
+    [[nodiscard]] SetupResult<int> event_fd();
+    // Frames that were overwritten before this reader read them.
+    [[nodiscard]] std::uint64_t missed() const;
+    // Frame numbers: one past the newest frame of the channel, and one past the last frame that `take` looked at.
+    [[nodiscard]] std::uint64_t newest() const;
+    [[nodiscard]] std::uint64_t seen() const;
+    // Whether the reader or its channel is closed.
+    [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }
+    // Wakes the threads that wait. May be called again.
+    void close();
+
+    [[nodiscard]] const std::shared_ptr<Channel>& channel() const noexcept { return channel_; }
+
+private:
+    friend class Channel;
+    void tell() noexcept;
+    static constexpr std::size_t most_looked_at = 4096;  // frames in one call, with the mutex held
+
+    const std::shared_ptr<Channel> channel_;
+    const Filter filter_;
+    // Guarded by the channel's mutex:
+    FrameRing::Position at_;
+    std::uint64_t missed_ = 0;
+    std::uint64_t seen_ = 0;  // one past the last frame that `take` looked at
+    int event_fd_ = -1;
+    // `armed_`: the next matching frame makes the descriptor readable. `due_`: that frame has arrived.
+    bool armed_ = false, due_ = false;
+    std::atomic<bool> closed_{false};  // set with the mutex held
+};
+
+}  // namespace mavloom::feed

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Recognises objects that belong to the parent of a forked process. Threads and locks stay in the parent, so a child
+// must neither use nor destroy an object that has them. Any thread.
+#pragma once
+
+#include <cstdint>
+
+namespace mavloom::feed {
+
+// The number of forks between the first process and this one.
+[[nodiscard]] std::uint64_t forks() noexcept;
+
+// A member of an object that a forked child must not touch.
+class BeforeFork {
+public:
+    // Whether the object was made by this process.
+    [[nodiscard]] bool is_here() const noexcept { return born_ == forks(); }
+
+private:
+    std::uint64_t born_ = forks();
+};
+
+}  // namespace mavloom::feed

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Turns: a mutex for threads that wait while they hold it. They wait in slices, and other threads go first between two
+// slices. Any thread. `glance` serves one further thread that must never wait, such as that of RingAlarm.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+
+#include "mavloom/base/clock.hpp"
+
+namespace mavloom::feed {
+
+// The longest wait without a pause. In the pause, callers handle signals and other threads get their turn.
+inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
+[[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
+
+// The number of this thread: never 0 and never reused, unlike a std::thread::id.
+[[nodiscard]] inline std::uint64_t this_thread() noexcept {
+    static std::atomic<std::uint64_t> threads{0};
+    thread_local const std::uint64_t number = threads.fetch_add(1, std::memory_order_relaxed) + 1;
+    return number;
+}
+
+class Turns {
+public:
+    using Lock = std::unique_lock<std::timed_mutex>;
+
+    // Waits as long as it takes.
+    [[nodiscard]] Lock take() {
+        const Asking asking(asking_);
+        return Lock(mutex_);
+    }
+    // Never waits for another thread's turn, only for a `glance` to end. If the returned lock is not owned, another
+    // thread has its turn.
+    [[nodiscard]] Lock try_take() {
+        for (;;) {
+            const unsigned glances = glances_.load();
+            Lock lock(mutex_, std::try_to_lock);
+            const bool is_glanced_at = glances % 2 == 1 || glances_.load() != glances;
+            if (lock.owns_lock() || !is_glanced_at) return lock;
+            std::this_thread::yield();
+        }
+    }
+    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has its
+    // turn.
+    [[nodiscard]] Lock take_until(MonoTime deadline) {
+        Lock lock = try_take();
+        if (lock.owns_lock()) return lock;
+        const Asking asking(asking_);
+        static_cast<void>(lock.try_lock_until(end_of_slice(deadline)));
+        return lock;
+    }
+    // Call between two slices, without the lock: lets threads that ask for it go first.
+    void give_way() const {
+        if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    }
+    // Returns `look(is_free)`. If the lock was free, it is held meanwhile. Never waits. One call at a time.
+    [[nodiscard]] auto glance(auto&& look) {
+        const Glance glance(glances_);
+        const Lock lock(mutex_, std::try_to_lock);
+        return look(lock.owns_lock());
+    }
+
+private:
+    struct Asking {
+        explicit Asking(std::atomic<int>& asking) : count(asking) { count.fetch_add(1, std::memory_order_relaxed); }
+        Asking(const Asking&) = delete;
+        Asking& operator=(const Asking&) = delete;
+        ~Asking() { count.fetch_sub(1, std::memory_order_relaxed); }
+        std::atomic<int>& count;
+    };
+
+    struct Glance {
+        explicit Glance(std::atomic<unsigned>& glances) : count(glances) { count.fetch_add(1); }
+        Glance(const Glance&) = delete;
+        Glance& operator=(const Glance&) = delete;
+        ~Glance() { count.fetch_add(1); }
+        std::atomic<unsigned>& count;
+    };
+
+    std::timed_mutex mutex_;
+    std::atomic<int> asking_{0};
+    std::atomic<unsigned> glances_{0};  // odd during a glance
+};
+
+}  // namespace mavloom::feed

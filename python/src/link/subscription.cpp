@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "link/subscription.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "gil.hpp"
+#include "iteration.hpp"
+#include "mavloom/feed/turns.hpp"
+#include "mavloom/ring/frames.hpp"
+#include "message/filter.hpp"
+
+namespace mavloom::python {
+
+static constexpr std::size_t batch_frames = 256;
+
+Subscription::Subscription(const LinkFeed& feed, feed::Filter filter)
+    : origin_(feed.origin),
+      ring_name_(feed.ring_name),
+      consumer_(std::make_unique<feed::Consumer>(feed.channel, std::move(filter))) {}
+
+Subscription::~Subscription() {
+    if (!fork_.is_here()) static_cast<void>(consumer_.release());
+}
+
+// ---- messages
+
+nb::object Subscription::next(const feed::Filter& filter, const Limit& limit, bool& ended) {
+    for (;;) {
+        fork_.check();
+        {
+            const auto lock = lock_without_gil(mutex_);
+            while (const auto* item = next_item()) {
+                if (filter.takes(batch_.frame(*item))) return message_of(*item);
+                if (is_over(limit)) return {};
+            }
+            if (ended_) return ended = true, nb::object();
+            if (is_over(limit)) return {};
+        }
+        {
+            const WithoutGil outside;
+            consumer_->wait(limit.deadline);
+        }
+        check_signals();
+    }
+}
+
+const feed::FrameBatch::Item* Subscription::next_item() {
+    ended_ = consumer_->closed();
+    if (ended_) return nullptr;
+    if (const auto* item = batch_.next()) return item;
+    batch_.clear();
+    ended_ = !consumer_->take(batch_, batch_frames);
+    return batch_.next();
+}
+
+nb::object Subscription::message_of(const feed::FrameBatch::Item& item) const {
+    return make_message(origin_, item.definition, item.time_ns, item.link, batch_.frame(item), item.verdict);
+}
+
+bool Subscription::is_over(const Limit& limit) const {
+    if (limit.end) return batch_.left() == 0 && consumer_->seen() >= *limit.end;
+    return mono_now() >= limit.deadline;
+}
+
+PyObject* Subscription::iterate() {
+    bool ended = false;
+    return next({}, {MonoTime::max(), {}}, ended).release().ptr();
+}
+
+nb::object Subscription::recv(const nb::object& timeout) { return or_closed({}, nb::none(), deadline_after(timeout)); }
+
+nb::object Subscription::recv_match(const nb::object& condition, const nb::object& type, bool blocking,
+                                    const nb::object& timeout, const OptionalInteger& system,
+                                    const OptionalInteger& component) {
+    check_condition(condition);
+    const auto filter = make_filter(origin_->dialect(), type, system, component);
+    return or_closed(filter, condition, blocking ? deadline_after(timeout) : MonoTime{});
+}
+
+nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline) {
+    fork_.check();
+    Limit limit{deadline, {}};
+    if (deadline <= mono_now()) limit.end = consumer_->newest();
+    for (bool ended = false;;) {
+        nb::object message = next(filter, limit, ended);
+        if (ended) raise_closed("the link is closed");
+        if (!message.is_valid()) return nb::none();
+        if (condition.is_none() || nb::cast<bool>(nb::bool_(condition(message)))) return message;
+        const auto lock = lock_without_gil(mutex_);
+        if (is_over(limit)) return nb::none();
+    }
+}
+
+int Subscription::event_fd() {
+    fork_.check();
+    return value_or_raise(consumer_->event_fd());
+}
+
+std::uint64_t Subscription::missed() const {
+    fork_.check();
+    return consumer_->missed();
+}
+
+void Subscription::close() {
+    if (fork_.is_here()) consumer_->close();
+}
+
+// ---- into a ring
+
+void Subscription::check_target(const std::string& ring) const {
+    if (ring == ring_name_)
+        raise_usage(fmt::format("ring {} is what is heard here: it would be filled with itself", ring));
+}
+
+std::uint64_t Subscription::pump(PyRingWriter& writer, const nb::object& timeout) {
+    fork_.check();
+    check_target(writer.name());
+    const auto deadline = deadline_after(timeout);
+    const auto end = consumer_->newest();
+    for (Pumped pumped;;) {
+        writer.check();
+        {
+            const WithoutGil outside;
+            pump_slice(writer, deadline, pumped);
+        }
+        check_signals();
+        fork_.check();
+        if (pumped.error) writer.raise(*pumped.error, 0);
+        if (pumped.ended || (mono_now() >= deadline && (pumped.full || is_past(end)))) return pumped.count;
+    }
+}
+
+bool Subscription::is_past(std::uint64_t end) {
+    const auto lock = lock_without_gil(mutex_);
+    return is_over({{}, end});
+}
+
+void Subscription::pump_slice(PyRingWriter& writer, MonoTime deadline, Pumped& pumped) {
+    const MonoTime now = mono_now();
+    const MonoTime end = now + feed::longest_slice;
+    const MonoTime waits_until = now < deadline ? std::min(deadline, end) : MonoTime{};
+    do {
+        {
+            const std::lock_guard lock(mutex_);
+            while (const auto* item = next_item())
+                if (!put(writer, *item, waits_until, pumped) || mono_now() >= end) return;
+            pumped.ended = ended_;
+        }
+        if (!pumped.ended) consumer_->wait(waits_until);
+    } while (!pumped.ended && mono_now() < waits_until);
+}
+
+bool Subscription::put(PyRingWriter& writer, const feed::FrameBatch::Item& item, MonoTime deadline, Pumped& pumped) {
+    const auto frame = batch_.frame(item);
+    const shm::RecordInfo info{.time = WallTime{Nanoseconds{item.time_ns}},
+                               .link = LinkId{item.link},
+                               .kind = ring::ring_kind_frame,
+                               .verdict = item.verdict};
+    const auto written = writer.put(frame.bytes(), info, deadline);
+    pumped.full = !written && written.error() == shm::WriteError::full;
+    if (written) return ++pumped.count, true;
+    if (pumped.full && !writer.waits()) return true;  // dropped as the ring's policy says, and counted by the ring
+    if (!pumped.full) pumped.error = written.error();
+    batch_.put_back();
+    return false;
+}
+
+// ---- binding
+
+static constexpr const char* match_signature =
+    "def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: MessageTypes | "
+    "None = None, "
+    "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int | None = None) -> "
+    "Message | None";
+
+void bind_subscription(nb::module_& module) {
+    nb::class_<Subscription>(module, "Subscription", nb::type_slots(iterator_slots<Subscription>), nb::is_final(),
+                             "Messages of a link from the moment it was made, for one reader: iterate, `async for` "
+                             "(one at a time), or `recv`. A reader that is slower than the\n"
+                             "link's buffer allows misses the oldest ones and is told how many. Any thread. Iteration "
+                             "ends when the link is closed.")
+        .def("recv", &Subscription::recv, nb::arg("timeout") = nb::none(),
+             nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
+             "The next message; None after `timeout` seconds (0 polls, None waits for ever). ClosedError when the link "
+             "is closed.")
+        .def("recv_match", &Subscription::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
+             nb::arg("blocking") = false, nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
+             nb::arg("component") = nb::none(), nb::sig(match_signature),
+             "The next message of these types for which `condition(message)` is true; what comes before it is passed "
+             "over. None when there is none: at once,\n"
+             "or with `blocking` after `timeout` seconds.")
+        .def("check_target", &Subscription::check_target, nb::arg("ring"),
+             "UsageError for the name of the ring that is read: `pump` would fill it with itself.")
+        .def(
+            "pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
+            nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
+            "Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: "
+            "until the "
+            "link is closed). Returns how many. Each record is a\n"
+            "whole frame of kind 1 with its receive time and link; `verdict` is 0 unsigned, 16 signed and not checked, "
+            "32 signed and verified, as docs/formats/ring.md has it. What a full ring has no room for stays with\n"
+            "the reader.")
+        .def("event_fd", &Subscription::event_fd)
+        .def_prop_ro("missed", &Subscription::missed,
+                     "Frames of the link that were overwritten before this reader came to them.")
+        .def("close", &Subscription::close, "Wakes who waits; may be called again.")
+        .def(
+            "__aiter__", [](nb::handle self) { return nb::module_::import_("mavloom._async").attr("messages")(self); },
+            nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Message, None]"));
+}
+
+}  // namespace mavloom::python

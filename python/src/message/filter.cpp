@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "message/filter.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include <string>
+
+#include "errors.hpp"
+
+namespace mavloom::python {
+namespace {
+
+MessageId id_of(const dialect::Dialect& dialect, const nb::handle& type) {
+    const nb::object name = PyType_Check(type.ptr()) ? nb::object(type.attr("__name__")) : nb::borrow(type);
+    if (!PyUnicode_Check(name.ptr())) {
+        PyErr_Format(PyExc_TypeError, "type= takes names of messages, not %R", type.ptr());
+        throw nb::python_error();
+    }
+    return value_or_raise(dialect.message(nb::cast<std::string>(name)))->id();
+}
+
+}  // namespace
+
+feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type, const OptionalInteger& system,
+                         const OptionalInteger& component) {
+    feed::Filter filter{std::nullopt, in<std::uint8_t>("system", system), in<std::uint8_t>("component", component)};
+    if (type.is_none()) return filter;
+    auto& ids = filter.ids.emplace();
+    if (PyUnicode_Check(type.ptr()) || PyType_Check(type.ptr())) {
+        ids.push_back(id_of(dialect, type));
+    } else {
+        for (const nb::handle one : nb::iter(type)) ids.push_back(id_of(dialect, one));
+    }
+    return filter;
+}
+
+void check_condition(const nb::object& condition) {
+    if (condition.is_none() || PyCallable_Check(condition.ptr()) != 0) return;
+    PyErr_SetString(PyExc_TypeError, "condition= takes a callable that is given the message (text is never evaluated)");
+    throw nb::python_error();
+}
+
+}  // namespace mavloom::python

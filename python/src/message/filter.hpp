@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The arguments `type=`, `system=`, `component=` and `condition=` of calls that select messages. Call with the GIL held.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include "integer.hpp"
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/feed/filter.hpp"
+
+namespace mavloom::python {
+
+namespace nb = nanobind;
+
+// `type` is None, a name, a class of mavloom.messages, or an iterable of these. An unknown name raises UsageError,
+// which suggests the nearest one.
+[[nodiscard]] feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,
+                                       const OptionalInteger& system, const OptionalInteger& component);
+
+// Raises TypeError unless `condition` is None or callable. Text for eval(), which pymavlink accepts, is rejected.
+void check_condition(const nb::object& condition);
+
+}  // namespace mavloom::python

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#include "message/message.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/operators.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+
+#include <algorithm>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "errors.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/message/format.hpp"
+#include "mavloom/message/view.hpp"
+#include "mavloom/message/visit.hpp"
+#include "mavloom/ring/frames.hpp"
+
+namespace mavloom::python {
+
+nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
+                        std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame, std::uint8_t verdict) {
+    const auto bytes = frame.bytes();
+    auto copy = std::make_unique_for_overwrite<std::uint8_t[]>(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), copy.get());
+    return nb::cast(
+        Message{origin, definition, time_ns, link, static_cast<std::uint16_t>(bytes.size()), verdict, std::move(copy)},
+        nb::rv_policy::move);
+}
+
+namespace {
+
+using dialect::Field;
+
+// ---- values
+
+template <class T>
+PyObject* number_of(T value) noexcept {
+    if constexpr (std::is_floating_point_v<T>) return PyFloat_FromDouble(value);
+    if constexpr (std::is_signed_v<T>) return PyLong_FromLongLong(static_cast<long long>(value));
+    return PyLong_FromUnsignedLongLong(static_cast<unsigned long long>(value));
+}
+
+std::string_view text_bytes(const Message& message, const Field& field) noexcept {
+    return message::MessageView(*message.definition, message.frame().payload()).text(field);
+}
+
+// Returns a new reference, or null with an exception set.
+PyObject* value_of(const Message& message, const Field& field) {
+    if (field.type == dialect::FieldType::char8) {
+        const auto text = text_bytes(message, field);
+        return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+    }
+    const message::MessageView view(*message.definition, message.frame().payload());
+    return message::visit_type(field.type, [&](auto tag) -> PyObject* {
+        using T = decltype(tag);
+        if (!field.is_array()) return number_of(view.get<T>(field));
+        PyObject* list = PyList_New(field.array_length);
+        for (std::size_t i = 0; list != nullptr && i < field.array_length; ++i) {
+            PyObject* element = number_of(view.get<T>(field, i));
+            if (element == nullptr) Py_CLEAR(list);
+            else PyList_SET_ITEM(list, static_cast<Py_ssize_t>(i), element);
+        }
+        return list;
+    });
+}
+
+std::vector<std::string_view> field_names(const dialect::Message& definition) {
+    std::vector<std::string_view> names;
+    for (const auto& field : definition.fields) names.push_back(field.name);
+    return names;
+}
+
+std::string type_of(const Message& message) {
+    if (message.definition != nullptr) return std::string(message.definition->name);
+    return fmt::format("UNKNOWN_{}", message.frame().id().value);
+}
+
+const Field& field_of(const Message& message, std::string_view name) {
+    if (message.definition == nullptr)
+        raise_usage(fmt::format("{} has no definition, and so no fields", type_of(message)));
+    if (const auto* field = message.definition->find(name)) return *field;
+    raise_usage(fmt::format("{} has no field '{}'{}", message.definition->name, name,
+                            did_you_mean(name, field_names(*message.definition))));
+}
+
+// ---- attributes
+
+void suggest_attribute(const Message& message, std::string_view name) {
+    if (message.definition == nullptr || name.starts_with("__")) return;
+    const auto text = fmt::format("{} has no field or attribute '{}'{}", message.definition->name, name,
+                                  did_you_mean(name, field_names(*message.definition)));
+    PyErr_SetString(PyExc_AttributeError, text.c_str());
+}
+
+PyObject* get_attribute(PyObject* self, PyObject* name) noexcept {
+    if (!nb::inst_ready(self)) {
+        PyErr_SetString(PyExc_TypeError, "a Message is made by a Dialect, a link or a recording");
+        return nullptr;
+    }
+    const Message& message = *nb::inst_ptr<Message>(self);
+    if (const auto* definition = message.definition; definition != nullptr) {
+        const auto& attributes = message.origin->definitions()->names(*definition).attributes;
+        const auto found = std::find(attributes.begin(), attributes.end(), name);
+        if (found != attributes.end())
+            return value_of(message, definition->fields[static_cast<std::size_t>(found - attributes.begin())]);
+    }
+    PyObject* own = PyObject_GenericGetAttr(self, name);
+    if (own != nullptr || PyErr_ExceptionMatches(PyExc_AttributeError) == 0) return own;
+    Py_ssize_t size = 0;
+    const char* text = PyUnicode_AsUTF8AndSize(name, &size);
+    if (text == nullptr) return nullptr;
+    const std::string_view wanted(text, static_cast<std::size_t>(size));
+    if (const auto* field = message.definition == nullptr ? nullptr : message.definition->find(wanted)) {
+        PyErr_Clear();  // the name was made at run time and is not interned
+        return value_of(message, *field);
+    }
+    suggest_attribute(message, wanted);
+    return nullptr;
+}
+
+// ---- forms
+
+nb::object item(const Message& message, std::string_view name) {
+    return nb::steal(value_of(message, field_of(message, name)));
+}
+
+nb::dict to_dict(const Message& message) {
+    nb::dict dict;
+    dict["mavpackettype"] = type_of(message);
+    if (message.definition == nullptr) return dict;
+    const auto& names = message.origin->definitions()->names(*message.definition).fields;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const nb::object value = nb::steal(value_of(message, message.definition->fields[i]));
+        if (!value.is_valid() || PyDict_SetItem(dict.ptr(), names[i].ptr(), value.ptr()) != 0) throw nb::python_error();
+    }
+    return dict;
+}
+
+std::string to_json(const Message& message) {
+    message::TextBuffer buffer;
+    const auto link = message.origin->link_name(message.link);
+    message::append_json(buffer, {WallTime{Nanoseconds{message.time_ns}}, link, message.frame(), message.definition});
+    return {buffer.data(), buffer.size() - 1};  // without the newline
+}
+
+// Formats a message as pymavlink does.
+std::string to_text(const Message& message) {
+    std::string text = type_of(message) + " {";
+    const nb::dict fields = to_dict(message);
+    const char* separator = "";
+    for (const auto& [name, value] : fields) {
+        if (nb::cast<std::string>(name) == "mavpackettype") continue;
+        text += fmt::format("{}{} : {}", separator, nb::str(name).c_str(), nb::repr(value).c_str());
+        separator = ", ";
+    }
+    return text + "}";
+}
+
+nb::bytes bytes_of(ByteView bytes) { return nb::bytes(bytes.data(), bytes.size()); }
+
+nb::bytes raw(const Message& message, std::string_view name) {
+    const auto& field = field_of(message, name);
+    std::string bytes(field.size(), '\0');
+    const auto payload = message.frame().payload();
+    const std::size_t there = std::min(payload.size(), std::size_t{field.offset} + field.size());
+    for (std::size_t at = field.offset; at < there; ++at) bytes[at - field.offset] = static_cast<char>(payload[at]);
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+nb::object name_of(const Message& message) {
+    if (message.definition == nullptr) return nb::none();
+    return message.origin->definitions()->names(*message.definition).message;
+}
+
+bool same_frame(const Message& a, const Message& b) noexcept {
+    return std::ranges::equal(a.frame().bytes(), b.frame().bytes());
+}
+
+bool is_verified(const Message& message) noexcept {
+    return ring::signature_of(message.verdict) == ring::FrameSignature::good;
+}
+
+const char* signature_verdict(const Message& message) noexcept {
+    if (!message.frame().is_signed()) return "none";
+    if (is_verified(message)) return "good";
+    return ring::signature_of(message.verdict) == ring::FrameSignature::bad ? "bad" : "unchecked";
+}
+
+nb::object route_verdict(const Message& message) {
+    const auto verdict = ring::verdict_of(message.verdict);
+    if (!verdict) return nb::none();
+    const auto name = route::verdict_name(*verdict);
+    return nb::str(name.data(), name.size());
+}
+
+// Returns {field: text} for the fields for which `text` is not empty, as pymavlink's message classes have them.
+template <class Text>
+nb::dict texts_by_name(const Message& message, Text text) {
+    nb::dict dict;
+    if (message.definition == nullptr) return dict;
+    for (const auto& field : message.definition->fields) {
+        const std::string_view value = text(field);
+        if (!value.empty()) dict[nb::str(field.name.data(), field.name.size())] = nb::str(value.data(), value.size());
+    }
+    return dict;
+}
+
+std::string_view unit_of(const Field& field) { return field.units; }
+std::string_view enum_of(const Field& field) {
+    return field.enumeration == nullptr ? std::string_view() : field.enumeration->name;
+}
+
+nb::list list_of_fields(const Message& message) {
+    nb::list list;
+    if (message.definition == nullptr) return list;
+    for (const auto& name : message.origin->definitions()->names(*message.definition).fields) list.append(name);
+    return list;
+}
+
+// ---- pickling
+
+nb::tuple reduce(nb::handle self) {
+    const auto& message = *nb::inst_ptr<Message>(self);
+    return nb::make_tuple(
+        nb::module_::import_("mavloom._pickle").attr("restore_message"),
+        nb::make_tuple(PyDialect{message.origin->definitions()}, bytes_of(message.frame().bytes()), message.time_ns,
+                       message.link, message.origin->link_name(message.link), message.verdict));
+}
+
+nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_t time_ns, std::uint32_t link,
+                   std::string link_name, std::uint8_t verdict) {
+    const ByteView bytes(static_cast<const std::uint8_t*>(frame.data()), frame.size());
+    if (wire::frame_length(bytes) != bytes.size()) raise_input("these bytes are no pickled message");
+    auto origin = std::make_shared<Origin>(dialect.definitions);
+    origin->link_names().add(LinkId{link}, std::move(link_name));
+    const auto view = wire::FrameView::unchecked(bytes);
+    return make_message(origin, origin->dialect().find(view.id()), time_ns, link, view, verdict);
+}
+
+// The result of pymavlink's get_header().
+struct Header {
+    // NOLINTBEGIN(readability-identifier-naming): pymavlink's names
+    std::uint32_t msgId;
+    std::uint8_t incompat_flags, compat_flags, mlen, seq, srcSystem, srcComponent;
+    // NOLINTEND(readability-identifier-naming)
+};
+
+Header header_of(const Message& message) noexcept {
+    const auto frame = message.frame();
+    return {frame.id().value, frame.incompat_flags(), frame.compat_flags(),   frame.payload_length(),
+            frame.sequence(), frame.system().value,   frame.component().value};
+}
+
+template <auto get>
+auto from_frame() {
+    return [](const Message& message) { return get(message.frame()); };
+}
+
+int system_of(const wire::FrameView& frame) { return frame.system().value; }
+int component_of(const wire::FrameView& frame) { return frame.component().value; }
+int sequence_of(const wire::FrameView& frame) { return frame.sequence(); }
+std::uint32_t id_of(const wire::FrameView& frame) { return frame.id().value; }
+int version_of(const wire::FrameView& frame) { return static_cast<int>(frame.version()); }
+bool is_signed(const wire::FrameView& frame) { return frame.is_signed(); }
+nb::bytes frame_bytes(const wire::FrameView& frame) { return bytes_of(frame.bytes()); }
+nb::bytes payload_bytes(const wire::FrameView& frame) { return bytes_of(frame.payload()); }
+
+PyType_Slot slots[] = {
+    {Py_tp_getattro, reinterpret_cast<void*>(get_attribute)},  // NOLINT
+    {0, nullptr},
+};
+
+// Adds the names that pymavlink's messages have.
+void bind_pymavlink_names(nb::class_<Message>& type) {
+    type.def("get_type", &type_of, "The name; \"UNKNOWN_<id>\" for an id without definition.")
+        .def("get_msgId", from_frame<id_of>(), "As `id`.")
+        .def("get_srcSystem", from_frame<system_of>(), "As `sys`.")
+        .def("get_srcComponent", from_frame<component_of>(), "As `comp`.")
+        .def("get_seq", from_frame<sequence_of>(), "As `seq`.")
+        .def("get_fieldnames", &list_of_fields, nb::sig("def get_fieldnames(self) -> list[str]"),
+             "The fields' names in the order of the definition.")
+        .def("get_msgbuf", from_frame<frame_bytes>(), "As `frame`.")
+        .def("get_payload", from_frame<payload_bytes>(), "The payload as it was sent: MAVLink 2 cuts zeros at its end.")
+        .def(
+            "get_signed", [](const Message& m) { return is_verified(m); },
+            "Whether the signature was verified; `signed` says whether there is one.")
+        .def("get_header", &header_of, "The header's values under pymavlink's names.")
+        .def_prop_ro(
+            "_timestamp",
+            [](const Message& m) {
+                const auto microseconds = m.time_ns / 1000;
+                return static_cast<double>(microseconds) * 1e-6;
+            },
+            "`time_ns` in seconds, of whole microseconds.")
+        .def_prop_ro(
+            "_link", [](const Message& m) { return m.link; }, "As `link`.")
+        .def_prop_ro(
+            "fieldunits_by_name", [](const Message& m) { return texts_by_name(m, unit_of); },
+            nb::sig("def fieldunits_by_name(self) -> dict[str, str]"), "{field: unit} where there is one.")
+        .def_prop_ro(
+            "fieldenums_by_name", [](const Message& m) { return texts_by_name(m, enum_of); },
+            nb::sig("def fieldenums_by_name(self) -> dict[str, str]"), "{field: enum} where there is one.");
+}
+
+}  // namespace
+
+void bind_message(nb::module_& module) {
+    nb::class_<Header>(module, "Header", "A frame's header under pymavlink's names.")
+        .def_ro("msgId", &Header::msgId)
+        .def_ro("incompat_flags", &Header::incompat_flags)
+        .def_ro("compat_flags", &Header::compat_flags)
+        .def_ro("mlen", &Header::mlen, "Bytes of payload.")
+        .def_ro("seq", &Header::seq)
+        .def_ro("srcSystem", &Header::srcSystem)
+        .def_ro("srcComponent", &Header::srcComponent);
+
+    nb::class_<Message> type(
+        module, "Message", nb::type_slots(slots), nb::is_final(),
+        "One message: a frame with its time and link. Fields are attributes (`msg.roll`) and items (`msg[\"roll\"]`), "
+        "decoded when they are read:\n"
+        "numbers as int and float, char[] as str without the NULs at its end (what is no UTF-8 becomes U+FFFD; `raw()` "
+        "has the bytes), arrays as\n"
+        "lists. What the sender cut off is 0. Where a field has the name of an attribute listed here (name, id, seq, "
+        "version, frame), the attribute\n"
+        "stands and the field is an item.\n\n"
+        "Immutable, safe from any thread, hashable; equal when the frames are. Can be copied and pickled.");
+    type.def_prop_ro("name", &name_of, nb::sig("def name(self) -> str | None"),
+                     "\"ATTITUDE\"; None for an id without definition.")
+        .def_prop_ro("id", from_frame<id_of>(), "The message's id.")
+        .def_prop_ro("sys", from_frame<system_of>(), "The sender's system id.")
+        .def_prop_ro("comp", from_frame<component_of>(), "The sender's component id.")
+        .def_prop_ro("seq", from_frame<sequence_of>(), "The frame's sequence number, 0 to 255.")
+        .def_prop_ro(
+            "link", [](const Message& m) { return m.link; }, "The number of the link it arrived on; 0 of a recording.")
+        .def_prop_ro(
+            "link_name", [](const Message& m) { return m.origin->link_name(m.link); }, "The link's name.")
+        .def_prop_ro(
+            "time_ns", [](const Message& m) { return m.time_ns; },
+            "Receive time, Unix time in ns: the kernel's for sockets, the recorded one (whole µs) for recordings.")
+        .def_prop_ro("version", from_frame<version_of>(), "MAVLink 1 or 2.")
+        .def_prop_ro("signed", from_frame<is_signed>(), "Whether the frame carries a signature.")
+        .def_prop_ro("signature", &signature_verdict,
+                     nb::sig("def signature(self) -> typing.Literal['none', 'good', 'bad', 'unchecked']"),
+                     "\"good\" where the link, or the router whose ring it comes from, has a key and the signature "
+                     "agrees, \"unchecked\" without key, \"none\" "
+                     "without signature.")
+        .def_prop_ro("verdict", &route_verdict, nb::sig("def verdict(self) -> str | None"),
+                     "What the router whose ring it comes from did with it: \"forwarded\", \"duplicate\", \"echo\", "
+                     "\"filtered\", ...; None of other links, and where nobody said.")
+        .def_prop_ro("frame", from_frame<frame_bytes>(), "The whole frame as it arrived.")
+        .def_prop_ro(
+            "dialect", [](const Message& m) { return PyDialect{m.origin->definitions()}; },
+            "The definitions it is decoded with.")
+        .def("raw", &raw, nb::arg("field"), "The bytes of a field in their full length, as on the wire.")
+        .def("to_dict", &to_dict, nb::sig("def to_dict(self) -> dict[str, typing.Any]"),
+             "{\"mavpackettype\": name, field: value, ...}")
+        .def("to_json", &to_json, "One JSON object, strict: the line that `mavloom listen --json` prints.")
+        .def("__getitem__", &item, nb::arg("field"), nb::sig("def __getitem__(self, field: str, /) -> typing.Any"),
+             "The value of a field; UsageError (a ValueError) with the nearest name where there is none.")
+        .def("__contains__",
+             [](const Message& m, std::string_view field) {
+                 return m.definition != nullptr && m.definition->find(field) != nullptr;
+             })
+        .def("__str__", &to_text)
+        .def("__repr__", &to_text)
+        .def("__eq__", &same_frame, nb::is_operator(), nb::sig("def __eq__(self, other: object, /) -> bool"))
+        .def("__hash__",
+             [](const Message& m) {
+                 const auto bytes = m.frame().bytes();
+                 return std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+             })
+        .def("__reduce__", &reduce, nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"));
+    bind_pymavlink_names(type);
+    module.def("restore_message", &restore,
+               nb::sig("def restore_message(dialect: Dialect, frame: bytes, time_ns: int, link: int, link_name: str, "
+                       "verdict: int, /) -> Message"));
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Message: one received frame with its time, link and definition (class mavloom.Message).
+// A field is decoded when it is read. Immutable; any thread.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "mavloom/feed/link_names.hpp"
+#include "mavloom/wire/frame.hpp"
+#include "message/definitions.hpp"
+
+namespace mavloom::python {
+
+// Origin: the definitions of messages, and the names of the links on which they arrived. Any thread.
+class Origin {
+public:
+    explicit Origin(std::shared_ptr<const Definitions> definitions) : definitions_(std::move(definitions)) {}
+
+    [[nodiscard]] const std::shared_ptr<const Definitions>& definitions() const noexcept { return definitions_; }
+    [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
+
+    [[nodiscard]] feed::LinkNames& link_names() noexcept { return link_names_; }
+    // Empty for a link that has no name.
+    [[nodiscard]] std::string link_name(std::uint32_t link) const { return link_names_.find(LinkId{link}); }
+
+private:
+    std::shared_ptr<const Definitions> definitions_;
+    feed::LinkNames link_names_;
+};
+
+struct Message {
+    std::shared_ptr<const Origin> origin;
+    const dialect::Message* definition = nullptr;  // null: an id without definition
+    std::int64_t time_ns = 0;                      // Unix time
+    std::uint32_t link = 0;
+    std::uint16_t size = 0;
+    std::uint8_t verdict = 0;  // of the signature check and, in a ring, of the router: see mavloom/ring/frames.hpp
+    std::unique_ptr<const std::uint8_t[]> bytes;
+
+    [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }
+};
+
+// Returns a new Python object with a copy of the frame. Call with the GIL held.
+[[nodiscard]] nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
+                                      std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame,
+                                      std::uint8_t verdict = 0);
+
+void bind_message(nb::module_& module);
+
+}  // namespace mavloom::python

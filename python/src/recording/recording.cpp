@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// class Recording: the messages of a tlog, read in batches without the GIL.
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <mutex>
+#include <optional>
+
+#include "bindings.hpp"
+#include "counters_repr.hpp"
+#include "errors.hpp"
+#include "gil.hpp"
+#include "iteration.hpp"
+#include "mavloom/feed/frame_batch.hpp"
+#include "mavloom/feed/turns.hpp"
+#include "mavloom/record/tlog_reader.hpp"
+#include "message/filter.hpp"
+#include "message/message.hpp"
+#include "waiting.hpp"
+
+namespace mavloom::python {
+namespace {
+
+struct RecordingStats {
+    std::uint64_t records, record_bytes, unknown_ids, unknown_flags, junk_bytes, damaged_places;
+};
+
+class Recording {
+public:
+    Recording(std::string path, const nb::object& dialect, const nb::object& type, const OptionalInteger& system,
+              const OptionalInteger& component)
+        : path_(std::move(path)),
+          origin_(std::make_shared<Origin>(definitions_of(dialect))),
+          filter_(make_filter(origin_->dialect(), type, system, component)),
+          reader_(value_or_raise(open())) {
+        origin_->link_names().add(LinkId{0}, "tlog://" + path_);
+    }
+
+    // Returns a new reference, or null at the end.
+    PyObject* iterate() { return next_match({}, {}).release().ptr(); }
+
+    nb::object recv_match(const nb::object& condition, const nb::object& type, bool /*blocking*/,
+                          const nb::object& timeout, const OptionalInteger& system, const OptionalInteger& component) {
+        check_condition(condition);
+        const auto filter = make_filter(origin_->dialect(), type, system, component);
+        const Limit limit(timeout);
+        for (;;) {
+            nb::object message = next_match(filter, limit);
+            if (!message.is_valid()) return nb::none();
+            if (condition.is_none() || nb::cast<bool>(nb::bool_(condition(message)))) return message;
+            if (limit.is_over()) return nb::none();
+        }
+    }
+
+    void rewind() {
+        const auto lock = lock_without_gil(mutex_);
+        value_or_raise(reader().seek(0));
+        batch_.clear();
+        delivered_ = 0;
+        ended_ = false;
+    }
+
+    [[nodiscard]] double percent() {
+        const auto lock = lock_without_gil(mutex_);
+        const auto& file = reader();
+        if (ended_ && batch_.size() == delivered_) return 100;
+        return file.size() == 0 ? 0 : 100.0 * static_cast<double>(file.position()) / static_cast<double>(file.size());
+    }
+
+    [[nodiscard]] RecordingStats stats() {
+        const auto lock = lock_without_gil(mutex_);
+        if (reader_) note_counters();
+        return stats_;
+    }
+
+    void close() {
+        const auto lock = lock_without_gil(mutex_);
+        if (!reader_) return;
+        note_counters();
+        reader_.reset();
+        batch_.clear();
+    }
+
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+private:
+    static constexpr std::size_t batch_frames = 512;
+    static constexpr std::uint64_t most_damage = 1 << 20;  // bytes to read before signals are handled
+
+    // When a call gives up. A poll (time-out 0) looks at everything that is there: for a file, all of it.
+    struct Limit {
+        Limit() = default;
+        explicit Limit(const nb::object& timeout) {
+            const auto given = timeout_of(timeout);
+            deadline = deadline_after(given);
+            polls = given == Nanoseconds{};
+        }
+        [[nodiscard]] bool is_over() const { return !polls && mono_now() >= deadline; }
+
+        MonoTime deadline = MonoTime::max();
+        bool polls = false;
+    };
+
+    [[nodiscard]] SetupResult<record::TlogReader> open() const {
+        const WithoutGil outside;
+        return record::TlogReader::open(path_, origin_->dialect().wire_table(), record::File::Empty::tell);
+    }
+
+    record::TlogReader& reader() {
+        if (!reader_) raise_closed(path_ + ": the recording is closed");
+        return *reader_;
+    }
+
+    void note_counters() {
+        const auto& c = reader_->counters();
+        stats_ = {c.records.value(),       c.record_bytes.value(), c.unknown_ids.value(),
+                  c.unknown_flags.value(), c.lost_bytes.value(),   c.damaged_places.value()};
+    }
+
+    // Returns an invalid object at the end or when the limit is reached. Signal handlers run without the lock, because
+    // they may use the recording.
+    nb::object next_match(const feed::Filter& filter, const Limit& limit) {
+        for (;; check_signals()) {
+            const auto lock = lock_without_gil(mutex_);
+            reader();
+            while (const auto* item = batch_.next()) {
+                ++delivered_;
+                const auto frame = batch_.frame(*item);
+                if (filter.takes(frame)) return make_message(origin_, item->definition, item->time_ns, 0, frame);
+            }
+            if (ended_ || limit.is_over()) return {};
+            if (fill()) continue;
+            if (mono_now() >= limit.deadline) return {};
+            const WithoutGil outside;
+            const auto left = feed::end_of_slice(limit.deadline) - mono_now();
+            static_cast<void>(reader_->wait(std::chrono::ceil<std::chrono::milliseconds>(left)));
+        }
+    }
+
+    // Reads the next batch. Returns false if a pipe is empty. A pipe is read one frame at a time, so that no frame is
+    // held back.
+    bool fill() {
+        batch_.clear();
+        delivered_ = 0;
+        auto& file = reader();
+        auto stop = std::optional<record::TlogReader::Stop>();
+        {
+            const WithoutGil outside;
+            const std::size_t wanted = file.is_file() ? batch_frames : 1;
+            for (std::size_t read = 0; read < batch_frames && batch_.size() < wanted && !stop; ++read) {
+                const auto record = file.next(most_damage);
+                if (!record) stop = record.error();
+                else if (filter_.takes(record->frame)) add(*record);
+            }
+        }
+        using Stop = record::TlogReader::Stop;
+        ended_ = stop == Stop::end;
+        if (stop == Stop::failed && batch_.size() == 0) raise(file.error());
+        return stop != Stop::nothing_yet || batch_.size() != 0;
+    }
+
+    void add(const record::Record& record) {
+        const auto* definition = record.info == nullptr ? nullptr : origin_->dialect().find(record.frame.id());
+        batch_.add({.time_ns = record.time.time_since_epoch().count(), .definition = definition}, record.frame);
+    }
+
+    const std::string path_;
+    const std::shared_ptr<Origin> origin_;
+    const feed::Filter filter_;
+    std::mutex mutex_;
+    // Guarded by mutex_:
+    std::optional<record::TlogReader> reader_;  // empty: closed
+    feed::FrameBatch batch_;
+    std::size_t delivered_ = 0;  // frames of batch_ that were delivered
+    bool ended_ = false;
+    RecordingStats stats_{};
+};
+
+}  // namespace
+
+void bind_recording(nb::module_& module) {
+    nb::class_<RecordingStats>(module, "RecordingStats", "What was read so far. Every byte of the file is counted once.")
+        .def_ro("records", &RecordingStats::records)
+        .def_ro("record_bytes", &RecordingStats::record_bytes)
+        .def_ro("unknown_ids", &RecordingStats::unknown_ids, "Of the records: without definition.")
+        .def_ro("unknown_flags", &RecordingStats::unknown_flags,
+                "Records with an undefined incompatibility flag: left out.")
+        .def_ro("junk_bytes", &RecordingStats::junk_bytes, "Damaged, or cut at the end.")
+        .def_ro("damaged_places", &RecordingStats::damaged_places, "Runs of such bytes.")
+        .def("__repr__", &counters_repr);
+
+    nb::class_<Recording>(
+        module, "Recording", nb::type_slots(iterator_slots<Recording>), nb::is_final(),
+        "The messages of a tlog, in the order of the file: an iterator, once through (`rewind()` starts again). Damage "
+        "is skipped and counted in\n"
+        "`stats`; an error of the system in the middle of the file is raised when all before it was handed out. Any "
+        "thread, one at a time; the GIL\n"
+        "is free while reading. A file that is open is closed by `close()`, `with`, or when the object goes.")
+        .def(
+            "__init__",
+            [](Recording* self, const nb::object& path, const nb::object& type, const OptionalInteger& system,
+               const OptionalInteger& component, const nb::object& dialect) {
+                const nb::object bytes = nb::module_::import_("os").attr("fsencode")(path);
+                const auto name = nb::cast<nb::bytes>(bytes);
+                new (self) Recording(std::string(name.c_str(), name.size()), dialect, type, system, component);
+            },
+            nb::arg("path"), nb::kw_only(), nb::arg("type") = nb::none(), nb::arg("system") = nb::none(),
+            nb::arg("component") = nb::none(), nb::arg("dialect") = nb::none(),
+            nb::sig("def __init__(self, path: str | os.PathLike[str], *, type: MessageTypes | None = None, system: int "
+                    "| None = None, "
+                    "component: int | None = None, dialect: Dialect | None = None) -> None"))
+        .def("recv_match", &Recording::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
+             nb::arg("blocking") = false, nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
+             nb::arg("component") = nb::none(),
+             nb::sig("def recv_match(self, condition: collections.abc.Callable[[Message], object] | None = None, type: "
+                     "MessageTypes | None = None, "
+                     "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int "
+                     "| None = None) -> Message | None"),
+             "The next message of these types for which `condition(message)` is true; None at the end, and after "
+             "`timeout` seconds of looking for one\n"
+             "(0: all of a file, or what a pipe has). A file never makes one wait, a pipe with or without `blocking`.")
+        .def(
+            "recv",
+            [](Recording& r, const nb::object& timeout) {
+                return r.recv_match(nb::none(), nb::none(), false, timeout, {}, {});
+            },
+            nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
+            "The next message; None at the end, and after `timeout` seconds in which a pipe gave none.")
+        .def("rewind", &Recording::rewind, "Starts again at the beginning. Bytes read again are counted again.")
+        .def_prop_ro("percent", &Recording::percent, "How much of the file was read, 0 to 100.")
+        .def_prop_ro("stats", &Recording::stats, "A snapshot: a RecordingStats.")
+        .def_prop_ro("path", &Recording::path)
+        .def("close", &Recording::close, "May be called again; reading then raises ClosedError.")
+        .def(
+            "__enter__", [](nb::object self) { return self; }, nb::sig("def __enter__(self) -> Recording"))
+        .def(
+            "__exit__", [](Recording& r, const nb::args&) { r.close(); },
+            nb::sig("def __exit__(self, *args: object) -> None"));
+}
+
+}  // namespace mavloom::python

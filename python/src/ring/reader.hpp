@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// RingSource: a ring's reader that several Python objects share. Lease: the records that it returned.
+// Neither uses Python, except to work without the GIL. Any thread.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mavloom/feed/ring_alarm.hpp"
+#include "mavloom/feed/turns.hpp"
+#include "mavloom/shm/ring_reader.hpp"
+#include "ring/looks.hpp"
+#include "waiting.hpp"
+
+namespace mavloom::python {
+
+class RingSource;
+
+// Records that were read together: copies, or views into the ring (lossless). Views end or become copies:
+// - The next read of the thread that took the views ends them. It fails while they are in use.
+// - The next read of another thread waits while they are in use, and then replaces them by copies: the first thread may
+//   be about to use them again.
+class Lease {
+public:
+    Lease(std::shared_ptr<RingSource> source, std::vector<shm::RingRecord> records)
+        : source_(std::move(source)), records_(std::move(records)) {}
+    Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
+        : records_(std::move(records)), copies_(std::move(copies)) {}
+
+    // The records and where their bytes are. Call `look` first: without it, the bytes may move.
+    [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
+    [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr || kept_.load() == Kept::copies; }
+    // The ring's source, which keeps the ring mapped; null for records that were copied when they were read.
+    [[nodiscard]] const std::shared_ptr<RingSource>& source() const noexcept { return source_; }
+
+    // Call `look` before using the bytes.
+    // - `counted`: call `look_away` afterwards.
+    // - `free`: the views became copies, which never end. Do not call `look_away`.
+    // - `refused`: the bytes have ended.
+    enum class Look : std::uint8_t { refused, counted, free };
+    [[nodiscard]] Look look() noexcept;
+    void look_away() noexcept;
+    // Whether at most one thread has looked, and it is not this one.
+    [[nodiscard]] bool is_another_threads() const noexcept;
+    // Ends the records. Returns false while they are in use, and true again on later calls.
+    [[nodiscard]] bool release() noexcept { return looks_.finish(); }
+    // Replaces views by copies while the ring is still held for them. Returns false while they are in use.
+    [[nodiscard]] bool keep();
+
+private:
+    enum class Kept : std::uint8_t { nothing, soon, copies };
+
+    const std::shared_ptr<RingSource> source_;
+    const std::vector<shm::RingRecord> records_;
+    std::vector<std::uint64_t> copies_;
+    std::vector<shm::RingRecord> kept_records_;  // records_, with the data in copies_
+    std::atomic<Kept> kept_{Kept::nothing};
+    Looks looks_;
+    std::atomic<std::uint64_t> looker_{0};  // the first thread that looked
+    std::atomic<bool> has_several_lookers_{false};
+};
+
+// Part of a lease: its records from `first` on.
+struct Portion {
+    std::shared_ptr<Lease> lease;
+    std::size_t first = 0;
+};
+
+class RingSource : public std::enable_shared_from_this<RingSource> {
+public:
+    RingSource(shm::RingReader reader, bool lossless) : lossless_(lossless), reader_(std::move(reader)) {}
+
+    enum class State : std::uint8_t {
+        found,
+        nothing,
+        no_writer,
+        removed,
+        damaged,
+        forked,
+        closed,
+        looked_at,
+        used_elsewhere
+    };
+    // Reading takes two steps, because a signal handler may run between them: `fetch` makes records pending, and
+    // `take`, by any thread, takes them.
+    // `fetch` reads up to `most` records, unless some are pending already. It waits until `deadline`, but at most for a
+    // slice. To wait, call it without the GIL. MonoTime{} means not to wait.
+    // `nothing`: call again; it may have been another thread's turn. `used_elsewhere`: another thread is using the
+    // records that were read last.
+    [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
+    // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
+    [[nodiscard]] State take(std::size_t most, Portion& out);
+    void give_way() const { turns_.give_way(); }
+
+    // For event loops: returns a descriptor, created at the first call. After `arm` it becomes readable when there may
+    // be something to fetch, or when nothing ever will be.
+    [[nodiscard]] SetupResult<int> event_fd();
+    void arm();
+
+    // Ends the views of a lease and lets the writer pass them. Returns false while they are in use.
+    [[nodiscard]] bool release(Lease& lease);
+    // Gives the reader slot back. Returns false while the records that were read last are in use.
+    [[nodiscard]] bool close();
+    // The owner is gone: closes the reader at once, or when its records are no longer in use (`nobody_looks`).
+    void abandon();
+    void nobody_looks();
+
+    // In a forked child, the ring is no longer held for the records.
+    [[nodiscard]] const BeforeFork& fork() const noexcept { return fork_; }
+    [[nodiscard]] bool holds() const noexcept { return reader_.holds(); }
+    [[nodiscard]] bool is_lossless() const noexcept { return lossless_; }
+    [[nodiscard]] bool is_closed() const noexcept { return closed_.load(std::memory_order_relaxed); }
+    [[nodiscard]] const std::string& name() const noexcept { return reader_.name(); }
+    [[nodiscard]] std::uint64_t missed() const noexcept { return missed_.load(std::memory_order_relaxed); }
+    [[nodiscard]] bool writer_alive() const noexcept { return reader_.writer_alive(); }
+    [[nodiscard]] bool is_removed() const noexcept { return reader_.is_retired() || !reader_.is_named(); }
+
+private:
+    // Call these with turns_ held.
+    [[nodiscard]] State fill(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State view(std::size_t most, MonoTime deadline);
+    [[nodiscard]] State copy(std::size_t most, MonoTime deadline);
+    [[nodiscard]] shm::ReadResult<shm::RingRecord> next(MonoTime deadline);
+    [[nodiscard]] bool release_current();
+    [[nodiscard]] bool close_locked();
+
+    // For the alarm: these never wait for a turn.
+    [[nodiscard]] Nanoseconds nap();
+    [[nodiscard]] feed::RingAlarm* alarm();
+
+    const BeforeFork fork_;
+    const bool lossless_;
+    feed::Turns turns_;
+    std::atomic<bool> closed_{false}, abandoned_{false};
+    std::atomic<std::uint64_t> missed_{0};
+    // Guarded by turns_, except for const members of reader_:
+    shm::RingReader reader_;
+    Portion pending_;                       // fetched, but not taken yet
+    std::weak_ptr<Lease> current_;          // the lease that a lossless reader holds
+    std::uint64_t taker_ = 0;               // the thread that took from current_; 0 if several did
+    std::vector<shm::RingRecord> scratch_;  // lossless: the buffer for batches
+
+    std::mutex making_alarm_;
+    std::unique_ptr<feed::RingAlarm> alarm_;  // created with making_alarm_ held, then never changed
+};
+
+}  // namespace mavloom::python

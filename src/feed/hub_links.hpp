@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// HubLinks: the endpoints of a hub, and the channel that each of them fills. Loop thread only, except for `wake`.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "mavloom/feed/hub.hpp"
+
+namespace mavloom::feed {
+
+class HubLinks : private link::LinkHandler {
+public:
+    explicit HubLinks(Sources sources);
+
+    // Any thread: ends the sleep of `turn`.
+    void wake() noexcept { sources_.wake(); }
+    // Receives and sends; sleeps until the deadline if there is nothing to do.
+    void turn(MonoTime deadline);
+    void send(link::EndpointId to, const wire::FrameView& frame) { links().send(to, frame); }
+    // At the end: readers get nothing more.
+    void close_channels();
+
+    // See Hub, which calls these on the loop thread.
+    [[nodiscard]] SetupResult<Hub::Opened> open(const endpoint::Endpoint& endpoint,
+                                                const std::shared_ptr<Channel>& channel, const Consumer& reader);
+    void remove(link::EndpointId endpoint);
+    [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
+    [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
+    [[nodiscard]] EndpointStats stats(link::EndpointId endpoint);
+
+    // Returns whether the far side was reached, or why not; nullopt while neither is known.
+    [[nodiscard]] std::optional<SetupResult<void>> far_side(const Hub::Opened& opened);
+    // Whether all frames were sent, or nobody is there to receive them.
+    [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
+
+private:
+    struct Served {
+        std::shared_ptr<Channel> channel;
+        bool is_ring = false, is_lossless = false;
+        std::optional<link::EndpointId> inlet{};         // of a ring that is read: carries frames to its router
+        std::optional<link::EndpointId> served_inlet{};  // of a ring that is filled: receives frames of its readers
+        std::uint64_t unheard_answers = 0;
+    };
+
+    void on_frame(const link::RxFrame& rx) override;
+    void on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) override;
+    void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
+    void on_bad_checksum(LinkId link, link::EndpointId endpoint, MessageId id) override;
+
+    [[nodiscard]] link::Links& links() noexcept { return sources_.links(); }
+    // Null for an endpoint without a channel, such as a served inlet.
+    [[nodiscard]] Served* served_by(link::EndpointId endpoint) noexcept;
+    [[nodiscard]] bool is_up(link::EndpointId endpoint) const;
+    [[nodiscard]] SetupResult<link::EndpointId> open_way_out(link::EndpointId ring);
+    [[nodiscard]] link::EndpointId way_out(link::EndpointId endpoint);
+    void pass_answer(const link::RxFrame& rx);
+    void add_live_counters(link::EndpointId endpoint, EndpointStats& stats);
+    [[nodiscard]] std::uint64_t frames_in(link::EndpointId endpoint);
+
+    // sources_ refers to dialects that the channels in served_ own, so served_ is destroyed after it.
+    std::unordered_map<link::EndpointId, Served> served_;
+    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // the filled endpoint, by served inlet
+    Sources sources_;
+};
+
+}  // namespace mavloom::feed

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/feed/ring_alarm.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace mavloom::feed {
+
+// All alarms of a process. A forked child makes a new Clock. It leaves the old one alone, because that one's thread and
+// locks stayed in the parent.
+class RingAlarm::Clock {
+public:
+    [[nodiscard]] static Clock& here() {
+        Clock* known = current.load();
+        while (known == nullptr || !known->fork_.is_here()) {
+            auto made = std::make_unique<Clock>();
+            if (current.compare_exchange_strong(known, made.get())) return *made.release();
+        }
+        return *known;
+    }
+    [[nodiscard]] static Clock* made() noexcept { return current.load(); }
+    [[nodiscard]] bool is_here() const noexcept { return fork_.is_here(); }
+
+    void add(RingAlarm& alarm) {
+        const std::lock_guard lock(mutex_);
+        alarms_.push_back(&alarm);
+        try {
+            watch();
+        } catch (...) {
+            alarms_.pop_back();
+            throw;
+        }
+    }
+    void remove(RingAlarm& alarm) {
+        const std::lock_guard lock(mutex_);
+        std::erase(alarms_, &alarm);
+        watch();
+    }
+    void arm(RingAlarm& alarm) {
+        const std::lock_guard lock(mutex_);
+        alarm.armed_ = true;
+        if (waiter_) waiter_->arm();  // before looking at the ring, so that no later record is missed
+        look_at(alarm);
+    }
+    void stop() {
+        std::unique_ptr<shm::RingWaiter> ending;  // joined after the mutex is unlocked, because the thread may need it
+        const std::lock_guard lock(mutex_);
+        ending = std::exchange(waiter_, nullptr);
+        look_at_all();
+    }
+
+private:
+    void watch() {
+        if (!waiter_) return;
+        std::vector<shm::RingWaiter::WakeWord> words;
+        words.reserve(alarms_.size());
+        for (const auto* alarm : alarms_) words.push_back(alarm->word_);
+        is_crowded_ = words.size() > shm::RingWaiter::most_rings;
+        waiter_->watch(std::move(words));
+        look_at_all();
+    }
+    // Also called on the waiter's thread.
+    void look_at_all() {
+        if (waiter_) waiter_->arm();
+        for (auto* alarm : alarms_)
+            if (alarm->armed_) look_at(*alarm);
+    }
+    void look_at(RingAlarm& alarm) {
+        Nanoseconds nap = waiter_ ? alarm.nap_() : Nanoseconds{};
+        if (is_crowded_) nap = std::min<Nanoseconds>(nap, std::chrono::milliseconds{1});
+        alarm.armed_ = nap != Nanoseconds{};
+        if (alarm.armed_) waiter_->arm(nap);
+        else alarm.tell();
+    }
+
+    inline static std::atomic<Clock*> current{nullptr};
+    const BeforeFork fork_;
+    std::mutex mutex_;
+    // Guarded by mutex_:
+    std::vector<RingAlarm*> alarms_;
+    bool is_crowded_ = false;  // more rings than the thread can sleep on
+    std::unique_ptr<shm::RingWaiter> waiter_ = std::make_unique<shm::RingWaiter>([this] {
+        const std::lock_guard lock(mutex_);
+        look_at_all();
+    });
+};
+
+SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWord word, Nap nap) {
+    const int fd = ::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (fd < 0) return system_error("eventfd", errno);
+    std::unique_ptr<RingAlarm> alarm(new RingAlarm(fd, std::move(word), std::move(nap)));
+    try {
+        alarm->clock_.add(*alarm);
+    } catch (const std::system_error& error) {
+        return system_error("a thread that waits for rings", error.code().value());
+    }
+    return alarm;
+}
+
+RingAlarm::RingAlarm(int fd, shm::RingWaiter::WakeWord word, Nap nap)
+    : fd_(fd), word_(std::move(word)), nap_(std::move(nap)), clock_(Clock::here()) {}
+
+RingAlarm::~RingAlarm() {
+    if (fork_.is_here()) clock_.remove(*this);
+    ::close(fd_);
+}
+
+void RingAlarm::arm() {
+    if (fork_.is_here()) clock_.arm(*this);
+}
+
+void RingAlarm::tell() const noexcept {
+    if (!fork_.is_here()) return;  // the parent would see it: both have the same eventfd
+    const std::uint64_t one = 1;
+    // If the counter is full, the write fails and the descriptor is readable already.
+    [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
+}
+
+void RingAlarm::stop_all() {
+    if (auto* const clock = Clock::made(); clock != nullptr && clock->is_here()) clock->stop();
+}
+
+}  // namespace mavloom::feed

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/feed/ring_alarm.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "mavloom/shm/ring_reader.hpp"
+#include "mavloom/shm/ring_writer.hpp"
+#include "support/ring_name.hpp"
+#include "unit/feed/fixture.hpp"
+
+namespace mavloom::feed {
+namespace {
+
+using namespace testing;
+
+// A ring, and a reader with its alarm. The reader belongs to whoever holds the mutex, as in a program.
+class AlarmedRing {
+public:
+    explicit AlarmedRing(const test::RingName& name)
+        : writer_(*shm::RingWriter::open(name.text(), {.capacity = shm::min_capacity})),
+          reader_(*shm::RingReader::open(name.text())),
+          alarm_(*RingAlarm::make(reader_.wake_word(), [this] { return nap(); })) {}
+
+    void write(std::uint8_t byte = 1) {
+        ASSERT_TRUE(writer_.write({&byte, 1}, {}, mono_now() + long_enough));
+        writer_.flush();
+    }
+    [[nodiscard]] bool read() {
+        const std::lock_guard lock(mutex_);
+        return reader_.try_read().has_value();
+    }
+    [[nodiscard]] RingAlarm& alarm() { return *alarm_; }
+    [[nodiscard]] int fd() const { return alarm_->fd(); }
+    [[nodiscard]] int naps() const { return naps_; }
+    void destroy_alarm() { alarm_.reset(); }
+
+private:
+    Nanoseconds nap() {
+        ++naps_;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        return lock.owns_lock() ? reader_.arm() : Nanoseconds{1ms};
+    }
+    shm::RingWriter writer_;
+    std::mutex mutex_;
+    shm::RingReader reader_;
+    std::atomic<int> naps_{0};
+    std::unique_ptr<RingAlarm> alarm_;
+};
+
+struct RingAlarmTest : ::testing::Test {
+    // As a loop does: asleep on the descriptor until there is a record.
+    static bool gets_record(AlarmedRing& ring) {
+        for (const auto limit = mono_now() + long_enough; mono_now() < limit;) {
+            if (ring.read()) return true;
+            read_count(ring.fd());
+            ring.alarm().arm();
+            if (!is_readable(ring.fd(), long_enough)) return false;
+        }
+        return false;
+    }
+    test::RingName name;
+};
+
+TEST_F(RingAlarmTest, ItIsReadableFromTheStartSoThatTheFirstLookIsMade) {
+    AlarmedRing ring(name);
+    EXPECT_EQ(read_count(ring.fd()), 1u);
+}
+
+TEST_F(RingAlarmTest, ItTellsOncePerArmingAndNotUnlessArmed) {
+    AlarmedRing ring(name);
+    read_count(ring.fd());
+    ring.write();
+    EXPECT_FALSE(is_readable(ring.fd()));  // nobody armed it
+
+    ring.alarm().arm();  // something waits already
+    EXPECT_EQ(read_count(ring.fd()), 1u);
+    ring.write();
+    ring.write();
+    EXPECT_FALSE(is_readable(ring.fd()));
+
+    while (ring.read()) continue;
+    ring.alarm().arm();
+    EXPECT_FALSE(is_readable(ring.fd()));
+    ring.write();
+    EXPECT_TRUE(is_readable(ring.fd(), long_enough));
+    for (int i = 0; i < 10; ++i) ring.write();
+    ring.alarm().tell();  // the alarm thread has done with the ring before this returns or later: it must not tell again
+    EXPECT_EQ(read_count(ring.fd()), 2u);
+}
+
+TEST_F(RingAlarmTest, ArmingTwiceTellsOnce) {
+    AlarmedRing ring(name);
+    read_count(ring.fd());
+    ring.alarm().arm();
+    ring.alarm().arm();
+    ring.write();
+    ASSERT_TRUE(is_readable(ring.fd(), long_enough));
+    EXPECT_EQ(read_count(ring.fd()), 1u);
+}
+
+TEST_F(RingAlarmTest, NoRecordIsSleptThroughWhileAThreadWrites) {
+    AlarmedRing ring(name);
+    constexpr int records = 300;
+    std::thread writing([&] {
+        for (int i = 0; i < records; ++i) {
+            ring.write();
+            if (i % 7 == 0) std::this_thread::yield();
+        }
+    });
+    for (int i = 0; i < records; ++i) ASSERT_TRUE(gets_record(ring));
+    writing.join();
+}
+
+TEST_F(RingAlarmTest, OneThreadServesManyRingsThatComeAndGo) {
+    test::RingName names[5];
+    std::vector<std::thread> users;
+    for (auto& own : names)
+        users.emplace_back([&] {
+            for (int round = 0; round < 10; ++round) {
+                AlarmedRing ring(own);
+                std::thread writing([&] {
+                    for (int i = 0; i < 10; ++i) ring.write();
+                });
+                for (int i = 0; i < 10; ++i) EXPECT_TRUE(gets_record(ring));
+                writing.join();
+            }
+        });
+    for (auto& user : users) user.join();
+}
+
+// Its `nap` refers to a reader that may end next.
+TEST_F(RingAlarmTest, ADestroyedAlarmIsAskedNoMore) {
+    AlarmedRing ring(name);
+    test::RingName other_name;
+    AlarmedRing other(other_name);
+    ring.alarm().arm();
+    ring.destroy_alarm();
+    const int naps = ring.naps();
+    ring.write();
+    other.write();
+    EXPECT_TRUE(gets_record(other));
+    EXPECT_EQ(ring.naps(), naps);
+}
+
+// In the child the parent's alarm has no thread, and its descriptor is the parent's too.
+TEST_F(RingAlarmTest, AForkedChildLeavesTheParentsAlarmAlone) {
+    AlarmedRing ring(name);
+    read_count(ring.fd());
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ring.alarm().arm();
+        ring.alarm().tell();
+        const bool told = is_readable(ring.fd());
+        ring.destroy_alarm();
+        ::_exit(told ? 1 : 0);
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    EXPECT_FALSE(is_readable(ring.fd()));
+    ring.write();
+    EXPECT_TRUE(gets_record(ring));
+}
+
+// For good: it belongs to the end of a process. So it has a process of its own.
+TEST_F(RingAlarmTest, AfterTheEndEveryArmedAlarmTellsAtOnce) {
+    const auto end = [&] {
+        AlarmedRing ring(name);
+        read_count(ring.fd());
+        ring.alarm().arm();
+        RingAlarm::stop_all();
+        const bool told = read_count(ring.fd()) == 1;
+        ring.alarm().arm();
+        const bool told_again = read_count(ring.fd()) == 1;
+        RingAlarm::stop_all();
+        ::_exit(told && told_again ? 0 : 1);
+    };
+    ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace mavloom::feed

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/feed/turns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <pthread.h>
+
+#include <cerrno>
+#include <ctime>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "support/thread_sanitizer.hpp"
+#include "unit/feed/fixture.hpp"
+
+#ifdef MAVLOOM_THREAD_SANITIZER
+// Clang 16's thread sanitizer does not know this function, behind std::timed_mutex::try_lock_until, and would not see
+// the lock. Here it is made of one that it knows.
+extern "C" int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock, const timespec* until) noexcept {
+    for (;;) {
+        if (const int error = ::pthread_mutex_trylock(mutex); error != EBUSY) return error;
+        timespec now{};
+        ::clock_gettime(clock, &now);
+        if (now.tv_sec > until->tv_sec || (now.tv_sec == until->tv_sec && now.tv_nsec >= until->tv_nsec))
+            return ETIMEDOUT;
+        std::this_thread::yield();
+    }
+}
+#endif
+
+namespace mavloom::feed {
+namespace {
+
+using namespace testing;
+
+TEST(Turns, OneThreadAtATimeHasItsTurn) {
+    Turns turns;
+    int guarded = 0;  // what the thread sanitizer watches
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            for (int round = 0; round < 500; ++round) {
+                {
+                    const auto lock = turns.take();
+                    ++guarded;
+                }
+                if (const auto lock = turns.try_take(); lock.owns_lock()) --guarded, ++guarded;
+                if (const auto lock = turns.take_until(mono_now() + long_enough); lock.owns_lock()) ++guarded;
+                else --round;  // after a slice: again
+                turns.give_way();
+            }
+        });
+    for (auto& thread : threads) thread.join();
+    const auto lock = turns.take();
+    EXPECT_GE(guarded, 4 * 500 * 2);
+}
+
+TEST(Turns, WhoOnlyTriesIsRefusedDuringATurn) {
+    Turns turns;
+    const auto held = turns.take();
+    bool refused = false, refused_after_a_slice = false;
+    std::thread([&] {
+        refused = !turns.try_take().owns_lock();
+        refused_after_a_slice = !turns.take_until(MonoTime::max()).owns_lock();
+    }).join();
+    EXPECT_TRUE(refused);
+    EXPECT_TRUE(refused_after_a_slice);
+}
+
+// A thread that waits slice by slice and gives way in between must not starve the others.
+TEST(Turns, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
+    Turns turns;
+    std::atomic<bool> had_turn{false};
+    std::thread asking([&] {
+        const auto lock = turns.take();
+        had_turn = true;
+    });
+    EXPECT_TRUE(eventually([&] {
+        for (int slice = 0; slice < 100 && !had_turn; ++slice) {
+            turns.give_way();
+            const auto lock = turns.take_until(MonoTime::max());
+        }
+        return had_turn.load();
+    }));
+    asking.join();
+}
+
+TEST(Turns, AGlanceNeverWaitsAndSeesWhetherTheTurnIsFree) {
+    Turns turns;
+    EXPECT_TRUE(turns.glance([](bool is_free) { return is_free; }));
+    const auto held = turns.take();
+    bool free = true;
+    std::thread([&] { free = turns.glance([](bool is_free) { return is_free; }); }).join();
+    EXPECT_FALSE(free);
+}
+
+// Otherwise a read that does not wait would find nothing, although there are records.
+TEST(Turns, WhoTriesLosesNoTurnToAGlance) {
+    Turns turns;
+    constexpr int enough = 20'000;
+    std::atomic<int> glances{0};
+    int guarded = 0;
+    std::thread glancing([&] {
+        while (glances < enough)
+            glances += turns.glance([&](bool is_free) {
+                if (is_free) ++guarded;
+                return 1;
+            });
+    });
+    int refused = 0;
+    while (glances < enough) {
+        {
+            const auto lock = turns.try_take();
+            if (lock.owns_lock()) --guarded;
+            else ++refused;
+        }
+        std::this_thread::yield();  // to the glancing thread, so that it gets the lock too
+    }
+    glancing.join();
+    EXPECT_EQ(refused, 0);
+}
+
+TEST(ThisThread, NumbersAreNeverReusedNorZero) {
+    std::set<std::uint64_t> numbers{this_thread()};
+    EXPECT_EQ(this_thread(), *numbers.begin());
+    for (int i = 0; i < 100; ++i) std::thread([&] { numbers.insert(this_thread()); }).join();
+    EXPECT_EQ(numbers.size(), 101u);
+    EXPECT_FALSE(numbers.contains(0));
+}
+
+}  // namespace
+}  // namespace mavloom::feed
