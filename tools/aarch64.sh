@@ -9,7 +9,7 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
 # The outside's headers that are the same on every machine; /usr/include as a whole is this one's.
 mkdir -p "$folder/outside"
-for name in fmt tl readerwriterqueue; do ln -sfn "/usr/include/$name" "$folder/outside/$name"; done
+for name in fmt tl; do ln -sfn "/usr/include/$name" "$folder/outside/$name"; done
 readonly google=/usr/src/googletest
 flags=(-std=c++20 -O1 -g1 -Wall -Wextra -DFMT_HEADER_ONLY -Iinclude -Isrc -Itests -isystem "$folder/outside"
        -isystem $google/googletest/include -isystem $google/googlemock/include

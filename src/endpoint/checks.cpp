@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace mavloom::endpoint {
@@ -11,26 +12,17 @@ static tl::unexpected<SetupError> refused(const Endpoint& endpoint, std::string_
     return setup_error(SetupCode::usage, fmt::format("{}: {}", endpoint.label(), text));
 }
 
-SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing) {
-    switch (endpoint.scheme) {
-        case Scheme::udpin:
-        case Scheme::udpout:
-        case Scheme::udpbcast:
-        case Scheme::udpmcast:
-        case Scheme::tcpin:
-        case Scheme::tcpout:
-        case Scheme::serial: break;
-        case Scheme::shm:
-            if (routing == RoutingOptions::by_owner)
-                return refused(
-                    endpoint,
-                    "a ring is no link of a router: route --ring NAME writes one and takes what is sent to its "
-                    "inlet; listen, relay and record read it");
-            break;
-        case Scheme::tlog:
-            return refused(endpoint,
-                           "a recording is no link: it is read and written by listen, relay, record and replay");
-    }
+static SetupResult<void> check_scheme(const Endpoint& endpoint, RoutingOptions routing) {
+    if (endpoint.scheme == Scheme::tlog)
+        return refused(endpoint, "a recording is no link: it is read and written by listen, relay, record and replay");
+    if (endpoint.scheme == Scheme::shm && routing == RoutingOptions::by_owner)
+        return refused(endpoint,
+                       "a ring is no link of a router: route --ring NAME writes one and takes what is sent to its "
+                       "inlet; listen, relay and record read it");
+    return {};
+}
+
+static SetupResult<void> refuse_routing_options(const Endpoint& endpoint) {
     const EndpointOptions& o = endpoint.options;
     const std::pair<std::string_view, bool> routed[] = {
         {"group", !o.group.empty() || o.names_group_mode},
@@ -44,11 +36,16 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
         {"private", o.is_private},
         {"heartbeat", o.heartbeat.has_value()},
     };
-    for (const auto& [name, set] : routed) {
-        if (set && routing == RoutingOptions::refused)
-            return refused(endpoint,
-                           fmt::format("option {}= is for mavloom route, which decides what goes where", name));
-    }
+    const auto set = std::ranges::find(routed, true, &std::pair<std::string_view, bool>::second);
+    if (set == std::end(routed)) return {};
+    return refused(endpoint, fmt::format("option {}= is for mavloom route, which decides what goes where", set->first));
+}
+
+SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing) {
+    if (auto good = check_scheme(endpoint, routing); !good) return good;
+    if (routing == RoutingOptions::refused)
+        if (auto good = refuse_routing_options(endpoint); !good) return good;
+    const EndpointOptions& o = endpoint.options;
     if (endpoint.scheme == Scheme::shm && !o.verify_key_file.empty())
         return refused(
             endpoint,

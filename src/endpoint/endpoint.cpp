@@ -123,45 +123,49 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
                              is_name(text) ? shown(text) : "NAME"));
 }
 
+SetupResult<Split> split_url(Split result, std::string_view text) {
+    const auto slashes = text.find("://");
+    const auto scheme = text.substr(0, slashes);
+    const auto found = std::ranges::find(names, scheme);
+    result.rest.remove_prefix(slashes + 3);
+    if (found == names.end()) return unknown_scheme(scheme, result.rest);
+    result.scheme = static_cast<Scheme>(found - names.begin());
+    return result;
+}
+
+// "/dev/ttyUSB0", or a path with a baud rate behind a comma.
+SetupResult<Split> split_device(Split result) {
+    result.scheme = Scheme::serial;
+    result.plain_path = true;
+    const auto comma = result.rest.rfind(',');
+    if (comma == std::string_view::npos) return result;
+    result.comma_baud = result.rest.substr(comma + 1);
+    if (result.comma_baud.empty())
+        return usage(fmt::format("the baud rate behind the comma is missing; type {}57600", shown(result.rest)));
+    result.rest = result.rest.substr(0, comma);
+    return result;
+}
+
 SetupResult<Split> split(std::string_view text) {
     Split result;
     const auto query = query_of(text);
     result.has_query = query.has_value();
     result.query = query.value_or(std::string_view{});
     result.rest = query ? text.substr(0, text.size() - query->size() - 1) : text;
-    if (names_scheme(text)) {
-        const auto slashes = text.find("://");
-        const auto scheme = text.substr(0, slashes);
-        const auto found = std::find(names.begin(), names.end(), scheme);
-        result.rest.remove_prefix(slashes + 3);
-        if (found == names.end()) return unknown_scheme(scheme, result.rest);
-        result.scheme = static_cast<Scheme>(found - names.begin());
-        return result;
-    }
+    if (names_scheme(text)) return split_url(result, text);
     if (!is_short_form(text) && names_recording(result.rest)) {
         result.scheme = Scheme::tlog;
         result.plain_path = true;
         return result;
     }
-    const auto comma = result.rest.rfind(',');
-    const bool has_comma = comma != std::string_view::npos;
-    if (result.rest.starts_with("/dev/") || (result.rest.starts_with('/') && has_comma)) {
-        result.scheme = Scheme::serial;
-        result.plain_path = true;
-        if (!has_comma) return result;
-        result.comma_baud = result.rest.substr(comma + 1);
-        if (result.comma_baud.empty())
-            return usage(fmt::format("the baud rate behind the comma is missing; type {}57600", shown(result.rest)));
-        result.rest = result.rest.substr(0, comma);
-        return result;
-    }
-    for (const Short& form : short_forms) {
-        if (!result.rest.starts_with(form.prefix)) continue;
-        result.scheme = form.scheme;
-        result.rest.remove_prefix(form.prefix.size());
-        return result;
-    }
-    return no_scheme(result.rest);
+    const bool has_comma = result.rest.find(',') != std::string_view::npos;
+    if (result.rest.starts_with("/dev/") || (result.rest.starts_with('/') && has_comma)) return split_device(result);
+    const auto form = std::ranges::find_if(short_forms,
+                                           [&](const Short& f) { return result.rest.starts_with(f.prefix); });
+    if (form == std::end(short_forms)) return no_scheme(result.rest);
+    result.scheme = form->scheme;
+    result.rest.remove_prefix(form->prefix.size());
+    return result;
 }
 
 SetupResult<void> set_place(Endpoint& endpoint, const Split& parts) {

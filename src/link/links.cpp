@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 #include "link/local/inlet.hpp"
 #include "link/local/shm.hpp"
 #include "link/serial/serial.hpp"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <memory>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 
 namespace mavloom::link::detail {
 

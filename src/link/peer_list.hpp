@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 
 namespace mavloom::link::detail {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 
 namespace mavloom::link::detail {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 #include "mavloom/net/io_result.hpp"
 #include "mavloom/wire/stream_parser.hpp"
 

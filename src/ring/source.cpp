@@ -91,15 +91,7 @@ bool RingSource::read(link::LinkHandler& handler) {
 }
 
 void RingSource::take(const shm::RingRecord& record, link::LinkHandler& handler) {
-    const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
-    if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
-    const auto writers = follower_.reader()->writers();
-    if (std::exchange(writers_, writers) != writers || is_new) {
-        by_number_.clear();
-        names_.clear();
-        last_ = nullptr;
-        forget_sequences();
-    }
+    notice_other_writer(record);
     told_ = Told::nothing;
     if (record.missed != 0) forget_sequences();
     if (record.info.kind > ring_kind_frame) {
@@ -121,10 +113,27 @@ void RingSource::take(const shm::RingRecord& record, link::LinkHandler& handler)
     }
     time_ = record.info.time == WallTime{} ? wall_now() : record.info.time;
     verdict_ = record.info.verdict;
-    if (!lossless()) return parse(record.data, handler);
-    copy_.assign(record.data.begin(), record.data.end());
+    parse_record(record.data, handler);
+}
+
+// Link numbers and sequences belong to one writer of the ring.
+void RingSource::notice_other_writer(const shm::RingRecord& record) {
+    const bool is_new = std::exchange(opened_, follower_.opened()) != follower_.opened();
+    if (is_new && (awaited_ || follower_.opened() > 1)) overwritten_ += record.sequence - record.missed;
+    const auto writers = follower_.reader()->writers();
+    if (std::exchange(writers_, writers) == writers && !is_new) return;
+    by_number_.clear();
+    names_.clear();
+    last_ = nullptr;
+    forget_sequences();
+}
+
+// An evicting writer may overwrite the record at any time, so a lossless reader parses a copy.
+void RingSource::parse_record(ByteView bytes, link::LinkHandler& handler) {
+    if (!lossless()) return parse(bytes, handler);
+    copy_.assign(bytes.begin(), bytes.end());
     if (follower_.reader()->holds()) return parse(copy_, handler);
-    ++overwritten_;  // by an evicting writer, during the copy
+    ++overwritten_;
     forget_sequences();
 }
 

@@ -251,44 +251,52 @@ Verdict Engine::Impl::to_everybody() noexcept {
     return Verdict::forwarded;
 }
 
-Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
-    std::uint8_t system = 0, component = 0;
-    if (p.info != nullptr) {
-        // A target beyond the end of the payload is 0: MAVLink 2 truncates trailing zeros, MAVLink 1 omits extensions.
-        const ByteView payload = p.frame.payload();
-        if (p.info->target_system_offset < payload.size()) system = payload[p.info->target_system_offset];
-        if (p.info->target_component_offset < payload.size()) component = payload[p.info->target_component_offset];
-    }
-    if (system == 0) return to_everybody();
-    const Source target{SystemId{system}, ComponentId{component}};
-    if (options.own == target) return Verdict::consumed;
+// A target beyond the end of the payload is 0: MAVLink 2 truncates trailing zeros, MAVLink 1 omits extensions.
+static Source target_of(const wire::FrameView& frame, const wire::MessageInfo* info) noexcept {
+    if (info == nullptr) return {};
+    const ByteView payload = frame.payload();
+    const auto byte = [&](std::size_t at) { return at < payload.size() ? payload[at] : std::uint8_t{0}; };
+    return {SystemId{byte(info->target_system_offset)}, ComponentId{byte(info->target_component_offset)}};
+}
 
-    const ConstWords pair = routes_.links_of(pair_of(target));
-    const bool exact = component != 0 && any(pair, words_);
-    if (exact) {
-        assign(candidates_.data(), pair, words_);
-    } else {
-        const ConstWords of_system = routes_.links_of(SystemId{system});
-        if (!any(of_system, words_)) {
-            if (options.unknown_target == UnknownTarget::flood) return to_everybody();
-            ++unknown_[pair_of(target)];
-            return Verdict::unknown_target;
-        }
-        if (component != 0 && options.unknown_component == UnknownComponent::drop) {
-            ++unknown_[pair_of(target)];
-            return Verdict::unknown_target;
-        }
-        each_word(words_, [&](std::size_t w) { candidates_[w] = of_system[w] & ~private_[w]; });
+Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
+    const Source target = target_of(p.frame, p.info);
+    if (target.system.value == 0) return to_everybody();
+    if (options.own == target) return Verdict::consumed;
+    if (!choose_links_of(target)) {
+        const bool is_known_system = any(routes_.links_of(target.system), words_);
+        if (!is_known_system && options.unknown_target == UnknownTarget::flood) return to_everybody();
+        ++unknown_[pair_of(target)];
+        return Verdict::unknown_target;
     }
-    if (reasons_ != nullptr) [[unlikely]] {
-        each(ordinary_.data(), words_, [&](Slot slot) {
-            if (!has(candidates_.data(), slot)) note(slot, Reason::other_target);
-        });
-        each(private_.data(), words_, [&](Slot slot) {
-            if (!has(candidates_.data(), slot)) note(slot, Reason::private_link);
-        });
-    }
+    if (reasons_ != nullptr) [[unlikely]]
+        explain_target();
     return Verdict::forwarded;
+}
+
+// Makes the links of exactly the target the candidates, or else the links of its system that are not private. Returns
+// false if there are none, or if an unknown component is to be dropped.
+bool Engine::Impl::choose_links_of(Source target) noexcept {
+    const ConstWords pair = routes_.links_of(pair_of(target));
+    if (target.component.value != 0 && any(pair, words_)) {
+        assign(candidates_.data(), pair, words_);
+        return true;
+    }
+    const ConstWords of_system = routes_.links_of(target.system);
+    if (!any(of_system, words_)) return false;
+    if (target.component.value != 0 && options.unknown_component == UnknownComponent::drop) return false;
+    each_word(words_, [&](std::size_t w) { candidates_[w] = of_system[w] & ~private_[w]; });
+    return true;
+}
+
+void Engine::Impl::explain_target() noexcept {
+    const auto note_others = [&](ConstWords links_of_kind, Reason reason) {
+        each(links_of_kind, words_, [&](Slot slot) {
+            if (!has(candidates_.data(), slot)) note(slot, reason);
+        });
+    };
+    note_others(ordinary_.data(), Reason::other_target);
+    note_others(private_.data(), Reason::private_link);
 }
 
 void Engine::Impl::leave_out(ConstWords set, Reason reason) noexcept {

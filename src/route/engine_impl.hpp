@@ -111,6 +111,8 @@ private:
     void watch_for_duplicate_ids(const Passage& p) noexcept;
     [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;
+    [[nodiscard]] bool choose_links_of(Source target) noexcept;
+    void explain_target() noexcept;
     void leave_out_origin(const Passage& p) noexcept;
     void apply_filters(const Passage& p) noexcept;
     void apply_groups(const Passage& p) noexcept;
@@ -130,6 +132,9 @@ private:
 
     void index_links();
     void rebuild();
+    void empty_groups();
+    void enlist(Slot slot);
+    void order_groups();
     void grow(std::size_t slots);
     [[nodiscard]] std::uint32_t group_index(const Link& link);
 

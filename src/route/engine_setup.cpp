@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "route/engine_impl.hpp"
@@ -118,57 +119,65 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
 }
 
 // Recomputes all sets that depend on the links and their policies.
+// Recomputes what follows from the links and the options.
 void Engine::Impl::rebuild() {
     for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
-    std::erase_if(groups_, [&](const Group& group) {
-        return std::ranges::none_of(
+    empty_groups();
+    filters_.clear();
+    for (Slot slot = 0; slot < links.size(); ++slot)
+        if (links[slot] != nullptr) enlist(slot);
+    has_taps_ = any(taps_.data(), words_);
+    has_limits_ = any(limited_.data(), words_);
+    order_groups();
+    // Remembers frames from the first link on: what the router itself sends there may come back on a second link.
+    const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
+    recent_.resize(remembers ? options.recent_frames : 0, words_);
+}
+
+// Keeps the groups that have a link, without their members.
+void Engine::Impl::empty_groups() {
+    const auto has_link = [&](const Group& group) {
+        return std::ranges::any_of(
             links, [&](const auto& l) { return l != nullptr && !l->policy.tap && l->policy.group == group.id; });
-    });
+    };
+    std::erase_if(groups_, std::not_fn(has_link));
     for (Group& group : groups_) {
         group.members.assign(words_, 0);
         group.order.clear();
     }
-    filters_.clear();
-    for (Slot slot = 0; slot < links.size(); ++slot) {
-        if (links[slot] == nullptr) continue;
-        Link& link = *links[slot];
-        link.listed = 0;
-        link.listed_set.resize(words_);
-        link.list.resize(words_ * 64 <= most_listed ? words_ * 64 : 0);
-        route::insert(link.policy.tap          ? taps_.data()
-                      : link.policy.is_private ? private_.data()
-                                               : ordinary_.data(),
-                      slot);
-        if (link.limiter.limits()) route::insert(limited_.data(), slot);
-        if (link.policy.tap) continue;
-        if (!link.policy.out.admits_all()) {
-            const auto same = [&](const OutFilter& f) { return f.filter == link.policy.out; };
-            auto at = std::find_if(filters_.begin(), filters_.end(), same);
-            if (at == filters_.end()) at = filters_.insert(at, {link.policy.out, std::vector<std::uint64_t>(words_)});
-            route::insert(at->links.data(), slot);
-        }
-        if (link.policy.group.value == 0) continue;
-        link.group = group_index(link);
-        Group& group = groups_[link.group];
-        group.members.resize(words_);
-        route::insert(group.members.data(), slot);
-        group.order.push_back(slot);
+}
+
+// Adds the link to the sets that it belongs to.
+void Engine::Impl::enlist(Slot slot) {
+    Link& link = *links[slot];
+    link.listed = 0;
+    link.listed_set.resize(words_);
+    link.list.resize(words_ * 64 <= most_listed ? words_ * 64 : 0);
+    auto& kind = link.policy.tap ? taps_ : link.policy.is_private ? private_ : ordinary_;
+    route::insert(kind.data(), slot);
+    if (link.limiter.limits()) route::insert(limited_.data(), slot);
+    if (link.policy.tap) return;
+    if (!link.policy.out.admits_all()) {
+        auto at = std::ranges::find(filters_, link.policy.out, &OutFilter::filter);
+        if (at == filters_.end()) at = filters_.insert(at, {link.policy.out, std::vector<std::uint64_t>(words_)});
+        route::insert(at->links.data(), slot);
     }
-    const auto preferred = [&](Slot a, Slot b) {
-        const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
-        return rank(a) < rank(b);
-    };
-    has_taps_ = any(taps_.data(), words_);
-    has_limits_ = any(limited_.data(), words_);
+    if (link.policy.group.value == 0) return;
+    link.group = group_index(link);
+    Group& group = groups_[link.group];
+    group.members.resize(words_);
+    route::insert(group.members.data(), slot);
+    group.order.push_back(slot);
+}
+
+void Engine::Impl::order_groups() {
+    const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
     chooses_members_ = false;
     for (Group& group : groups_) {
-        std::sort(group.order.begin(), group.order.end(), preferred);
+        std::ranges::sort(group.order, {}, rank);
         if (group.current != no_slot && !has(group.members.data(), group.current)) group.current = no_slot;
         chooses_members_ = chooses_members_ || (group.mode != GroupMode::all && group.order.size() > 1);
     }
-    // Remembers frames from the first link on: what the router itself sends there may come back on a second link.
-    const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
-    recent_.resize(remembers ? options.recent_frames : 0, words_);
 }
 
 std::vector<RouteInfo> Engine::Impl::routes(MonoTime now) const {

@@ -55,8 +55,8 @@ bool Recordings::has(const endpoint::Endpoint& endpoint) const {
 }
 
 std::vector<endpoint::Endpoint> Recordings::endpoints() const {
-    std::vector<endpoint::Endpoint> all;
-    for (const auto& open : open_) all.push_back(open.endpoint);
+    std::vector<endpoint::Endpoint> all(open_.size());
+    std::ranges::transform(open_, all.begin(), &Open::endpoint);
     return all;
 }
 

@@ -86,14 +86,8 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
         advance();
         return {};
     }
-    const bool same_bytes = state.recent[sequence % window] == fingerprint(frame);
-    if (d == -1) {  // same number as the newest frame: a duplicate, or a sender that does not count
-        if (state.repeats < constant_after) ++state.repeats;
-        if (state.repeats == constant_after && !stats.no_sequence) {
-            stats.no_sequence = true;
-            stats.duplicate -= std::min<std::uint64_t>(stats.duplicate, constant_after - 1);
-        }
-        if (stats.no_sequence) return {.verdict = Verdict::no_sequence};
+    if (d == -1) {
+        if (counts_never(stats, state)) return {.verdict = Verdict::no_sequence};
     } else {
         state.repeats = 0;
     }
@@ -103,18 +97,34 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
         return {.verdict = Verdict::gap, .lost = d};
     }
     if (d < 0 && d >= -30) {
-        if (same_bytes || d == -1) {
-            ++stats.duplicate;
-            return {.verdict = Verdict::duplicate, .duplicate = 1};
-        }
-        ++stats.late;
-        const std::int32_t taken_back = stats.lost > 0 ? -1 : 0;
-        stats.lost += static_cast<std::uint64_t>(taken_back);
-        return {.verdict = Verdict::late, .lost = taken_back, .late = 1};
+        const bool is_same = d == -1 || state.recent[sequence % window] == fingerprint(frame);
+        return is_same ? count_duplicate(stats) : count_late(stats);
     }
     ++stats.resync;
     advance();
     return {.verdict = Verdict::resync, .resync = 1};
+}
+
+// Call for a frame with the number of the newest one: it is a duplicate, or its sender does not count.
+bool SequenceTracker::counts_never(SequenceStats& stats, State& state) noexcept {
+    if (state.repeats < constant_after) ++state.repeats;
+    if (state.repeats == constant_after && !stats.no_sequence) {
+        stats.no_sequence = true;
+        stats.duplicate -= std::min<std::uint64_t>(stats.duplicate, constant_after - 1);
+    }
+    return stats.no_sequence;
+}
+
+SequenceTracker::Update SequenceTracker::count_duplicate(SequenceStats& stats) noexcept {
+    ++stats.duplicate;
+    return {.verdict = Verdict::duplicate, .duplicate = 1};
+}
+
+SequenceTracker::Update SequenceTracker::count_late(SequenceStats& stats) noexcept {
+    ++stats.late;
+    const std::int32_t taken_back = stats.lost > 0 ? -1 : 0;
+    stats.lost += static_cast<std::uint64_t>(taken_back);
+    return {.verdict = Verdict::late, .lost = taken_back, .late = 1};
 }
 
 // Handles the boot clock of a frame. Sequence numbers restarted somewhere between the last frame of the old clock and

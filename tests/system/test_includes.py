@@ -14,7 +14,7 @@ LIBRARIES = {
     "CLI/": "CLI11", "spdlog/": "spdlog", "pugi": "pugixml", "sodium": "libsodium", "toml": "toml++",
     "nlohmann/": "nlohmann-json", "Eigen/": "Eigen", "GeographicLib/": "GeographicLib", "boost/": "Boost",
     "ncurses": "ncurses", "nats/": "NATS", "sys/socket.h": "sockets", "sys/epoll.h": "sockets", "sys/un.h": "sockets",
-    "netinet/": "sockets", "netdb.h": "sockets", "readerwriterqueue/": "readerwriterqueue",
+    "netinet/": "sockets", "netdb.h": "sockets",
     "nanobind/": "nanobind", "arpa/": "sockets", "ifaddrs.h": "sockets", "net/": "sockets", "termios.h": "sockets",
 }
 

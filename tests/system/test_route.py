@@ -41,23 +41,19 @@ MIXED = ("udpin", "tcpin", "serial", "udpout", "tcpout")
 KINDS = [pytest.param("peers", marks=pytest.mark.short), "clients", "udpin", "udpout", "tcpin", "tcpout", "serial",
          pytest.param(MIXED, marks=pytest.mark.short, id="mixed")]
 # A peer of udpin:// has spoken before it is a link.
+UNHEARD = ("tcpin", "serial", "udpout", "tcpout")
 UNHEARD_KINDS = [pytest.param("udpout", marks=pytest.mark.short), "tcpin", "tcpout",
                  pytest.param("serial", marks=pytest.mark.short), "clients"]
-FILTER_KINDS = UNHEARD_KINDS[:-1]
 
 
 @pytest.fixture(params=KINDS)
 def kind(request):
+    """For tests of bytes, and one each of a broadcast and a target. The engine decides the same for every kind."""
     return request.param
 
 
 @pytest.fixture(params=UNHEARD_KINDS)
 def unheard_kind(request):
-    return request.param
-
-
-@pytest.fixture(params=FILTER_KINDS)
-def filter_kind(request):
     return request.param
 
 
@@ -117,16 +113,18 @@ def test_mr2_a_broadcast_reaches_a_link_that_heard_nothing(net, unheard_kind):
     assert sut.link(2)["frames_in"] == 1  # the mark that came back, when all was over
 
 
-def test_mr3_mr4_an_unseen_target_is_not_sent(net, unheard_kind):
-    sut = net(unheard_kind)
+@pytest.mark.short
+def test_mr3_mr4_an_unseen_target_is_not_sent(net):
+    sut = net(UNHEARD)
 
     assert sut.command(1, VEHICLE, (254, 190)) == []
     assert sut.command(1, VEHICLE, (254, 0)) == []
     assert sut.link(1)["unknown_target"] == 2
 
 
-def test_mr5_an_unseen_system_without_a_component_field_is_not_sent(net, unheard_kind):
-    sut = net(unheard_kind)
+@pytest.mark.short
+def test_mr5_an_unseen_system_without_a_component_field_is_not_sent(net):
+    sut = net(UNHEARD)
 
     assert sut.send(1, make(mavlink.MAVLink_set_mode_message(254, 1, unique()))) == []
     assert sut.link(1)["unknown_target"] == 1
@@ -139,38 +137,43 @@ def test_mr6_nothing_goes_where_its_source_was_heard(net, kind):
     assert sut.send(1, attitude((12, 1))) == [3]
 
 
-def test_mr7_mr8_a_broadcast_reaches_a_link_with_systems(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_mr7_mr8_a_broadcast_reaches_a_link_with_systems(net):
+    sut = net(MIXED)
     sut.hears(2, (12, 1))
 
     assert sut.send(1, attitude()) == [2]
     assert sut.command(1, VEHICLE, (0, 0)) == [2]
 
 
-def test_mr9_a_system_without_component_is_reached(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_mr9_a_system_without_component_is_reached(net):
+    sut = net(MIXED, 3)
     sut.hears(2, (12, 1))
 
     assert sut.command(1, VEHICLE, (12, 0)) == [2]
 
 
-def test_mr10_an_unseen_component_with_drop_is_not_sent(net, kind):
-    sut = net(kind, 3, rules={"unknown_component": "drop"})
+@pytest.mark.short
+def test_mr10_an_unseen_component_with_drop_is_not_sent(net):
+    sut = net(MIXED, 3, rules={"unknown_component": "drop"})
     sut.hears(2, (12, 1))
 
     assert sut.command(1, VEHICLE, (12, 190)) == []
     assert sut.link(1)["unknown_target"] == 1
 
 
-def test_mr10_an_unseen_component_reaches_its_system_by_default(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_mr10_an_unseen_component_reaches_its_system_by_default(net):
+    sut = net(MIXED, 3)
     sut.hears(2, (12, 1))
 
     assert sut.command(1, VEHICLE, (12, 190)) == [2]
 
 
-def test_mr11_another_system_is_not_sent(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_mr11_another_system_is_not_sent(net):
+    sut = net(MIXED)
     sut.hears(2, (12, 1))
 
     assert sut.command(1, VEHICLE, (13, 0)) == []
@@ -185,8 +188,9 @@ def test_mr12_heard_systems_are_reachable_and_no_others(net, kind):
     assert [sut.command(1, VEHICLE, (s, 0)) for s in (11, 13, 253, 255)] == [[], [], [], []]
 
 
-def test_mr13_only_heard_pairs_are_known_pairs(net, kind):
-    sut = net(kind, rules={"unknown_component": "drop"})
+@pytest.mark.short
+def test_mr13_only_heard_pairs_are_known_pairs(net):
+    sut = net(MIXED, rules={"unknown_component": "drop"})
     sut.hears(2, (12, 1))
     sut.hears(2, (254, 190))
 
@@ -225,9 +229,13 @@ FILTERS = [
 ]
 
 
-@pytest.mark.parametrize("case, option, made, passing", FILTERS, ids=[case for case, *_ in FILTERS])
-def test_mr14_to_mr25_filters(net, filter_kind, case, option, made, passing):
-    sut = net(filter_kind, options={1 if option.startswith("in") else 2: option})
+FILTERED_KINDS = [pytest.param(*one, UNHEARD, id=one[0], marks=pytest.mark.short) for one in FILTERS]
+FILTERED_KINDS += [pytest.param(*FILTERS[0], kind, id=f"mr14-{kind}") for kind in UNHEARD]
+
+
+@pytest.mark.parametrize("case, option, made, passing, kinds", FILTERED_KINDS)
+def test_mr14_to_mr25_filters(net, kinds, case, option, made, passing):
+    sut = net(kinds, options={1 if option.startswith("in") else 2: option})
     offered = made()
     if case == "mr21":
         sut.send(1, heartbeat((0, 0)))  # a byte stream has to be in step before an id without definition is believed
@@ -290,31 +298,35 @@ def odometry(source):
     return make(message, source)
 
 
-def test_p1_nobody_needs_to_have_spoken_first(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_p1_nobody_needs_to_have_spoken_first(net):
+    sut = net(MIXED)
 
     assert sut.hears(1, (6, 7)) == [2]
     assert sut.send(2, odometry((4, 5))) == [1]
 
 
-def test_p2_a_newcomers_command_reaches_its_target_only(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_p2_a_newcomers_command_reaches_its_target_only(net):
+    sut = net(MIXED, 3)
     sut.hears(1, (6, 7))
     sut.hears(2, (8, 9))
 
     assert sut.command(3, (4, 5), (6, 7)) == [1]
 
 
-def test_p3_a_command_to_an_unseen_target_is_not_sprayed(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_p3_a_command_to_an_unseen_target_is_not_sprayed(net):
+    sut = net(MIXED)
     sut.hears(1, (8, 9))
 
     assert sut.command(2, (4, 5), (6, 7)) == []
     assert sut.router.stats("unknown_target") == [{"kind": "unknown_target", "sys": 6, "comp": 7, "frames": 1}]
 
 
-def test_p4_a_known_target_on_its_link_only(net, kind):
-    sut = net(kind, 4)
+@pytest.mark.short
+def test_p4_a_known_target_on_its_link_only(net):
+    sut = net(MIXED, 4)
     sut.hears(1, (99, 34))
     sut.hears(2, (99, 35))
     sut.hears(3, (98, 34))
@@ -322,8 +334,9 @@ def test_p4_a_known_target_on_its_link_only(net, kind):
     assert sut.command(4, GCS, (99, 34)) == [1]
 
 
-def test_p5_flood_sends_an_unseen_target_to_all(net, kind):
-    sut = net(kind, 3, rules={"unknown_target": "flood"})
+@pytest.mark.short
+def test_p5_flood_sends_an_unseen_target_to_all(net):
+    sut = net(MIXED, 3, rules={"unknown_target": "flood"})
 
     assert sut.command(2, GCS, (99, 34)) == [1, 3]
 
@@ -435,8 +448,9 @@ def test_g4_only_what_is_signed_rightly_is_taken(net, tmp_path, kind):
         with_peer.close()
 
 
-def test_g5_everybody_but_the_sender(net, kind):
-    sut = net(kind, 5)
+@pytest.mark.short
+def test_g5_everybody_but_the_sender(net):
+    sut = net(MIXED, 5)
 
     assert sut.send(3, attitude()) == [1, 2, 4, 5]
 
@@ -592,8 +606,9 @@ def test_s4_33_of_33_heartbeats_between_pymavlink_programs(spawn, first, second)
 
 # ---- MAVSDK ----------------------------------------------------------------------------------------------------------
 
-def test_f1_a_position_crosses(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_f1_a_position_crosses(net):
+    sut = net(MIXED)
 
     position = mavlink.MAVLink_global_position_int_message(unique(), 473977418, 85455939, 488000, 1000, 1, 2, 3, 9000)
     assert sut.send(1, make(position)) == [2]
@@ -954,8 +969,9 @@ def test_n16_g3_a_port_that_is_removed_and_made_again(spawn, tmp_path):
     station.close()
 
 
-def test_n17_signed_and_version_1_frames_are_routed_like_any_other(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_n17_signed_and_version_1_frames_are_routed_like_any_other(net):
+    sut = net(MIXED, 3)
     sut.hears(2, VEHICLE)
     signed = command(GCS, VEHICLE, signing=(os.urandom(32), 5, 123456))
     old = command(GCS, VEHICLE, version=1)
@@ -965,8 +981,9 @@ def test_n17_signed_and_version_1_frames_are_routed_like_any_other(net, kind):
     assert sut.send(1, signed, old, broadcast) == [[2], [2], [2, 3]]
 
 
-def test_n18_a_target_that_is_cut_off_is_everybody(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_n18_a_target_that_is_cut_off_is_everybody(net):
+    sut = net(MIXED, 3)
     short = make(mavlink.MAVLink_command_ack_message(400, 0, 0, unique() % 100 + 1))  # target 0/0 at the end: cut off
     assert short[1] < 9
     # MAVLink 1 has no extension fields
@@ -1013,8 +1030,9 @@ def test_n20_commands_follow_a_station_that_moves(spawn, kind):
         end.close()
 
 
-def test_n21_two_stations_of_one_id_both_hear_all_and_get_answers(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_n21_two_stations_of_one_id_both_hear_all_and_get_answers(net):
+    sut = net(MIXED, 3)
     for _ in range(3):
         sut.hears(1, GCS)
         sut.hears(2, GCS)
@@ -1026,16 +1044,18 @@ def test_n21_two_stations_of_one_id_both_hear_all_and_get_answers(net, kind):
     assert sut.router.stats("router")[0]["duplicate_ids"] == 1
 
 
-def test_n22_system_0_is_forwarded_and_never_learnt(net, kind):
-    sut = net(kind)
+@pytest.mark.short
+def test_n22_system_0_is_forwarded_and_never_learnt(net):
+    sut = net(MIXED)
 
     assert sut.send(1, attitude((0, 1))) == [2]
     assert sut.router.routes() == set()
     assert sut.send(2, attitude((0, 1))) == [1]
 
 
-def test_n23_a_whole_system_is_reached_on_all_its_links(net, kind):
-    sut = net(kind, 3)
+@pytest.mark.short
+def test_n23_a_whole_system_is_reached_on_all_its_links(net):
+    sut = net(MIXED, 3)
     sut.hears(1, (1, 1))
     sut.hears(2, (1, 154))
 
@@ -1049,8 +1069,9 @@ def vfr_hud():
     return make(mavlink.MAVLink_vfr_hud_message(unique(), 1, 2, 3, 4, 5))
 
 
-def test_max_rate_holds_back_what_it_names_and_nothing_else(net, filter_kind):
-    sut = net(filter_kind, options={2: "max_rate=ATTITUDE:10"})
+@pytest.mark.short
+def test_max_rate_holds_back_what_it_names_and_nothing_else(net):
+    sut = net(UNHEARD, options={2: "max_rate=ATTITUDE:10"})
     offered, got, begin = [], [], time.monotonic()
 
     def ten_came():
@@ -1070,8 +1091,9 @@ def test_max_rate_holds_back_what_it_names_and_nothing_else(net, filter_kind):
     assert sut.link(1)["rate_limited"] == held
 
 
-def test_max_rate_is_of_each_source_and_holds_for_a_heartbeat_that_it_names(net, filter_kind):
-    sut = net(filter_kind, options={2: "max_rate=HEARTBEAT:0.01"})
+@pytest.mark.short
+def test_max_rate_is_of_each_source_and_holds_for_a_heartbeat_that_it_names(net):
+    sut = net(UNHEARD, options={2: "max_rate=HEARTBEAT:0.01"})
     sent = [heartbeat((system, 1)) for _ in range(5) for system in (1, 2)]
     last = attitude()
     for frame in (*sent, last):
@@ -1081,8 +1103,9 @@ def test_max_rate_is_of_each_source_and_holds_for_a_heartbeat_that_it_names(net,
     assert sut.link(2)["out_rate_limited"] == 8
 
 
-def test_max_bytes_lets_so_many_out_in_a_second(net, filter_kind):
-    sut = net(filter_kind, options={2: "max_bytes=4000"})
+@pytest.mark.short
+def test_max_bytes_lets_so_many_out_in_a_second(net):
+    sut = net(UNHEARD, options={2: "max_bytes=4000"})
     burst, begin = 1000, time.monotonic()
     offered, got, marks = [], [], []
 
@@ -1125,8 +1148,9 @@ def test_commands_and_heartbeats_pass_the_limits_of_all(net, option, counter):
     assert sut.link(2)[counter] == sut.link(1)["rate_limited"] == held
 
 
-def test_a_private_link_gets_what_is_for_exactly_a_pair_heard_there(net, filter_kind):
-    sut = net(filter_kind, 3, options={3: "private=true"}, rules={"unknown_target": "flood"})
+@pytest.mark.short
+def test_a_private_link_gets_what_is_for_exactly_a_pair_heard_there(net):
+    sut = net(UNHEARD, 3, options={3: "private=true"}, rules={"unknown_target": "flood"})
     sut[3].send(heartbeat((7, 1)))
     sut.router.wait_counter(sut[3], "private_link", 1)
     others = [attitude(), unknown(), command(VEHICLE, (0, 0)), command(VEHICLE, (66, 6))]
@@ -1139,8 +1163,9 @@ def test_a_private_link_gets_what_is_for_exactly_a_pair_heard_there(net, filter_
     assert sut[3].until(exact) == []
 
 
-def test_nothing_from_a_private_link_is_forwarded(net, filter_kind):
-    sut = net(filter_kind, 3, options={3: "private=true"})
+@pytest.mark.short
+def test_nothing_from_a_private_link_is_forwarded(net):
+    sut = net(UNHEARD, 3, options={3: "private=true"})
     sut.send(2, heartbeat(VEHICLE), watched=[1, 2])
     said = [heartbeat((7, 1)), attitude((7, 1)), command((7, 1), VEHICLE), unknown((7, 1))]
     for frame in said:

@@ -134,6 +134,14 @@ bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std:
     });
 }
 
+// The value of a time option; 0 if it is not given.
+SetupResult<Nanoseconds> time_of(const std::string& text, std::string_view option) {
+    if (text.empty()) return Nanoseconds{};
+    auto parsed = endpoint::parse_duration(text);
+    if (!parsed) return tl::unexpected(std::move(parsed.error()).within(option));
+    return *parsed;
+}
+
 Exit replay(const Common& common, Options& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
@@ -146,14 +154,9 @@ Exit replay(const Common& common, Options& options) {
     if (!options.speed.empty())  // overrides the speed in the URL
         if (auto set = endpoint::set_endpoint_option(*endpoint, "speed", options.speed); !set)
             return fail(std::move(set.error()).within("--speed"));
-    Nanoseconds start{}, length{};
-    for (const auto& [text, value, name] :
-         {std::tuple{&options.start, &start, "--start"}, std::tuple{&options.duration, &length, "--for"}}) {
-        if (text->empty()) continue;
-        const auto parsed = endpoint::parse_duration(*text);
-        if (!parsed) return fail(SetupError(parsed.error()).within(name));
-        *value = *parsed;
-    }
+    const auto start = time_of(options.start, "--start"), length = time_of(options.duration, "--for");
+    if (!start) return fail(start.error());
+    if (!length) return fail(length.error());
 
     auto sources = feed::Sources::create(*dialect);
     if (!sources) return fail(sources.error());
@@ -165,10 +168,10 @@ Exit replay(const Common& common, Options& options) {
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const MonoTime forever = MonoTime::max();
     Replayer replayer(common, options, *sources, *destinations);
-    const MonoTime latest_start = options.duration.empty() ? forever : mono_now() + length;
+    const MonoTime latest_start = options.duration.empty() ? forever : mono_now() + *length;
     replayer.wait_for_peers(latest_start);
-    if (auto added = sources->add(*endpoint, mono_now(), 1.0, start); !added) return fail(added.error());
-    return replayer.run(options.duration.empty() ? forever : mono_now() + length);
+    if (auto added = sources->add(*endpoint, mono_now(), 1.0, *start); !added) return fail(added.error());
+    return replayer.run(options.duration.empty() ? forever : mono_now() + *length);
 }
 
 }  // namespace

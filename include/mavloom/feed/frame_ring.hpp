@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // FrameRing: the frames of an endpoint in a bounded ring of bytes.
-// The writer never waits: it overwrites the oldest frames. Any number of readers each keep a Position and learn how many
-// frames they missed. Holds whole frames only. Not synchronized: the owner's mutex guards it. Allocates once; the system
-// provides the memory as it is first used.
+// The writer never waits: it overwrites the oldest frames. Any number of readers each keep a Position and learn how
+// many frames they missed. Holds whole frames only. Not synchronized: the owner's mutex guards it. Allocates once; the
+// system provides the memory as it is first used.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instance: tells the sensors apart that send the same message, such as two batteries. A plain value.
+// Instance: distinguishes the sensors that send the same message, such as two batteries. A plain value.
 #pragma once
 
 #include <cstdint>

@@ -106,6 +106,8 @@ private:
 
     [[nodiscard]] bool read(link::LinkHandler& handler);
     void take(const shm::RingRecord& record, link::LinkHandler& handler);
+    void notice_other_writer(const shm::RingRecord& record);
+    void parse_record(ByteView bytes, link::LinkHandler& handler);
     void parse(ByteView bytes, link::LinkHandler& handler);
     void hand_over(link::LinkHandler& handler, const Found& found);
     void nothing_comes(shm::ReadError why, link::LinkHandler& handler);

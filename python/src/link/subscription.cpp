@@ -164,7 +164,7 @@ bool Subscription::put(PyRingWriter& writer, const feed::FrameBatch::Item& item,
     const auto written = writer.put(frame.bytes(), info, deadline);
     pumped.full = !written && written.error() == shm::WriteError::full;
     if (written) return ++pumped.count, true;
-    if (pumped.full && !writer.waits()) return true;  // dropped as the ring's policy says, and counted by the ring
+    if (pumped.full && !writer.waits()) return true;  // dropped by the ring's policy, and counted by the ring
     if (!pumped.full) pumped.error = written.error();
     batch_.put_back();
     return false;

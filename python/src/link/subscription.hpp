@@ -18,7 +18,7 @@
 
 namespace mavloom::python {
 
-// What the readers of a link share. Leaked in a forked child, where a channel must not be destroyed.
+// Shared by the readers of a link. Leaked in a forked child, where a channel must not be destroyed.
 struct LinkFeed {
     std::shared_ptr<const Origin> origin;
     std::shared_ptr<feed::Channel> channel;

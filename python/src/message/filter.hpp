@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The arguments `type=`, `system=`, `component=` and `condition=` of calls that select messages. Call with the GIL held.
+// The arguments `type=`, `system=`, `component=` and `condition=` of calls that select messages. Call with the GIL
+// held.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 
 namespace mavloom::link::detail {
 

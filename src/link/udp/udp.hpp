@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 #include "link/udp/peer_table.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/datagram_parser.hpp"

@@ -97,7 +97,7 @@ inline bool is_readable(int fd, std::chrono::milliseconds within = 0ms) {
     pollfd wanted{fd, POLLIN, 0};
     return ::poll(&wanted, 1, static_cast<int>(within.count())) == 1;
 }
-// Reads an eventfd empty. Returns how often it was told since the last time.
+// Reads an eventfd empty. Returns how often it was signalled since the last time.
 inline std::uint64_t read_count(int fd) {
     std::uint64_t count = 0;
     return ::read(fd, &count, sizeof count) == sizeof count ? count : 0;

@@ -89,7 +89,7 @@ TEST(FrameRing, OverwritesTheOldestAndTellsEachReaderHowMany) {
     EXPECT_EQ(slow.missed, overwritten);
 }
 
-// What is left must fit into the capacity, however much was pushed.
+// The frames that are left must fit into the capacity, however much was pushed.
 TEST(FrameRing, TheCapacityIsInBytes) {
     for (const std::size_t given : {std::size_t{0}, smallest_buffer, smallest_buffer + 1}) {
         FrameRing ring(given);

@@ -21,7 +21,7 @@ namespace {
 using namespace testing;
 using ::testing::HasSubstr;
 
-// What connect() holds: the hub, one endpoint of it, its channel and the channel's first reader.
+// The same as connect() holds: the hub, one endpoint of it, its channel and the channel's first reader.
 class Opened {
 public:
     explicit Opened(const std::string& url, std::size_t buffer_bytes = 1 << 22)
@@ -299,7 +299,7 @@ TEST(Hub, StoppingReleasesSendersReadersAndCallers) {
         EXPECT_FALSE(server.hub->inlet(server.id()));
         const auto channel = make_channel();
         EXPECT_FALSE(server.hub->open(endpoint_of("udpin://127.0.0.1:0"), channel, *server.reader));
-        EXPECT_NE(Hub::get().value(), server.hub);  // whoever opens a link later gets one that runs
+        EXPECT_NE(Hub::get().value(), server.hub);  // a link that is opened later gets one that runs
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing;
 
-// A ring, and a reader with its alarm. The reader belongs to whoever holds the mutex, as in a program.
+// A ring, and a reader with its alarm. The reader belongs to the thread that holds the mutex, as in a program.
 class AlarmedRing {
 public:
     explicit AlarmedRing(const test::RingName& name)
@@ -85,7 +85,8 @@ TEST_F(RingAlarmTest, ItTellsOncePerArmingAndNotUnlessArmed) {
     ring.write();
     EXPECT_TRUE(is_readable(ring.fd(), long_enough));
     for (int i = 0; i < 10; ++i) ring.write();
-    ring.alarm().tell();  // the alarm thread has done with the ring before this returns or later: it must not tell again
+    // The alarm thread may finish with the ring before this returns, or later. It must not signal again.
+    ring.alarm().tell();
     EXPECT_EQ(read_count(ring.fd()), 2u);
 }
 

@@ -68,7 +68,7 @@ TEST(Turns, WhoOnlyTriesIsRefusedDuringATurn) {
     EXPECT_TRUE(refused_after_a_slice);
 }
 
-// A thread that waits slice by slice and gives way in between must not starve the others.
+// A thread that waits slice by slice and lets others in between must not starve the others.
 TEST(Turns, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
     Turns turns;
     std::atomic<bool> had_turn{false};

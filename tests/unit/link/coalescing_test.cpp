@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Expected values: docs/guide/queues.md (500 frames, ten milliseconds, 0.2 ms), by hand.
-#include "link/coalescing.hpp"
+#include "link/core/coalescing.hpp"
 
 #include <gtest/gtest.h>
 

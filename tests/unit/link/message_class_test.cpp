@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names and ids are MAVLink's; offsets of instance fields are worked out by hand from the definitions' wire order.
-#include "link/message_class.hpp"
+#include "link/core/message_class.hpp"
 
 #include <gtest/gtest.h>
 

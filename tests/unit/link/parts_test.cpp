@@ -2,7 +2,7 @@
 // The parts of module link that a turn drives: the table of links, outlets, tickers and the class of a frame.
 #include <gmock/gmock.h>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 #include "unit/dialect/xml_folder.hpp"
 #include "unit/link/fixture.hpp"
 

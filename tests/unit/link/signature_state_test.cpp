@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 #include "support/temp_dir.hpp"
 
 namespace mavloom::link::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/net/udp.hpp"
-#include "link/coalescing.hpp"
+#include "link/core/coalescing.hpp"
 #include "mavloom/net/resolver.hpp"
 #include "unit/link/fixture.hpp"
 

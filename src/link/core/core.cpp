@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/core.hpp"
+#include "link/core/core.hpp"
 
 #include <algorithm>
 #include <cassert>

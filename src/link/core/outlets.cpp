@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/outlets.hpp"
+#include "link/core/outlets.hpp"
 
 #include <algorithm>
 

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "link/coalescing.hpp"
-#include "link/language.hpp"
-#include "link/link_table.hpp"
-#include "link/look_ups.hpp"
-#include "link/news.hpp"
+#include "link/core/coalescing.hpp"
+#include "link/core/language.hpp"
+#include "link/core/link_table.hpp"
+#include "link/core/look_ups.hpp"
+#include "link/core/news.hpp"
+#include "link/core/outlets.hpp"
+#include "link/core/tickers.hpp"
 #include "link/open_endpoint.hpp"
-#include "link/outlets.hpp"
-#include "link/tickers.hpp"
 #include "mavloom/net/event_loop.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/parse_event.hpp"

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "link/message_class.hpp"
+#include "link/core/message_class.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/link/links.hpp"
 #include "mavloom/wire/message_table.hpp"

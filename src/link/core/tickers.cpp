@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/tickers.hpp"
+#include "link/core/tickers.hpp"
 
 #include <algorithm>
 

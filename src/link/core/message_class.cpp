@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/message_class.hpp"
+#include "link/core/message_class.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mavloom/router/report.hpp"
-#include "router/json_line.hpp"
+#include "router/report/json_line.hpp"
 
 namespace mavloom::router {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/link_table.hpp"
+#include "link/core/link_table.hpp"
 
 #include <fmt/format.h>
 

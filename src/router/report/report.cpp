@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "router/forwarder.hpp"
-#include "router/json_line.hpp"
 #include "router/recordings.hpp"
+#include "router/report/json_line.hpp"
 
 namespace mavloom::router {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "link/link_table.hpp"
+#include "link/core/link_table.hpp"
 
 namespace mavloom::link::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/look_ups.hpp"
+#include "link/core/look_ups.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/news.hpp"
+#include "link/core/news.hpp"
 
 namespace mavloom::link::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "router/json_line.hpp"
+#include "router/report/json_line.hpp"
 
 #include <nlohmann/json.hpp>
 
