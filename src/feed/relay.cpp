@@ -8,13 +8,9 @@
 
 namespace mavloom::feed {
 
-static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
-static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
-static constexpr std::chrono::milliseconds look_for_room{1};  // a socket may have taken everything by then
-
 RelayOutcome Relay::run(MonoTime end) {
     while (!handler_.should_stop() && mono_now() < end && !destinations_.failed() && !sources_.finished()) turn(end);
-    sources_.drain(*this, [this] { return Room(0, room(), frames_a_turn); });
+    sources_.drain(*this, [this] { return Room{0, room(), frames_a_turn}; });
     link::flush(sources_.links(), *this, longest_flush);
     return finish();
 }

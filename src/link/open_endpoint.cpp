@@ -35,8 +35,9 @@ EndpointId SigningIds::id_for(const std::string& label, EndpointId fresh, const 
 }
 
 void SigningIds::keep(const std::string& label, EndpointId signs_as, EndpointId holder) {
-    const auto [at, is_new] = by_label_.try_emplace(label, Held{signs_as, holder});
-    if (!is_new && signs_as != holder) at->second.holder = holder;
+    const bool took_over = signs_as != holder;  // the id of an endpoint that was removed
+    const auto at = by_label_.try_emplace(label, Held{signs_as, holder}).first;
+    if (took_over) at->second.holder = holder;
 }
 
 }  // namespace mavloom::link::detail

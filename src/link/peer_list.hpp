@@ -14,8 +14,8 @@
 
 namespace mavloom::link::detail {
 
-// `Peer` is a Link with `last_heard`. The destructor ends those that are left at once, so it must not run
-// inside a callback.
+// `Peer` is a Link with `last_heard`. The destructor removes the remaining peers and destroys them
+// immediately, so it must not run inside a callback.
 template <class Peer>
 class PeerList {
 public:
@@ -52,7 +52,8 @@ public:
         *at = std::move(peers_.back());
         peers_.pop_back();
     }
-    // Calls drop(Peer&), which removes the peer, for all that were silent for `idle`. Returns when the next one may be.
+    // Calls drop(Peer&), which removes the peer, for all that were silent for `idle`. Returns the
+    // earliest time at which another peer can expire.
     template <class Drop>
     MonoTime expire(MonoTime now, Nanoseconds idle, Drop&& drop) {
         MonoTime oldest = now;
@@ -64,7 +65,7 @@ public:
     }
     // The peer that is evicted for a newcomer: the longest idle of those heard once, else the longest idle of the rest.
     // Null if that peer is protected. `Peer` has `datagrams`.
-    [[nodiscard]] Peer* gives_way(MonoTime now) const {
+    [[nodiscard]] Peer* to_evict(MonoTime now) const {
         const auto rank = [](const auto& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };
         const auto first = std::ranges::min_element(peers_, {}, rank);
         if (first == peers_.end()) return nullptr;
@@ -72,11 +73,11 @@ public:
         return is_protected ? nullptr : first->get();
     }
 
-    // Queues the frame for all. Returns how many took it.
+    // Queues the frame for all that are up. Returns how many took it.
     std::size_t send(const wire::FrameView& frame) {
         Departure departure(frame);
         std::size_t taken = 0;
-        for (const auto& peer : peers_) taken += Core::send(*peer, departure, core_.now()) ? 1 : 0;
+        for (const auto& peer : peers_) taken += peer->up && Core::send(*peer, departure, core_.now()) ? 1 : 0;
         return taken;
     }
     [[nodiscard]] std::size_t queued_bytes() const noexcept {

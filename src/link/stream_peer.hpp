@@ -16,7 +16,8 @@ namespace mavloom::link::detail {
 
 // Reads once per turn, and writes the queue in as few calls as possible. Bytes that the kernel does not accept stay in
 // the queue.
-template <class Stream>
+// `Self` derives from it. Its function `wants(event)` returns whether the handler gets what the parser found.
+template <class Self, class Stream>
 class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
 public:
     ~StreamPeer() override { release(); }
@@ -63,8 +64,6 @@ protected:
 
     // Reading or writing failed for good.
     virtual void on_end(net::IoError error) = 0;
-    // Whether the handler gets what the parser found.
-    [[nodiscard]] virtual bool wants(const wire::ParseEvent&) { return true; }
 
     // Writes at most about `room` bytes. Returns false if the queue holds more than that; true if it is empty, or if
     // the stream has ended or waits for the kernel.
@@ -114,13 +113,14 @@ private:
         if (parser_.deadline()) core_.tickers.keep(*this);
     }
     void fail_to_write(net::IoError error) {
-        if (error != net::IoError::would_block && error != net::IoError::no_buffers) return on_end(error);
+        if (error != net::IoError::would_block && error != net::IoError::no_buffers)
+            return on_end(net::IoError::closed);
         blocked_ = true;
         core_.loop().change(watch_, true, true);
     }
     [[nodiscard]] auto sink(WallTime time) {
         return [this, time](const wire::ParseEvent& event) {
-            if (wants(event)) core_.on_event(*this, event, time);
+            if (static_cast<Self*>(this)->wants(event)) core_.on_event(*this, event, time);
         };
     }
 

@@ -275,7 +275,8 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
 }
 
 // Makes the links of exactly the target the candidates, or else the links of its system that are not private. Returns
-// false if there are none, or if an unknown component is to be dropped.
+// false if no link knows the system, or if an unknown component is to be dropped. If only private links know the
+// system, there are no candidates, and it returns true.
 bool Engine::Impl::choose_links_of(Source target) noexcept {
     const ConstWords pair = routes_.links_of(pair_of(target));
     if (target.component.value != 0 && any(pair, words_)) {

@@ -119,7 +119,6 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
 }
 
 // Recomputes all sets that depend on the links and their policies.
-// Recomputes what follows from the links and the options.
 void Engine::Impl::rebuild() {
     for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
     empty_groups();

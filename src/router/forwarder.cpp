@@ -27,7 +27,7 @@ route::Options engine_options(const config::RouterConfig& config) {
 
 }  // namespace
 
-Forwarder::Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkSet& links)
+Forwarder::Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkAccess& links)
     : links_(links),
       engine_(dialect.wire_table(), engine_options(config)),
       own_messages_(dialect.wire_table(), config,
@@ -54,22 +54,19 @@ void Forwarder::remove_link(LinkId link) {
     a_link_went_ = true;
 }
 
-route::Verdict Forwarder::forward(const link::RxFrame& rx, const RoutedEndpoint& from) {
-    const std::uint64_t mark = engine_.mark_of(rx.frame);
+route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
     traffic_.add(rx.link, rx.frame, rx.time);
     if (rx.frame.id() == msg::Heartbeat::id) own_messages_.on_heartbeat(rx.link, rx.frame, links_.now());
-    const auto decision = decide(rx, mark);
-    send(rx, decision.links, from.verifies);
-    if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
-    return decision.verdict;
-}
-
-route::Decision Forwarder::decide(const link::RxFrame& rx, std::uint64_t mark) {
     if (!explainer_) [[likely]]
         return engine_.route(rx.frame, mark, rx.info, rx.link, links_.now());
     const auto decision = engine_.explain(rx.frame, rx.info, rx.link, links_.now(), why_);
     explainer_(rx, decision, why_);
     return decision;
+}
+
+void Forwarder::deliver(const link::RxFrame& rx, const route::Decision& decision, const RoutedEndpoint& from) {
+    send(rx, decision.links, from.verifies);
+    if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
 }
 
 // Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic.

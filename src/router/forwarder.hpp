@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a router does with a received frame: it counts the traffic, asks the routing engine, sends the frame on and
-// counts loss. It also sends the router's own messages. Private to module router.
+// Forwards received frames: counts the traffic, asks the routing engine, sends the frame on and counts loss. Also sends
+// the router's own messages. Private to module router.
 //
 // One owner thread; time comes from the links. A frame costs no allocation, lock or log line, unless an Explainer is
 // set.
@@ -30,7 +30,7 @@ public:
         std::function<void(const link::RxFrame&, const route::Decision&, std::span<const route::Explanation>)>;
 
     // `dialect` and `links` must outlive the object.
-    Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkSet& links);
+    Forwarder(const dialect::Dialect& dialect, const config::RouterConfig& config, link::LinkAccess& links);
 
     // Applies new [router] values. Links, routes and counters stay.
     void configure(const config::RouterConfig& config);
@@ -41,8 +41,11 @@ public:
     void remove_link(LinkId link);
     void set_group_orders(std::span<const route::GroupOrder> orders) { engine_.set_group_orders(orders); }
 
-    // Handles a frame that arrived at the endpoint `from`.
-    route::Verdict forward(const link::RxFrame& rx, const RoutedEndpoint& from);
+    // A received frame passes these three in order. `mark_of` prefetches what `decide` needs, so call it early.
+    [[nodiscard]] std::uint64_t mark_of(const link::RxFrame& rx) const noexcept { return engine_.mark_of(rx.frame); }
+    [[nodiscard]] route::Decision decide(const link::RxFrame& rx, std::uint64_t mark);
+    // Sends the frame to the links of `decision`. `from` is the endpoint at which it arrived.
+    void deliver(const link::RxFrame& rx, const route::Decision& decision, const RoutedEndpoint& from);
 
     // When the router's next own message is due; MonoTime::max() if none is.
     [[nodiscard]] MonoTime next_due() const noexcept { return own_messages_.next_due(); }
@@ -58,14 +61,13 @@ public:
     [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
 
 private:
-    [[nodiscard]] route::Decision decide(const link::RxFrame& rx, std::uint64_t mark);
     void send(const link::RxFrame& rx, std::span<const LinkId> links, bool may_sign);
     void count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy);
     bool send_own(LinkId link, const wire::FrameView& frame);
     [[nodiscard]] bool is_answered(LinkId link) const;
     [[nodiscard]] std::string name_of(LinkId link) const;
 
-    link::LinkSet& links_;
+    link::LinkAccess& links_;
     route::Engine engine_;
     OwnMessages own_messages_;
     observe::TrafficTable traffic_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work that other threads leave for the owner of a loop. Private to module router. Any thread may call `post`; the
-// others belong to the owner, apart from `drop`.
+// Work that other threads leave for the owner of a loop. Private to module router.
 #pragma once
 
 #include <atomic>
@@ -15,18 +14,18 @@ class PostBox {
 public:
     using Work = std::function<void()>;
 
-    // The caller then wakes the owner.
+    // Any thread. The caller then wakes the owner.
     void post(Work work) {
         const std::lock_guard lock(mutex_);
         work_.push_back(std::move(work));
         has_work_.store(true, std::memory_order_release);
     }
     [[nodiscard]] bool empty() const noexcept { return !has_work_.load(std::memory_order_acquire); }
-    // Runs the oldest item, without holding the lock.
+    // The owner only. Runs the oldest item, without holding the lock.
     void run_one() {
         if (const Work work = take()) work();
     }
-    // Destroys what was not run.
+    // Any thread. Destroys what was not run.
     void drop() {
         std::deque<Work> work;
         const std::lock_guard lock(mutex_);

@@ -66,15 +66,31 @@ void Router::configure(const config::RouterConfig& config) {
     forwarder_->configure(config);
 }
 
+const route::Engine& Router::engine() const noexcept { return forwarder_->engine(); }
+
+const observe::TrafficTable& Router::traffic() const noexcept { return forwarder_->traffic(); }
+
+std::uint64_t Router::heartbeats_sent() const noexcept { return forwarder_->heartbeats_sent(); }
+
+std::uint64_t Router::not_signed() const noexcept { return forwarder_->not_signed(); }
+
+std::vector<const record::Recorder*> Router::recorders() const {
+    std::vector<const record::Recorder*> all;
+    recordings_->each([&](const record::Recorder& recorder) { all.push_back(&recorder); });
+    return all;
+}
+
 void Router::explain(Explainer explainer) { forwarder_->explain(std::move(explainer)); }
 
 // ---- links and frames -----------------------------------------------------------------------------------------------
 
 void Router::on_frame(const link::RxFrame& rx) {
     const RoutedEndpoint& from = endpoints_->of(rx.endpoint);
+    const std::uint64_t mark = forwarder_->mark_of(rx);
     recordings_->record(rx);
-    const auto verdict = forwarder_->forward(rx, from);
-    if (ring_) ring_->write(rx, verdict, from.verifies);
+    const auto decision = forwarder_->decide(rx, mark);
+    if (ring_) ring_->write(rx, decision.verdict, from.verifies);
+    forwarder_->deliver(rx, decision, from);
 }
 
 void Router::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
@@ -122,8 +138,8 @@ MonoTime Router::next_due() const noexcept {
 }
 
 void Router::finish(Nanoseconds limit) {
-    // Reads what has already arrived, in a flood no more than 64 turns of 64 datagrams. A turn may read only junk, so a
-    // single turn without a frame does not end the loop.
+    // Reads what has already arrived, in a flood no more than 64 turns of 64 datagrams; `flush` adds its own turns. A
+    // turn may read only junk, so a single turn without a frame does not end the loop.
     constexpr int most_turns = 64, most_empty = 4;
     for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty; ++turns)
         empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;

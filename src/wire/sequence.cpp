@@ -87,7 +87,7 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
         return {};
     }
     if (d == -1) {
-        if (counts_never(stats, state)) return {.verdict = Verdict::no_sequence};
+        if (note_repeat(stats, state)) return {.verdict = Verdict::no_sequence};
     } else {
         state.repeats = 0;
     }
@@ -105,8 +105,8 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
     return {.verdict = Verdict::resync, .resync = 1};
 }
 
-// Call for a frame with the number of the newest one: it is a duplicate, or its sender does not count.
-bool SequenceTracker::counts_never(SequenceStats& stats, State& state) noexcept {
+// Notes a frame with the number of the newest one. Returns true if its sender does not count at all.
+bool SequenceTracker::note_repeat(SequenceStats& stats, State& state) noexcept {
     if (state.repeats < constant_after) ++state.repeats;
     if (state.repeats == constant_after && !stats.no_sequence) {
         stats.no_sequence = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hub: one loop thread that serves all open endpoints of the process, whatever their dialects.
-// It receives into channels, sends and reconnects. It runs as long as somebody holds a shared pointer to it. Any
+// It receives into channels, sends and reconnects. It runs as long as a shared pointer to it exists. Any
 // thread may call it. Calls wait for the loop thread, which never waits for a caller.
 // In a forked child the parent's hub must be neither used nor destroyed (fork.hpp); `get` makes a new one.
 #pragma once

@@ -8,6 +8,8 @@
 // One owner thread, which also drives the links. All objects that are passed to the constructor must outlive the relay.
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -56,6 +58,10 @@ public:
     [[nodiscard]] RelayOutcome run(MonoTime end);
 
 private:
+    static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
+    static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
+    static constexpr std::chrono::milliseconds look_for_room{1};  // a socket may have taken everything by then
+
     void on_frame(const link::RxFrame& rx) override;
     void on_link_up(LinkId, link::EndpointId, std::string_view name) override { handler_.on_link_up(name); }
     void on_link_down(LinkId link, link::EndpointId, std::string_view why) override {

@@ -92,13 +92,13 @@ struct EndpointInfo {
     }
 };
 
-// The operations on links for a program that forwards frames. Links implements it; tests may, too.
-class LinkSet {
+// Access to links for code that forwards frames, apart from how the links are opened. Links implements it.
+class LinkAccess {
 public:
-    LinkSet() = default;
-    LinkSet(const LinkSet&) = delete;
-    LinkSet& operator=(const LinkSet&) = delete;
-    virtual ~LinkSet() = default;
+    LinkAccess() = default;
+    LinkAccess(const LinkAccess&) = delete;
+    LinkAccess& operator=(const LinkAccess&) = delete;
+    virtual ~LinkAccess() = default;
 
     // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
     // skipped.
@@ -119,7 +119,7 @@ namespace detail {
 class Core;
 }
 
-class Links final : public LinkSet {
+class Links final : public LinkAccess {
 public:
     // Uses the dialect's message table and instance fields, so that a full queue drops superseded frames first
     // (docs/guide/queues.md). `dialect` must outlive the object.
@@ -176,7 +176,7 @@ public:
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
     std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override;
-    // The same for one link, and for every link of an endpoint that is up.
+    // The same for one link, and for every active link of an endpoint.
     std::size_t send(LinkId link, const wire::FrameView& frame);
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
     std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override;

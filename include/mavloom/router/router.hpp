@@ -19,6 +19,8 @@
 #include "mavloom/config/config.hpp"
 #include "mavloom/control/served.hpp"
 #include "mavloom/link/links.hpp"
+#include "mavloom/observe/traffic_table.hpp"
+#include "mavloom/record/recorder.hpp"
 #include "mavloom/route/engine.hpp"
 
 namespace mavloom::ring {
@@ -92,10 +94,15 @@ public:
     [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
     [[nodiscard]] control::Later<std::string> metrics() override;
 
-    // The parts, for reports and tests; on the router's thread only.
+    // For reports; on the router's thread only.
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
-    [[nodiscard]] const Forwarder& forwarder() const noexcept { return *forwarder_; }
-    [[nodiscard]] const Recordings& recordings() const noexcept { return *recordings_; }
+    [[nodiscard]] const route::Engine& engine() const noexcept;
+    [[nodiscard]] const observe::TrafficTable& traffic() const noexcept;
+    // Valid until the next `add`, `remove`, `become` or `finish`.
+    [[nodiscard]] std::vector<const record::Recorder*> recorders() const;
+    [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
+    // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
+    [[nodiscard]] std::uint64_t not_signed() const noexcept;
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
     [[nodiscard]] MonoTime started() const noexcept { return started_; }
 

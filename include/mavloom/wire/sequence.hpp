@@ -94,7 +94,7 @@ private:
 
     [[nodiscard]] std::size_t find_or_add(Source source);
     [[nodiscard]] static Update judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept;
-    [[nodiscard]] static bool counts_never(SequenceStats& stats, State& state) noexcept;
+    [[nodiscard]] static bool note_repeat(SequenceStats& stats, State& state) noexcept;
     [[nodiscard]] static Update count_duplicate(SequenceStats& stats) noexcept;
     [[nodiscard]] static Update count_late(SequenceStats& stats) noexcept;
     static void watch_clock(SequenceStats& stats, State& state, const FrameView& frame, const MessageInfo& info,

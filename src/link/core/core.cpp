@@ -22,7 +22,6 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     assert(news.handler() == nullptr && "turn must not be called inside a callback");
     now_ = mono_now();
     coalescing.count(turn_began_, now_, std::exchange(frames_this_turn_, 0), std::exchange(more_waits_, false));
-    look_ups.stop_waiting();
     news.begin_turn(handler, links);
     outlets.flush();
     if (const auto until = coalescing.rest_until(); until && deadline > now_)
@@ -30,6 +29,7 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     loop_->wait(wait_limit(deadline));
     now_ = turn_began_ = mono_now();
     ++turns_;
+    look_ups.stop_waiting();
     if (loop_->dispatch(now_)) look_ups.deliver();
     run_tickers();
     outlets.expire_blocked(now_);

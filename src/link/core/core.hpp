@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all endpoints of one Links object share: its parts, and the turn that drives them. Passes frames from parsers to
-// the handler and from `send` to queues. Private to module link; single owner thread.
+// The core of a Links object: the parts that all endpoints share, and the turn that drives them. Passes frames from
+// parsers to the handler and from `send` to queues. Private to module link; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@
 
 namespace mavloom::link::detail {
 
-// A frame that is sent to one link or several. Its class and key are computed once for each language.
+// A frame that is sent to one link or several. Its class and key are computed again only when the language changes.
 class Departure {
 public:
-    explicit Departure(const wire::FrameView& frame) noexcept : frame_(frame) {}
+    explicit Departure(wire::FrameView frame) noexcept : frame_(frame) {}
     [[nodiscard]] const wire::FrameView& frame() const noexcept { return frame_; }
     [[nodiscard]] std::uint8_t block_class(const Language& language) noexcept {
         learn(language);
@@ -48,7 +48,7 @@ private:
         key_ = MessageClasses::key(frame_, rule);
     }
 
-    const wire::FrameView& frame_;
+    wire::FrameView frame_;
     const Language* language_ = nullptr;
     std::uint64_t key_ = 0;
     std::uint8_t block_class_ = 0;
@@ -68,7 +68,7 @@ public:
     void refresh_now() { now_ = mono_now(); }
     // Number of turns so far.
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
-    [[nodiscard]] bool running() const noexcept { return turns_ != 0; }
+    [[nodiscard]] bool running() const noexcept { return !look_ups.may_wait(); }
     // This turn's reading left input behind.
     void note_more_waits() noexcept { more_waits_ = true; }
 

@@ -23,7 +23,8 @@ public:
 
     // From now on frames pass, and no look-up may delay them.
     void stop_waiting() noexcept { may_wait_ = false; }
-    // Passes the answers that have arrived to those who asked.
+    [[nodiscard]] bool may_wait() const noexcept { return may_wait_; }
+    // Passes the answers that have arrived to their askers.
     void deliver();
 
 private:

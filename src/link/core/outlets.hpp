@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has frames to send at the end of a turn. Private to module link; single owner thread.
+// The sockets and streams that have frames to send at the end of a turn. Private to module link; single owner thread.
 #pragma once
 
 #include <utility>

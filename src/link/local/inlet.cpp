@@ -210,7 +210,7 @@ bool Inlet::holds_frame(ByteView datagram) {
 
 bool Inlet::make_room() {
     if (!senders_.is_full()) return true;
-    Sender* const first = senders_.gives_way(core_.now());
+    Sender* const first = senders_.to_evict(core_.now());
     if (first == nullptr) return false;
     counters.peers_evicted.add();
     drop(*first, "more senders than there may be, and this one was silent for longest");
@@ -218,9 +218,9 @@ bool Inlet::make_room() {
 }
 
 void Inlet::drop(Sender& sender, std::string_view why) {
+    senders_.remove(sender, why);
     by_address_.erase(sender.address);
     last_ = nullptr;
-    senders_.remove(sender, why);
 }
 
 void Inlet::on_timer(MonoTime now) {

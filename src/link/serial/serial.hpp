@@ -21,7 +21,7 @@ public:
 };
 
 // Keeps at most 50 ms of data in the driver; the rest waits in the queue, where it can expire.
-class SerialPeer final : public StreamPeer<net::SerialPort>, public net::TimerHandler {
+class SerialPeer final : public StreamPeer<SerialPeer, net::SerialPort>, public net::TimerHandler {
 public:
     SerialPeer(Core& core, SerialOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
         : StreamPeer(core, endpoint_id, limits), owner_(owner) {}
@@ -37,15 +37,16 @@ public:
     void flush() override;
     [[nodiscard]] bool blocked() const override { return pace_.valid() || StreamPeer::blocked(); }
 
-private:
-    // A hang-up shows as a read of no bytes or as an error.
-    void on_end(net::IoError) override { close("unplugged"); }
     // While the baud rate is searched, the handler gets no frames.
-    [[nodiscard]] bool wants(const wire::ParseEvent& event) override {
+    [[nodiscard]] bool wants(const wire::ParseEvent& event) {
         const bool is_frame = event.kind == wire::ParseEvent::Kind::frame;
         if (is_frame && event.info != nullptr) owner_.on_good_frame();
         return !is_frame || up;
     }
+
+private:
+    // A hang-up shows as a read of no bytes or as an error.
+    void on_end(net::IoError) override { close("unplugged"); }
 
     SerialOwner& owner_;
     net::TimerId pace_;  // runs while the driver holds as much as it may

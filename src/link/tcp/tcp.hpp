@@ -20,7 +20,7 @@ public:
 };
 
 // A slow far side is never disconnected for being slow.
-class TcpPeer final : public StreamPeer<net::TcpStream> {
+class TcpPeer final : public StreamPeer<TcpPeer, net::TcpStream> {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
         : StreamPeer(core, endpoint_id, limits), owner_(owner) {}
@@ -35,6 +35,8 @@ public:
         detach();
         owner_.on_closed(*this, why);
     }
+
+    [[nodiscard]] static bool wants(const wire::ParseEvent&) noexcept { return true; }
 
 private:
     void on_end(net::IoError error) override {

@@ -53,7 +53,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
 
 bool UdpPeers::make_room() {
     if (!peers_.is_full()) return true;
-    UdpPeer* const first = peers_.gives_way(core_.now());
+    UdpPeer* const first = peers_.to_evict(core_.now());
     if (first == nullptr) return false;
     endpoint_.counters.peers_evicted.add();
     drop(*first, "more peers than max_peers, and this one was silent for longest");
@@ -62,8 +62,8 @@ bool UdpPeers::make_room() {
 
 void UdpPeers::drop(UdpPeer& peer, std::string_view why) {
     peer.settle();
-    peer.port->forget(peer);
     peers_.remove(peer, why);
+    peer.port->forget(peer);  // after the handler, which may have sent to the endpoint; the peer is buried, not gone
 }
 
 // Runs when the longest idle peer may have expired, and then when the next one may.

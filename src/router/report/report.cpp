@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "router/forwarder.hpp"
-#include "router/recordings.hpp"
 #include "router/report/json_line.hpp"
 
 namespace mavloom::router {
@@ -68,11 +66,11 @@ std::vector<NamedCount> counts_of(const record::RecorderCounters& c) {
 }
 
 std::vector<NamedCount> counts_of(Router& router) {
-    const auto& c = router.forwarder().engine().counters();
-    return {{"heartbeats_sent", router.forwarder().heartbeats_sent()},
-            {"not_signed", router.forwarder().not_signed()},
+    const auto& c = router.engine().counters();
+    return {{"heartbeats_sent", router.heartbeats_sent()},
+            {"not_signed", router.not_signed()},
             {"unknown_link", c.unknown_link.value()},
-            {"unlisted", router.forwarder().traffic().unlisted()},
+            {"unlisted", router.traffic().unlisted()},
             {"routes_learned", c.routes_learned.value()},
             {"routes_expired", c.routes_expired.value()},
             {"routes_evicted", c.routes_evicted.value()},
@@ -141,7 +139,7 @@ Snapshot snapshot_of_links(Router& router) {
                            link.endpoint,
                            std::move(link.name),
                            link.up,
-                           counts_of(*link.counters, router.forwarder().engine().counters(link.id)),
+                           counts_of(*link.counters, router.engine().counters(link.id)),
                            {}});
     return s;
 }
@@ -156,11 +154,10 @@ Snapshot snapshot_of_all(Router& router) {
         const auto sources = router.links().sources(link.id);
         link.sources.assign(sources.begin(), sources.end());
     }
-    s.messages = router.forwarder().traffic().rows();
-    router.recordings().each([&](const record::Recorder& recorder) {
-        s.recordings.push_back({recorder.label(), counts_of(recorder.counters())});
-    });
-    s.unknown_targets = router.forwarder().engine().unknown_targets();
+    s.messages = router.traffic().rows();
+    for (const auto* recorder : router.recorders())
+        s.recordings.push_back({recorder->label(), counts_of(recorder->counters())});
+    s.unknown_targets = router.engine().unknown_targets();
     return s;
 }
 
@@ -285,9 +282,8 @@ Later<Lines> report_links(Router& router) {
 }
 
 Later<Lines> report_routes(Router& router) {
-    return [s = snapshot_of_links(router), routes = router.forwarder().engine().routes(mono_now())] {
-        return route_lines(s, routes);
-    };
+    return
+        [s = snapshot_of_links(router), routes = router.engine().routes(mono_now())] { return route_lines(s, routes); };
 }
 
 Later<Lines> report_stats(Router& router) {

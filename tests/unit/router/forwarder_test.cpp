@@ -26,7 +26,7 @@ using Restart = wire::SequenceTracker::Verdict;
 constexpr Id vehicle{1, 1}, gcs{255, 190};
 
 // Links that take every frame, and a clock that the test moves.
-class PlayedLinks : public link::LinkSet {
+class PlayedLinks : public link::LinkAccess {
 public:
     struct Sent {
         std::uint32_t link;
@@ -91,7 +91,10 @@ struct Router {
         links.sent.clear();
         const auto frame = wire::FrameView::unchecked(bytes);
         const auto* const info = dialect::default_dialect().wire_table().find(frame.id());
-        return sut.forward({frame, info, LinkId{link}, {}}, *endpoints.at(link - 1));
+        const link::RxFrame rx{frame, info, LinkId{link}, {}};
+        const auto decision = sut.decide(rx, sut.mark_of(rx));
+        sut.deliver(rx, decision, *endpoints.at(link - 1));
+        return decision.verdict;
     }
     [[nodiscard]] std::vector<std::uint32_t> reached() const {
         std::vector<std::uint32_t> ids;

@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "router/forwarder.hpp"
-#include "router/recordings.hpp"
 #include "support/temp_dir.hpp"
 #include "unit/link/fixture.hpp"
 
@@ -77,11 +75,11 @@ TEST_F(RouterTest, AnEndpointThatIsRemovedTakesItsRoutesAlong) {
     add(udpin(other));
     const auto vehicle = PlainSocket::udp();
     ASSERT_TRUE(heard(vehicle, port, 1));
-    ASSERT_EQ(sut->forwarder().engine().routes(mono_now()).size(), 1u);
+    ASSERT_EQ(sut->engine().routes(mono_now()).size(), 1u);
 
     EXPECT_TRUE(sut->remove(udpin(port)));
 
-    EXPECT_THAT(sut->forwarder().engine().routes(mono_now()), IsEmpty());
+    EXPECT_THAT(sut->engine().routes(mono_now()), IsEmpty());
     EXPECT_THAT(labels(), ElementsAre(udpin(other)));
     EXPECT_FALSE(sut->remove(udpin(port)));
 }
@@ -182,7 +180,7 @@ TEST_F(RouterTest, AReloadEndsRecordingsThatAreNotWantedAndKeepsTheOthers) {
 
     EXPECT_THAT(notices, ElementsAre(ended + ": removed"));
     std::vector<std::string> open;
-    sut->recordings().each([&](const record::Recorder& recorder) { open.push_back(recorder.label()); });
+    for (const auto* recorder : sut->recorders()) open.push_back(recorder->label());
     EXPECT_THAT(open, ElementsAre(kept));
 }
 
