@@ -126,6 +126,37 @@ TEST(LinksUdp, LowLatencyKeepsTurnsFromResting) {
     EXPECT_TRUE(until([&] { return rests(); }, node));
 }
 
+// Answers a link that goes down with a frame to its endpoint, which Links allows.
+class LateSender : public Recorder {
+public:
+    explicit LateSender(Links& links) : links_(links) {}
+    void on_link_down(LinkId id, EndpointId endpoint, std::string_view why) override {
+        Recorder::on_link_down(id, endpoint, why);
+        taken += links_.send(endpoint, view(frame_));
+    }
+    std::size_t taken = 0;
+
+private:
+    Links& links_;
+    const Bytes frame_ = heartbeat(7);
+};
+
+TEST(LinksUdp, APeerThatGoesDownTakesNoMoreFrames) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0?idle=50ms");
+    LateSender handler(*node.links);
+    const auto peer = PlainSocket::udp();
+    peer.send_to(node.port(in), heartbeat(0));
+    const MonoTime end = mono_now() + std::chrono::seconds(60);
+    while (handler.downs.empty() && mono_now() < end)
+        node.links->turn(handler, mono_now() + std::chrono::milliseconds(1));
+    ASSERT_EQ(handler.downs.size(), 1u);
+
+    for (int turn = 0; turn < 3; ++turn) node.links->turn(handler, mono_now());  // the peer's memory is free by now
+    EXPECT_EQ(handler.taken, 0u);
+    EXPECT_EQ(peer.read(), Bytes{});
+}
+
 TEST(LinksUdp, HalfAFrameHarmsNobodyElse) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");
