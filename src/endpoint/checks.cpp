@@ -107,7 +107,7 @@ SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
 
 SetupResult<void> check_written(const Endpoint& recording) {
     if (!recording.options.speed) return {};
-    return refused(recording, "'speed' is for a recording that is read; a router writes one");
+    return refused(recording, "'speed' is for a recording that is read; this one is written");
 }
 
 }  // namespace mavloom::endpoint

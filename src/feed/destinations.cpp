@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/feed/destinations.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
+
+#include "mavloom/endpoint/checks.hpp"
 
 namespace mavloom::feed {
 
 SetupResult<record::RotatingWriter> create_recording(const endpoint::Endpoint& endpoint) {
-    const auto& options = endpoint.options;
-    if (options.speed)
-        return setup_error(
-            SetupCode::usage,
-            fmt::format("{}: 'speed' is for a recording that is read; this one is written", endpoint.label()));
-    return record::RotatingWriter::create(endpoint.path, {options.rotate_bytes, options.rotate_every});
+    if (auto good = endpoint::check_written(endpoint); !good) return tl::unexpected(std::move(good.error()));
+    return record::RotatingWriter::create(endpoint.path, {endpoint.options.rotate_bytes, endpoint.options.rotate_every});
 }
 
 SetupResult<Destinations> Destinations::open(std::span<const endpoint::Endpoint> endpoints, link::Links& links,

@@ -27,7 +27,7 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // bind=HOST:PORT as an address; empty if bind= is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
-// Refuses options for reading a recording (`speed`) on a recording that a router writes.
+// Refuses `speed` at a recording that is to be written: it is an option of recordings that are read.
 [[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);
 
 }  // namespace mavloom::endpoint
