@@ -29,7 +29,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-struct Options {
+struct BenchOptions {
     std::string file;
     int turns = 21;
     std::string chunk_text = "4096";
@@ -80,7 +80,7 @@ void parse_all(const Recording& recording, std::size_t chunk, const wire::Messag
     parser.finish(sink);
 }
 
-void print(const Options& options, std::string_view what, double per_s, std::string_view unit,
+void print(const BenchOptions& options, std::string_view what, double per_s, std::string_view unit,
            const Recording& recording) {
     if (options.json) {
         fmt::print(
@@ -93,7 +93,7 @@ void print(const Options& options, std::string_view what, double per_s, std::str
     }
 }
 
-Exit bench_parse(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
+Exit bench_parse(const BenchOptions& options, const dialect::Dialect& dialect, const Recording& recording) {
     const auto& table = dialect.wire_table();
     std::uint64_t found = 0;
     parse_all(recording, options.chunk, table, [&](const wire::FrameView&) { ++found; });
@@ -109,7 +109,7 @@ Exit bench_parse(const Options& options, const dialect::Dialect& dialect, const 
 }
 
 template <class Append>
-void bench_form(const Options& options, std::string_view what, const dialect::Dialect& dialect,
+void bench_form(const BenchOptions& options, std::string_view what, const dialect::Dialect& dialect,
                 const Recording& recording, Append&& append) {
     message::TextBuffer out;
     const auto work = [&] {
@@ -123,7 +123,7 @@ void bench_form(const Options& options, std::string_view what, const dialect::Di
           recording);
 }
 
-Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const Recording& recording) {
+Exit bench_decode(const BenchOptions& options, const dialect::Dialect& dialect, const Recording& recording) {
     const message::JsonFormatter json(dialect);
     bench_form(options, "decode json", dialect, recording,
                [&](auto& out, const auto& received) { json.append(out, received); });
@@ -132,7 +132,7 @@ Exit bench_decode(const Options& options, const dialect::Dialect& dialect, const
     return Exit::done;
 }
 
-SetupResult<void> set_chunk(Options& options) {
+SetupResult<void> set_chunk(BenchOptions& options) {
     constexpr std::uint64_t most = 1u << 30;
     const auto chunk = endpoint::parse_size(options.chunk_text);
     if (!chunk) return tl::unexpected(SetupError(chunk.error()).within("--chunk"));
@@ -143,7 +143,7 @@ SetupResult<void> set_chunk(Options& options) {
 }
 
 template <class Bench>
-Exit run_bench(const Common& common, Options& options, Bench&& bench) {
+Exit run_bench(const Common& common, BenchOptions& options, Bench&& bench) {
     if (auto good = set_chunk(options); !good) return fail(good.error());
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
@@ -281,7 +281,7 @@ Arguments declare_shm(Arguments command, RingOptions& options) {
     return sub;
 }
 
-Arguments declare_one(Arguments command, Options& options, const char* name, const char* description) {
+Arguments declare_one(Arguments command, BenchOptions& options, const char* name, const char* description) {
     auto sub = command.add_subcommand(name, description);
     sub.add_option("file", options.file, "a recording").required().type_name("FILE.tlog");
     sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
@@ -300,7 +300,7 @@ Arguments declare_one(Arguments command, Options& options, const char* name, con
 }  // namespace
 
 Run declare_bench(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     auto parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
     auto ring_options = std::make_shared<RingOptions>();

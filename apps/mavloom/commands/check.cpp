@@ -13,7 +13,7 @@ namespace mavloom::app {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::string file;
     bool json = false;
     bool convert = false;  // the file is a configuration of mavlink-router
@@ -47,7 +47,7 @@ void print_text(message::TextBuffer& out, const config::Config& config, std::str
 // Prints one object a line:
 // {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default",
 // "file":null,"line":null,"variable":null}
-void print_json(message::TextBuffer& out, const config::Config& config, std::string_view file) {
+void print_config(message::TextBuffer& out, const config::Config& config, std::string_view file) {
     const auto text = [](std::string_view t) { return t.empty() ? std::string("null") : json_quoted(t); };
     for (const auto& section : config.sections) {
         for (const auto& setting : section.settings) {
@@ -62,7 +62,7 @@ void print_json(message::TextBuffer& out, const config::Config& config, std::str
     }
 }
 
-Exit check(const Common& common, const Options& options) {
+Exit check(const Common& common, const CheckOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     const auto config = config::load_config(options.file, config::environment_of(environ));
@@ -72,13 +72,13 @@ Exit check(const Common& common, const Options& options) {
     for (const auto& note : config->notes) say(common, note);
     for (const auto& warning : config::config_warnings(*config, options.file, *dialect)) say(common, warning);
     Output output;
-    if (options.json) print_json(output.buffer(), *config, options.file);
+    if (options.json) print_config(output.buffer(), *config, options.file);
     else print_text(output.buffer(), *config, options.file);
     return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
 }
 
 // Prints the settings that cannot be converted. It ignores --quiet, because the user has to know them.
-Exit convert(const Options& options) {
+Exit convert(const CheckOptions& options) {
     const auto done = config::convert_mavlink_router_file(options.file);
     if (!done) return fail(of_input_file(done.error()));
     for (const auto& note : done->notes)
@@ -92,7 +92,7 @@ Exit convert(const Options& options) {
 }  // namespace
 
 Run declare_check(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckOptions>();
     command.add_option("file", options->file, "a router's configuration (TOML)").required().type_name("FILE");
     auto json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
     command

@@ -114,7 +114,7 @@ void print_source(fmt::appender out, const Json& o) {
                    o.value("link", ""), counted(frames, "frame"), lost,
                    frames + lost == 0 ? 0.0 : 100.0 * static_cast<double>(lost) / static_cast<double>(frames + lost));
 }
-void print_message(fmt::appender out, const Json& o) {
+void print_message_rate(fmt::appender out, const Json& o) {
     const auto name = o.at("name").is_null() ? fmt::format("{}", o.value("id", 0)) : o.at("name").get<std::string>();
     const auto frames = o.value("frames", 0ull);
     fmt::format_to(out, "message {:<32} {:>3}/{:<3} {:>10} {:<6} {:>9.2f} Hz  {}\n", name, o.value("sys", 0),
@@ -134,7 +134,7 @@ std::string table_of(const std::vector<std::string>& lines) {
         {"router", print_router},       {"endpoint", print_endpoint},
         {"gone", print_gone},           {"link", print_link},
         {"page", print_page},           {"others", print_others},
-        {"source", print_source},       {"message", print_message},
+        {"source", print_source},       {"message", print_message_rate},
         {"recording", print_recording}, {"unknown_target", print_unknown_target}};
     fmt::memory_buffer text;
     for (const auto& line : lines) {

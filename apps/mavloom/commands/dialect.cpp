@@ -18,7 +18,7 @@
 namespace mavloom::app {
 namespace {
 
-struct Options {
+struct DialectOptions {
     bool json = false;
     std::string name;  // of `show`
     std::string file;  // of `check`
@@ -48,7 +48,7 @@ std::vector<std::string_view> all_names(const dialect::Dialect& dialect) {
     return names;
 }
 
-bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Options& options) {
+bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const DialectOptions& options) {
     for (const auto& e : dialect.enums()) {
         if (const auto* entry = e.find(options.name)) {
             (options.json ? json_entry : print_entry)(out, e, *entry);
@@ -59,7 +59,7 @@ bool show_entry(fmt::memory_buffer& out, const dialect::Dialect& dialect, const 
 }
 
 // Shows a message by name or id, an enum, or an entry of one. Returns false if there is none.
-bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Options& options) {
+bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const DialectOptions& options) {
     const auto id = as_id(options.name);
     if (const auto* message = id ? dialect.find(*id) : dialect.find(options.name)) {
         (options.json ? json_message : print_message)(out, *message);
@@ -72,7 +72,7 @@ bool show(fmt::memory_buffer& out, const dialect::Dialect& dialect, const Option
     return show_entry(out, dialect, options);
 }
 
-Exit run_list(const Common& common, const Options& options) {
+Exit run_list(const Common& common, const DialectOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     fmt::memory_buffer out;
@@ -80,7 +80,7 @@ Exit run_list(const Common& common, const Options& options) {
     return write_out(out);
 }
 
-Exit run_show(const Common& common, const Options& options) {
+Exit run_show(const Common& common, const DialectOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     fmt::memory_buffer out;
@@ -108,7 +108,7 @@ Summary summarize(const dialect::Dialect& dialect) {
     return summary;
 }
 
-Exit run_check(const Options& options) {
+Exit run_check(const DialectOptions& options) {
     const auto dialect = dialect::Dialect::load(options.file);
     if (!dialect) return fail(Exit::bad_input, dialect.error().text);
     const auto s = summarize(*dialect);
@@ -132,7 +132,7 @@ Exit run_check(const Options& options) {
 }  // namespace
 
 Run declare_dialect(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DialectOptions>();
     command.require_subcommand();
     command.footer(
         "Examples: mavloom dialect show ATTITUDE\n"

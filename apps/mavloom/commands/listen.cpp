@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 // How long to keep printing a backlog after Ctrl-C. A terminal then stops; a pipe or file gets the rest, with a notice.
 constexpr auto short_backlog = 1s;
 
-struct Options {
+struct ListenOptions {
     ReceiveOptions receive;
     Selection selection;
     bool json = false;
@@ -30,8 +30,8 @@ struct Options {
 
 class Listener {
 public:
-    Listener(const Common& common, const Options& options, const dialect::Dialect& dialect, feed::Receiver& receiver,
-             const dialect::Message* csv)
+    Listener(const Common& common, const ListenOptions& options, const dialect::Dialect& dialect,
+             feed::Receiver& receiver, const dialect::Message* csv)
         : common_(common), options_(options), dialect_(dialect), json_(dialect), receiver_(receiver), csv_(csv) {}
 
     Exit run() {
@@ -126,7 +126,7 @@ private:
     }
 
     const Common& common_;
-    const Options& options_;
+    const ListenOptions& options_;
     const dialect::Dialect& dialect_;
     const message::JsonFormatter json_;
     feed::Receiver& receiver_;
@@ -138,7 +138,7 @@ private:
     bool going_ = true;
 };
 
-Exit listen(const Common& common, Options& options) {
+Exit listen(const Common& common, ListenOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
@@ -158,7 +158,7 @@ Exit listen(const Common& common, Options& options) {
 }  // namespace
 
 Run declare_listen(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ListenOptions>();
     options->receive.declare(command);
     options->selection.declare(command);
     auto json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");

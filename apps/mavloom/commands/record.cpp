@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds look_for_room{100};
 
-struct Options {
+struct RecordOptions {
     ReceiveOptions receive;
     Selection selection;
     std::string file;
@@ -29,8 +29,8 @@ struct Options {
 // Meanwhile frames wait in the receiver's buffer. Frames that do not fit there are counted.
 class Recording {
 public:
-    Recording(const Common& common, const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer,
-              MonoTime end)
+    Recording(const Common& common, const RecordOptions& options, feed::Receiver& receiver,
+              record::RotatingWriter& writer, MonoTime end)
         : common_(common), options_(options), receiver_(receiver), writer_(writer), end_(end) {}
 
     // Runs until the end. Flushes records to the system whenever idle, so that a kill loses little.
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] bool goes_on() const { return !Signals::received() && mono_now() < end_; }
 
     const Common& common_;
-    const Options& options_;
+    const RecordOptions& options_;
     feed::Receiver& receiver_;
     record::RotatingWriter& writer_;
     MonoTime end_;
@@ -97,7 +97,7 @@ SetupResult<record::RotatingWriter> create_output(const Common& common, const st
 }
 
 // After a write error, counts the frames that still wait in the receiver as not written.
-void give_up_the_rest(const Options& options, feed::Receiver& receiver, record::RotatingWriter& writer) {
+void give_up_the_rest(const RecordOptions& options, feed::Receiver& receiver, record::RotatingWriter& writer) {
     while (const auto entry = receiver.next())
         if (options.selection.takes(entry->frame)) writer.give_up();
 }
@@ -108,7 +108,7 @@ std::string summary(const record::RotatingWriter& file, const feed::Totals& hear
     return stats_line({{"destinations", Json::array({recorded_json(file)})}, {"totals", std::move(totals)}});
 }
 
-Exit record(const Common& common, Options& options) {
+Exit record(const Common& common, RecordOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
@@ -138,7 +138,7 @@ Exit record(const Common& common, Options& options) {
 }  // namespace
 
 Run declare_record(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RecordOptions>();
     options->receive.declare(command);
     options->selection.declare(command);
     command

@@ -22,7 +22,7 @@ namespace mavloom::app {
 
 namespace {
 
-struct Options {
+struct RelayOptions {
     std::vector<std::string> sources, to;
     std::string duration;
     edit::Options edit;
@@ -97,7 +97,7 @@ Exit status_of(const feed::RelayOutcome& outcome, Exit printed) {
     return Signals::status(Exit::done);
 }
 
-SetupResult<void> check_words(Options& options) {
+SetupResult<void> check_words(RelayOptions& options) {
     if (options.as_v1) options.edit.as_version = wire::Version::v1;
     if (options.as_v2) options.edit.as_version = wire::Version::v2;
     if (!options.sign_file.empty()) {
@@ -118,7 +118,7 @@ bool is_sent_to(const endpoint::Endpoint& ring, const std::vector<std::string>& 
     });
 }
 
-SetupResult<void> open_sources(const Options& options, feed::Sources& sources) {
+SetupResult<void> open_sources(const RelayOptions& options, feed::Sources& sources) {
     for (const auto& text : options.sources) {
         auto endpoint = endpoint::parse_endpoint(text);
         if (!endpoint) return tl::unexpected(std::move(endpoint.error()));
@@ -177,7 +177,7 @@ SetupResult<void> check_no_loop(const std::vector<link::EndpointInfo>& sources, 
     return {};
 }
 
-Exit relay(const Common& common, Options& options) {
+Exit relay(const Common& common, RelayOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto checked = check_words(options); !checked) return fail(checked.error());
@@ -207,7 +207,7 @@ Exit relay(const Common& common, Options& options) {
 }  // namespace
 
 Run declare_relay(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RelayOptions>();
     auto& edit = options->edit;
     command.add_option("source", options->sources, "where to receive").required().type_name("SOURCE");
     command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");

@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t frames_a_turn = 256;
 constexpr auto longest_flush = 5s;  // to send the last frames
 
-struct Options {
+struct ReplayOptions {
     std::string file;
     std::vector<std::string> to;
     std::string speed, start, duration;  // as typed; empty: not given
@@ -38,7 +38,8 @@ struct Options {
 
 class Replayer : private link::LinkHandler {
 public:
-    Replayer(const Common& common, const Options& options, feed::Sources& sources, feed::Destinations& destinations)
+    Replayer(const Common& common, const ReplayOptions& options, feed::Sources& sources,
+             feed::Destinations& destinations)
         : common_(common), options_(options), sources_(sources), destinations_(destinations) {}
 
     Exit run(MonoTime end) {
@@ -114,7 +115,7 @@ private:
     }
 
     const Common& common_;
-    const Options& options_;
+    const ReplayOptions& options_;
     feed::Sources& sources_;
     feed::Destinations& destinations_;
     MonoTime next_progress_{};
@@ -142,7 +143,7 @@ SetupResult<Nanoseconds> time_of(const std::string& text, std::string_view optio
     return *parsed;
 }
 
-Exit replay(const Common& common, Options& options) {
+Exit replay(const Common& common, ReplayOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
@@ -177,7 +178,7 @@ Exit replay(const Common& common, Options& options) {
 }  // namespace
 
 Run declare_replay(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReplayOptions>();
     command.add_option("file", options->file, "the recording").required().type_name("FILE.tlog");
     command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
     command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")

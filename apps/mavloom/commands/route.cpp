@@ -25,10 +25,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto longest_flush = 2s;  // to send what is still queued
-constexpr auto look_for_room = 100ms;
+constexpr auto send_limit = 2s;  // to send what is still queued
+constexpr auto output_retry = 100ms;
 
-struct Options {
+struct RouteOptions {
     std::vector<std::string> endpoints;
     std::string config;
     std::string duration;
@@ -63,7 +63,7 @@ private:
 };
 
 // Reads the configuration file and applies the overrides of the command line.
-SetupResult<config::Config> read_config(const Options& options, const dialect::Dialect& dialect) {
+SetupResult<config::Config> read_config(const RouteOptions& options, const dialect::Dialect& dialect) {
     const auto environment = config::environment_of(environ);
     auto config = options.config.empty() ? config::parse_config("", "", environment)
                                          : config::load_config(options.config, environment);
@@ -82,7 +82,7 @@ SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints
     return {};
 }
 
-SetupResult<Plan> make_plan(const Options& options, const dialect::Dialect& dialect) {
+SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect& dialect) {
     Plan plan;
     if (endpoint::parse_endpoint(options.explain))
         return setup_error(
@@ -138,7 +138,7 @@ public:
     }
     Output::State flush() { return output_.flush_what_fits(); }
     // When to call `flush` again if no frame arrives.
-    [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + look_for_room; }
+    [[nodiscard]] MonoTime due() { return output_.buffer().size() == 0 ? MonoTime::max() : mono_now() + output_retry; }
     // Writes the rest, as long as the reader keeps accepting data.
     void finish() {
         output_.end_at(mono_now());
@@ -176,7 +176,7 @@ SetupResult<std::optional<MessageId>> explained_id(const dialect::Dialect& diale
 
 class Routing {
 public:
-    Routing(const Common& common, const Options& options, const dialect::Dialect& dialect, router::Router& router,
+    Routing(const Common& common, const RouteOptions& options, const dialect::Dialect& dialect, router::Router& router,
             Plan plan, config::LogLevel& log_level)
         : common_(common),
           options_(options),
@@ -201,7 +201,7 @@ public:
             }
         }
         manager_.stopping();
-        router_.finish(longest_flush);
+        router_.finish(send_limit);
         if (explain) explain->finish();
         return Signals::status(explain_failed_ ? Exit::failed : Exit::done);
     }
@@ -245,7 +245,7 @@ private:
     }
 
     const Common& common_;
-    const Options& options_;
+    const RouteOptions& options_;
     const dialect::Dialect& dialect_;
     router::Router& router_;
     Plan plan_;
@@ -266,7 +266,7 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
 
 // Opens the control socket and the metrics port. Without --name, the router starts even if another router already has
 // the default name; `ctl` then reaches that other router.
-SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const Options& options,
+SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const RouteOptions& options,
                                                             const std::string& ring, router::Router& router) {
     control::ControlOptions control;
     if (!options.metrics.empty()) {
@@ -290,7 +290,7 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
     return without;
 }
 
-Exit route(const Common& common, const Options& options) {
+Exit route(const Common& common, const RouteOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (!options.duration.empty())
@@ -327,7 +327,7 @@ Exit route(const Common& common, const Options& options) {
 }  // namespace
 
 Run declare_route(Arguments command, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RouteOptions>();
     command.add_option("endpoint", options->endpoints, "an endpoint to route between; any number")
         .type_name("ENDPOINT");
     command

@@ -15,7 +15,7 @@ namespace mavloom::app::shm_parts {
 
 namespace {
 
-struct Options {
+struct ReadOptions {
     std::string name;
     bool json = false;
     std::string from = "newest";
@@ -63,7 +63,7 @@ void append_data(message::TextBuffer& out, const shm::RingRecord& record) {
 
 class Reading {
 public:
-    Reading(const Common& common, const Options& options, MonoTime end)
+    Reading(const Common& common, const ReadOptions& options, MonoTime end)
         : common_(common),
           options_(options),
           end_(end),
@@ -121,7 +121,7 @@ private:
     }
 
     const Common& common_;
-    const Options& options_;
+    const ReadOptions& options_;
     MonoTime end_;
     shm::RingFollower follower_;
     Output output_;
@@ -130,7 +130,7 @@ private:
     bool has_said_ = false;
 };
 
-Exit read(const Common& common, const Options& options) {
+Exit read(const Common& common, const ReadOptions& options) {
     MonoTime end = MonoTime::max();
     if (!options.duration.empty()) {
         const auto time = endpoint::parse_duration(options.duration);
@@ -144,7 +144,7 @@ Exit read(const Common& common, const Options& options) {
 }  // namespace
 
 Run declare_read(Arguments part, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReadOptions>();
     add_name(part, options->name);
     add_json(part, options->json);
     part.add_option("--from", options->from, "newest: records from now on; oldest: also those that the ring holds")

@@ -8,12 +8,12 @@ namespace mavloom::app::shm_parts {
 
 namespace {
 
-struct Options {
+struct RemoveOptions {
     std::vector<std::string> names;
     bool force = false;
 };
 
-SetupResult<void> remove_one(const Options& options, const std::string& name) {
+SetupResult<void> remove_one(const RemoveOptions& options, const std::string& name) {
     const auto ring = shm::ring_status(name);
     if (ring && ring->writer_alive && !options.force)
         return setup_error(SetupCode::in_use,
@@ -22,7 +22,7 @@ SetupResult<void> remove_one(const Options& options, const std::string& name) {
     return shm::remove_ring(name);
 }
 
-Exit remove(const Options& options) {
+Exit remove(const RemoveOptions& options) {
     Exit status = Exit::done;
     for (const auto& name : options.names)
         if (const auto removed = remove_one(options, name); !removed) status = fail(removed.error());
@@ -32,7 +32,7 @@ Exit remove(const Options& options) {
 }  // namespace
 
 Run declare_remove(Arguments part, const Common&) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RemoveOptions>();
     part.add_option("NAME", options->names, "the rings").required().type_name("NAME");
     part.add_flag("--force", options->force, "also if a process still writes the ring");
     return [options] { return remove(*options); };

@@ -9,12 +9,12 @@ namespace mavloom::app::shm_parts {
 
 namespace {
 
-struct Options {
+struct StatOptions {
     std::string name;
     bool json = false;
 };
 
-Exit stat(const Options& options) {
+Exit stat(const StatOptions& options) {
     const auto ring = shm::ring_status(options.name);
     if (!ring) return fail(ring.error());
     return print_at_end(options.json ? line_of(json_of(*ring)) : details_of(*ring), Exit::done);
@@ -23,7 +23,7 @@ Exit stat(const Options& options) {
 }  // namespace
 
 Run declare_stat(Arguments part, const Common&) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StatOptions>();
     add_name(part, options->name);
     add_json(part, options->json);
     return [options] { return stat(*options); };

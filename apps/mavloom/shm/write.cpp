@@ -15,7 +15,7 @@ namespace mavloom::app::shm_parts {
 
 namespace {
 
-struct Options {
+struct WriteOptions {
     std::string name;
     std::string capacity;
     std::string full = "wait";
@@ -25,7 +25,7 @@ struct Options {
     bool remove = false;
 };
 
-SetupResult<shm::RingOptions> ring_options(const Options& options) {
+SetupResult<shm::RingOptions> ring_options(const WriteOptions& options) {
     shm::RingOptions ring;
     if (!options.capacity.empty()) {
         auto capacity = endpoint::parse_size(options.capacity);
@@ -46,7 +46,7 @@ SetupResult<shm::RingOptions> ring_options(const Options& options) {
 // Writes lines as records, and counts them.
 class Writing {
 public:
-    Writing(const Options& options, shm::RingWriter& writer)
+    Writing(const WriteOptions& options, shm::RingWriter& writer)
         : options_(options), writer_(writer), lines_(writer.longest() * (options.hex ? 2 : 1)) {}
 
     // Writes all lines. An error of the input or of the ring ends it.
@@ -97,13 +97,13 @@ private:
         return fail(as, fmt::format("line {}: {}", number_, why));
     }
 
-    const Options& options_;
+    const WriteOptions& options_;
     shm::RingWriter& writer_;
     Lines lines_;
     std::uint64_t number_ = 0, records_ = 0, bytes_ = 0;
 };
 
-Exit write(const Common& common, const Options& options) {
+Exit write(const Common& common, const WriteOptions& options) {
     const auto ring = ring_options(options);
     if (!ring) return fail(ring.error());
     const Signals signals([](void*) noexcept {}, nullptr);
@@ -121,7 +121,7 @@ Exit write(const Common& common, const Options& options) {
 }  // namespace
 
 Run declare_write(Arguments part, const Common& common) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<WriteOptions>();
     add_name(part, options->name);
     part.add_option("--capacity", options->capacity,
                     "bytes that a new ring holds: a power of two from 64k (bytes, k, M, G); default 8M. A ring of "

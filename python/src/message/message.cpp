@@ -262,8 +262,8 @@ auto from_frame() {
 int system_of(const wire::FrameView& frame) { return frame.system().value; }
 int component_of(const wire::FrameView& frame) { return frame.component().value; }
 int sequence_of(const wire::FrameView& frame) { return frame.sequence(); }
-std::uint32_t id_of(const wire::FrameView& frame) { return frame.id().value; }
-int version_of(const wire::FrameView& frame) { return static_cast<int>(frame.version()); }
+std::uint32_t frame_id(const wire::FrameView& frame) { return frame.id().value; }
+int frame_version(const wire::FrameView& frame) { return static_cast<int>(frame.version()); }
 bool is_signed(const wire::FrameView& frame) { return frame.is_signed(); }
 nb::bytes frame_bytes(const wire::FrameView& frame) { return bytes_of(frame.bytes()); }
 nb::bytes payload_bytes(const wire::FrameView& frame) { return bytes_of(frame.payload()); }
@@ -276,7 +276,7 @@ PyType_Slot slots[] = {
 // Adds the names that pymavlink's messages have.
 void bind_pymavlink_names(nb::class_<Message>& type) {
     type.def("get_type", &type_of, "The name; \"UNKNOWN_<id>\" for an id without definition.")
-        .def("get_msgId", from_frame<id_of>(), "As `id`.")
+        .def("get_msgId", from_frame<frame_id>(), "As `id`.")
         .def("get_srcSystem", from_frame<system_of>(), "As `sys`.")
         .def("get_srcComponent", from_frame<component_of>(), "As `comp`.")
         .def("get_seq", from_frame<sequence_of>(), "As `seq`.")
@@ -329,7 +329,7 @@ void bind_message(nb::module_& module) {
         "Immutable, safe from any thread, hashable; equal when the frames are. Can be copied and pickled.");
     type.def_prop_ro("name", &name_of, nb::sig("def name(self) -> str | None"),
                      "\"ATTITUDE\"; None for an id without definition.")
-        .def_prop_ro("id", from_frame<id_of>(), "The message's id.")
+        .def_prop_ro("id", from_frame<frame_id>(), "The message's id.")
         .def_prop_ro("sys", from_frame<system_of>(), "The sender's system id.")
         .def_prop_ro("comp", from_frame<component_of>(), "The sender's component id.")
         .def_prop_ro("seq", from_frame<sequence_of>(), "The frame's sequence number, 0 to 255.")
@@ -340,7 +340,7 @@ void bind_message(nb::module_& module) {
         .def_prop_ro(
             "time_ns", [](const Message& m) { return m.time_ns; },
             "Receive time, Unix time in ns: the kernel's for sockets, the recorded one (whole µs) for recordings.")
-        .def_prop_ro("version", from_frame<version_of>(), "MAVLink 1 or 2.")
+        .def_prop_ro("version", from_frame<frame_version>(), "MAVLink 1 or 2.")
         .def_prop_ro("signed", from_frame<is_signed>(), "Whether the frame carries a signature.")
         .def_prop_ro("signature", &signature_verdict,
                      nb::sig("def signature(self) -> typing.Literal['none', 'good', 'bad', 'unchecked']"),
