@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The calling thread's processor time: other threads on the core do not count.
+// CPU time of the calling thread, in seconds. Work that other threads do on the same core does not count.
 #pragma once
 
 #include <ctime>

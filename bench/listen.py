@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench listen: mavloom listen from UDP under load, every message printed.
-Counts what was sent against what was printed, and watches memory."""
+"""bench listen: runs `mavloom listen` on UDP under load, and prints every message.
+
+Compares the number of messages sent with the number printed, and watches memory."""
 import argparse
 import json
 import pathlib

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench pipeline: UDP in, ring, decode, re-encode, UDP out: a writer of the ring and `mavloom relay` as processes of
-their own, once with `mavloom route --ring` as the writer and once with `python -m mavloom.hear`. Every frame that
-arrives is compared with what was sent. Status 4 where one was lost or differs."""
+"""bench pipeline: UDP in, ring, decode, re-encode, UDP out.
+
+One process writes the ring, and `mavloom relay` reads it in another. The writer is `mavloom route --ring` in one run
+and `python -m mavloom.hear` in the other. Every frame that arrives is compared with the frame that was sent. The exit
+status
+is 4 if a frame was lost or differs."""
 import argparse
 import json
 import os
@@ -16,7 +19,7 @@ from measure import Kit, Load, measure  # noqa: E402
 
 
 class Pipeline(routers.Mavloom):
-    """The writer; the relay runs beside it. The CPU figure is the writer's alone."""
+    """The process that writes the ring. The relay runs beside it. The CPU figure is that of the writer only."""
 
     def __init__(self, program, name, writer):
         super().__init__(program, name)
@@ -49,7 +52,7 @@ def main():
     parser.add_argument("--flight", type=pathlib.Path, default=ROOT / "tests/data/px4_gcs_flight.tlog")
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--json", action="store_true", help="one JSON object a line")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per line")
     options = parser.parse_args()
     kit, failed = Kit(options.tools.resolve(), options.flight.resolve()), False
     for name, writer, rate in PIPELINES:

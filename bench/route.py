@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench route: routers under load, whole processes, in turns: same sockets, same frames, every frame that arrives
-compared with what was sent. Ratios are to the bare loop of the same round. CPU is that of the router's process, user
-and system, for each frame delivered. Status 4 where mavloom lost what the bare loop of the same round delivered, or
-delivered what was not sent."""
+"""bench route: compares routers under load.
+
+Each router runs as a process, in turns with the others, on the same sockets and with the same frames. Every frame that
+arrives is compared with the frame that was sent. Ratios are to the bare loop of the same round. CPU is the user and
+system time of the router's process per delivered frame. The exit status is 4 if mavloom lost frames in a round in which
+the bare loop lost none, or delivered a frame that was not sent."""
 import argparse
 import json
 import os
@@ -31,7 +33,7 @@ HIGHEST = Load("highest", "1 to 1, highest rate of single-frame datagrams withou
 HIGHEST_CEILING, PROBES = 1_600_000, 14
 BARE, OURS = "bare loop", "mavloom"
 
-# Filters that every frame passes, of each kind, so that both routers deliver the same.
+# Filters of each kind that every frame passes, so that both routers deliver the same frames.
 FILTERS = ['in_block = "PARAM_VALUE,MISSION_ITEM_INT,FILE_TRANSFER_PROTOCOL,sys:251,sys:252,comp:200,comp:201"',
            'in_allow = "HEARTBEAT,ATTITUDE,ATTITUDE_QUATERNION,LOCAL_POSITION_NED,GLOBAL_POSITION_INT,'
            'SERVO_OUTPUT_RAW,ATTITUDE_TARGET,POSITION_TARGET_LOCAL_NED,ALTITUDE"',
@@ -60,7 +62,7 @@ class Bench:
         print(line, file=sys.stderr if self.as_json else sys.stdout, flush=True)
 
     def once(self, peer, load, rate=None):
-        """One measurement, or None where the router did not forward."""
+        """Returns one measurement, or None if the router did not forward."""
         try:
             result = measure(self.kit, peer, load, self.seconds, rate)
         except NoAnswer as why:
@@ -71,7 +73,7 @@ class Bench:
         return result
 
     def turns(self, load, peers):
-        """Rounds of all peers, each round beginning with another one: [{peer's name: result}]."""
+        """Runs rounds of all peers and returns [{peer's name: result}]. Each round begins with another peer."""
         taken = []
         for number in range(self.rounds):
             shift = number % len(peers)
@@ -80,7 +82,7 @@ class Bench:
         return taken
 
     def judge(self, taken):
-        """Our own losses and wrong deliveries, where the floor of the round had none."""
+        """Notes mavloom's own losses and wrong deliveries in rounds in which the bare loop had none."""
         for results in taken:
             ours, floor = results.get(OURS), results.get(BARE)
             wrong = ours and any(ours[what] for what in ("damaged", "duplicates", "echoes"))
@@ -161,7 +163,7 @@ def run_table(bench, load, peers, base):
 # ---- the highest rate
 
 class Search:
-    """The highest rate without loss of one router, by doubling and then halving the interval."""
+    """Searches the highest rate at which a router loses nothing: doubles the rate, then halves the interval."""
 
     def __init__(self, peer, precision):
         self.peer, self.precision = peer, precision
@@ -213,22 +215,24 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/mavloom")
     parser.add_argument("--tools", type=pathlib.Path,
-                        help="folder of route_generator and the others; default beside the program's build")
+                        help="folder of route_generator and the other tools; default: beside the program's build")
     parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers",
-                        help="where peers are, or are installed")
+                        help="folder in which other routers are installed")
     parser.add_argument("--flight", type=pathlib.Path, default=ROOT / "tests/data/px4_gcs_flight.tlog")
     parser.add_argument("--quick", action="store_true",
-                        help="2 s and 2 rounds, the highest rate within 10 %%: a look, no figures to publish")
+                        help="2 s and 2 rounds, the highest rate within 10 %%: for a quick check, not for published "
+                             "figures")
     parser.add_argument("--seconds", type=float, help="length of each load; default 10")
     parser.add_argument("--rounds", type=int, help="default 5")
-    parser.add_argument("--only", default="",
-                        help=f"some loads: {','.join(load.key for load in LOADS)},{LINKS.key},{TAP.key},{HIGHEST.key}")
+    loads = ",".join(load.key for load in (*LOADS, LINKS, TAP, HIGHEST))
+    parser.add_argument("--only", default="", help=f"only these loads: {loads}")
     parser.add_argument("--without", default="", help="peers to leave out: mavrouter,mavproxy")
     parser.add_argument("--nice", type=int, default=0,
-                        help="priority of load, routers and far side alike: -10 (root) "
-                             "on a machine that does other things")
+                        help="nice value of load, routers and far side: use -10 (as root) "
+                             "on a machine that also does other work")
     parser.add_argument("--json", action="store_true",
-                        help="one JSON object a line: each measurement, then ratios; the tables on standard error")
+                        help="print one JSON object per line: each measurement, then ratios; the tables go to standard "
+                             "error")
     options = parser.parse_args()
     options.program = options.program.resolve()  # routers run in a folder of their own
     options.tools = (options.tools or options.program.parent.parent / "bench" / "bin").resolve()

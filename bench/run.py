@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Runs the benchmarks behind docs/performance.md, one after the other, beside a peer where there is one: ./run bench
-[parse|decode|python|listen|inside|shm|pipeline|route ...] Options that are not known here go to the one benchmark that
-is named: ./run bench route --quick"""
+"""Runs the benchmarks behind docs/performance.md, one after another: ./run bench
+[parse|decode|python|listen|inside|shm|pipeline|route ...]. Most of them compare Mavloom with another program. If one
+benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
 import argparse
 import pathlib
 import platform
@@ -31,7 +31,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/release/bin/mavloom")
     parser.add_argument("--build", default="build/release")
-    parser.add_argument("what", nargs="*", help="some of them; all without")
+    parser.add_argument("what", nargs="*", help="the benchmarks to run; default: all")
     options, more = parser.parse_known_args()
     if more and len(options.what) != 1:
         parser.error(f"{' '.join(more)}: for which benchmark?")

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench shm: the ring beside Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core and a
-bare exchange of a cache line, in turns. Every record is compared with what was written, by all of them. Ratios are of
-the same round. Peers that are not here are left out, and named."""
+"""bench shm: compares the ring with Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core
+and a bare exchange of a cache line, in turns.
+
+Every program compares each record with what was written. Ratios are within one round. Peers that are not installed are
+left out and listed."""
 import argparse
 import contextlib
 import json
@@ -16,16 +18,16 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FLIGHT = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
 AERON_VERSION = "1.44.1"
-AERON_WINDOW_MIB = 32  # what its publication may be ahead by: half a term buffer of 64 MiB
+AERON_WINDOW_MIB = 32  # how far its publication may be ahead of the readers: half a term buffer of 64 MiB
 OURS = "mavloom"
 
 
 class Missing(Exception):
-    """Why a peer cannot be had here."""
+    """A peer is not available on this machine; the text states why."""
 
 
 def run(command, what=None):
-    """Returns what a program prints. `what`: an installer, whose failure is a missing peer."""
+    """Runs a program and returns its output. `what`: the program is an installer, and if it fails, a peer is missing."""
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode == 0:
         return done.stdout
@@ -43,7 +45,7 @@ def per_second(printed):
 # ---- who takes part: (readers, mode) -> records a second
 
 class Program:
-    """One of our own programs. `records` of the longest run; the harness divides it where a peer is slow."""
+    """One of our own programs. `records` is that of the longest run; slow peers get fewer."""
 
     def __init__(self, tools, transport, records, *more):
         self.command, self.records, self.more = [tools / "shm_throughput", transport], records, more
@@ -149,7 +151,7 @@ class Bench:
         self.rounds, self.as_json = options.rounds, options.json
 
     def tell(self, title, peer, ours, theirs, target, at_most=False, unit="M/s"):
-        """One row; a ratio above the target is good, or below where `at_most`; no target: side by side."""
+        """Prints one row. A ratio above the target meets it; with `at_most`, a ratio below. Without target, no verdict."""
         ratios = [a / b for a, b in zip(ours, theirs)]
         us, them, ratio = statistics.median(ours), statistics.median(theirs), statistics.median(ratios)
         met = None if target is None else ratio <= target if at_most else ratio >= target
@@ -170,7 +172,7 @@ class Bench:
         self.tell(title, name, ours, theirs, target)
 
     def latency(self, title, us, name, peer, target):
-        """More turns than of the others, and shorter ones: a tail is soon another one's."""
+        """Runs more and shorter turns than the other measurements, because tail latency varies quickly."""
         ours, theirs = zip(*((us(), peer()) for _ in range(3 * self.rounds)))
         for index, what in enumerate(("median", "99.9th percentile")):
             self.tell(f"{title}, {what}", name, [value[index] for value in ours], [value[index] for value in theirs],
@@ -180,14 +182,14 @@ class Bench:
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tools", type=pathlib.Path, default=ROOT / "build/release/bench/bin",
-                        help="where shm_throughput and its like are")
+                        help="folder of shm_throughput and the other tools")
     parser.add_argument("--peers", type=pathlib.Path, default=ROOT / "build/peers",
-                        help="where Aeron is, or will be put")
+                        help="folder in which Aeron is installed")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--quick", action="store_true",
-                        help="one round of a tenth of the records: whether it works, not how fast it is")
+                        help="one round with a tenth of the records: checks that it works, not how fast it is")
     parser.add_argument("--without", default="", help="peers to leave out: aeron,iceoryx,udp")
-    parser.add_argument("--json", action="store_true", help="one JSON object a line")
+    parser.add_argument("--json", action="store_true", help="print one JSON object per line")
     options = parser.parse_args()
     options.tools, missing = options.tools.resolve(), []
     if options.quick:

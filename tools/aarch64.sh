@@ -7,7 +7,7 @@ folder=$(realpath -m "$1")
 shift
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-# The outside's headers that are the same on every machine; /usr/include as a whole is this one's.
+# Link only the third-party headers that are the same on every architecture: /usr/include also has headers of this one.
 mkdir -p "$folder/outside"
 for name in fmt tl; do ln -sfn "/usr/include/$name" "$folder/outside/$name"; done
 readonly google=/usr/src/googletest

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that differ from
-the commit BASE, or include, directly or through others, a header that does. Status 3: something differs that every file
-depends on (the build, the dialects, clang-tidy's rules), so that all have to be looked at."""
+"""changed_sources.py BASE: prints the .cpp files of the library, the program and the Python package that have changed
+since the commit BASE, or that include a changed header, directly or indirectly.
+
+The exit status is 3 if something changed that every file depends on (the build, the dialects, clang-tidy's rules). All
+files must be checked then."""
 import pathlib
 import re
 import subprocess
@@ -14,7 +16,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 
 def changed_since(base: str) -> list[str]:
-    """Committed or not; files that are not added to git, too."""
+    """Returns the files that differ from `base`, including uncommitted and untracked ones."""
     differing = subprocess.run(["git", "diff", "--name-only", base], cwd=ROOT, check=True, capture_output=True,
                                text=True).stdout.split()
     untracked = subprocess.run(["git", "ls-files", "--others", "--exclude-standard"], cwd=ROOT, check=True,
@@ -23,7 +25,7 @@ def changed_since(base: str) -> list[str]:
 
 
 def included_by() -> dict[str, set[str]]:
-    """{how a file is included: the files that include it}."""
+    """Returns {how a file is included: the files that include it}."""
     users: dict[str, set[str]] = {}
     for top in TOPS:
         for path in (ROOT / top).rglob("*.[ch]pp"):
@@ -33,7 +35,7 @@ def included_by() -> dict[str, set[str]]:
 
 
 def spelling_of(path: str) -> str:
-    """As an #include has it: below include/, src/ or python/src/, or in the file's own folder."""
+    """Returns the path as an #include spells it: below include/, src/ or python/src/, or in the file's own folder."""
     top = next(top for top in TOPS if path.startswith(top + "/"))
     return path[len(top) + 1:] if top != "apps" else pathlib.PurePath(path).name
 

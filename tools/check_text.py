@@ -64,7 +64,7 @@ class Paragraph(NamedTuple):
 
 
 def kind_of(path: pathlib.Path) -> str | None:
-    """The kind of a file: python, shell, cmake, markdown, cpp; None for one that is not checked."""
+    """Returns the kind of a file: python, shell, cmake, markdown or cpp; None for files that are not checked."""
     by_suffix = {".py": "python", ".sh": "shell", ".md": "markdown", ".cpp": "cpp", ".hpp": "cpp", ".cmake": "cmake"}
     if path.name == "CMakeLists.txt":
         return "cmake"
@@ -78,7 +78,7 @@ def kind_of(path: pathlib.Path) -> str | None:
 # ---- which lines are code or prose
 
 def comment_paragraphs(lines: list[str], comment: re.Pattern[str]) -> Iterator[Paragraph]:
-    """Lines that are only a comment, joined while they follow one another; a comment behind code is one by itself."""
+    """Yields comments: consecutive lines that are only a comment are joined; a comment after code stands alone."""
     joined: list[tuple[int, str]] = []
     for number, line in enumerate(lines, 1):
         found = comment.search(line)
@@ -96,7 +96,7 @@ def comment_paragraphs(lines: list[str], comment: re.Pattern[str]) -> Iterator[P
 
 
 def docstrings(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """(first line, text) of each docstring."""
+    """Yields (first line, text) of each docstring."""
     for node in ast.walk(tree):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)):
             text = ast.get_docstring(node, clean=False)
@@ -116,7 +116,7 @@ def python_paragraphs(text: str) -> Iterator[Paragraph]:
 
 
 def markdown_code(lines: list[str]) -> list[bool]:
-    """Whether each line belongs to a code block: fenced, or indented by four spaces after a blank line."""
+    """Returns, for each line, whether it belongs to a code block: fenced, or indented by four spaces after a blank."""
     code, fenced, indented, in_list = [], False, False, False
     for number, line in enumerate(lines):
         if FENCE.match(line):
@@ -132,7 +132,7 @@ def markdown_code(lines: list[str]) -> list[bool]:
 
 
 def markdown_paragraphs(lines: list[str], first: int = 1) -> Iterator[Paragraph]:
-    """Paragraphs and list items; headings and rows of tables by themselves. `first` is the number of the first line."""
+    """Yields paragraphs, list items, headings and table rows. `first` is the number of the first line."""
     joined: list[tuple[int, str]] = []
     for number, (line, code) in enumerate(zip(lines, markdown_code(lines)), first):
         text = line.strip()

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The first working path on one machine, over real UDP sockets:
+"""A demonstration on one machine, over real UDP sockets:
 
     recorded PX4 flight --replay--> +--> mavloom listen   (decoded, shown here)
                                     +--> mavloom relay    (decoded, re-encoded) --> ground-station port (recorded)
 
-Ends with what was heard by name, rate and loss, and with the proof that what the ground station got is byte for byte
-what the vehicle sent. Then the way through shared memory, there and back:
+At the end it prints the messages heard, with rates and loss, and checks that the ground station received byte for byte
+what the vehicle sent. Then it does the same through shared memory, in both directions:
 
     vehicle --> python -m mavloom.hear --ring--> mavloom relay --> ground station --(its frames of the flight)--> relay
     --inlet--> hear --> vehicle
@@ -27,7 +27,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FLIGHT = ROOT / "tests" / "data" / "px4_gcs_flight.tlog"
-SHOWN_EACH_S = 2.0  # of every message one line in this time: all 370 a second would be a blur
+SHOWN_EACH_S = 2.0  # at most one line per message in this time, because 370 lines a second are unreadable
 
 
 GROUND_STATION = 255  # its system in the flight
@@ -35,7 +35,7 @@ PATIENCE_S = 10.0
 
 
 class Program:
-    """One of our programs with its talk (stderr) on a thread; its ports are read from there."""
+    """One of our programs. A thread reads its stderr, from which its ports are taken."""
 
     def __init__(self, *args):
         self.args = args
@@ -76,7 +76,7 @@ class Program:
 
 
 def frames_of(tlog):
-    """The frames of a tlog, split by their own length bytes: nothing of ours is used to check ours."""
+    """Returns the frames of a tlog, split by their own length bytes. Uses no code of ours, because it checks our code."""
     data, frames, at = pathlib.Path(tlog).read_bytes(), [], 0
     while at + 8 + 3 <= len(data):
         start, length, flags = data[at + 8], data[at + 9], data[at + 10]
@@ -108,7 +108,7 @@ class Show:
 
 
 def wait_until_steady(path, seconds=3.0):
-    """The recorder has written all that is under way when the file no longer grows."""
+    """Waits until the file no longer grows: the recorder has then written everything."""
     size, since = -1, time.monotonic()
     end = since + seconds
     while time.monotonic() < end and time.monotonic() - since < 0.5:
@@ -134,7 +134,7 @@ class Peer:
         self.socket.close()
 
     def receive(self, size):
-        """So many bytes, or what came of them; and who sent the last."""
+        """Receives `size` bytes, or as many as arrive. Returns them and the sender of the last."""
         got, sender = b"", None
         while len(got) < size:
             try:
@@ -146,7 +146,7 @@ class Peer:
 
 
 def way_back(options):
-    """Whether the ground station's frames reach the vehicle, through ring and inlet, byte for byte."""
+    """Returns whether the ground station's frames reach the vehicle through ring and inlet, byte for byte."""
     flight = frames_of(FLIGHT)
     answers = [frame for frame in flight if frame[5] == GROUND_STATION]
     ring, started = f"demo-{os.getpid()}", []
@@ -231,12 +231,12 @@ def run(options, folder):
 
 
 def sent_by(replay):
-    """The number of frames that replay reports as sent to each destination (the fewest of them)."""
+    """Returns the number of frames that replay reports as sent, the smallest of all destinations."""
     return min(int(found[1]) for line in replay.talk if (found := re.search(r": (\d+) frames, \d+ bytes sent", line)))
 
 
 def damaged_in(replay):
-    """The number of places of the flight where replay reports damage, or a frame that may not be forwarded."""
+    """Returns the number of places in the flight where replay reports damage or a frame that must not be forwarded."""
     return sum(int(found[1]) for line in replay.talk
                if (found := re.search(r": (\d+) (damaged place|frames? not sent: an unknown)", line)))
 
@@ -248,7 +248,7 @@ def compare(options, received, shown, count, damaged):
     agreeing, gaps = follow(got, pathlib.Path(options.flight).read_bytes(), to_its_end=not options.duration)
     if count == len(got) == agreeing == shown and got and gaps <= damaged:
         if not way_back(options):
-            print("demo: MISMATCH: what the ground station sent did not reach the vehicle as it was")
+            print("demo: MISMATCH: the frames of the ground station did not reach the vehicle unchanged")
             return 4
         print("demo: OK: byte for byte what was sent, there and back")
         return 0
@@ -258,8 +258,8 @@ def compare(options, received, shown, count, damaged):
 
 
 def follow(got, flight, to_its_end):
-    """How many frames of `got` stand in the flight in its order, and in how many places bytes are left out that are no
-    record's time."""
+    """Returns how many frames of `got` are in the flight, in the same order, and in how many places bytes other than
+    record times are missing."""
     at = gaps = 0
     for i, frame in enumerate(got):
         found = flight.find(frame, at)

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Writes dialects/*.xml: the facts of MAVLink's public message set, without its prose.
 
-Two sources. The upstream definitions travel in the Rust crate `mavlink`; they are taken as they are. The pymavlink
-wheel carries ArduPilot's copy; what it alone has (messages, enums and enum entries that collide with nothing upstream)
-is added to the file of the same name. Kept: names, ids, values, types, units, display hints, parameter labels and
-bounds, dates and names of deprecation. Dropped: descriptions, comments, print formats, work-in-progress marks. The
-output depends on nothing but the two inputs.
+There are two sources. The Rust crate `mavlink` contains the upstream definitions, which are used unchanged. The
+pymavlink wheel contains ArduPilot's copy. Messages, enums and enum entries that only this copy has, and that do not
+collide with upstream, are added to the file of the same name.
+
+- Kept: names, ids, values, types, units, display hints, parameter labels and bounds, dates and names of deprecation.
+- Dropped: descriptions, comments, print formats, work-in-progress marks.
+
+The output depends only on the two inputs.
 
     tools/import_dialect.py                                   fetch both (cargo, pip) into a temporary folder
     tools/import_dialect.py --upstream DIR --wheel FILE.whl   use these
@@ -49,7 +52,7 @@ CHILDREN = {
 
 
 def number(text):
-    """The value of an entry, as the schema allows it: decimal, 0x, 0b or 2**n."""
+    """Parses the value of an entry in a form that the schema allows: decimal, 0x, 0b or 2**n."""
     if text.startswith("2**"):
         return 2 ** int(text[3:])
     return int(text, 0)
@@ -84,7 +87,7 @@ def read_wheel(wheel):
 
 
 def closure(read):
-    """The top file and all that it includes, breadth first, as {name: root}."""
+    """Returns the top file and everything that it includes, breadth first, as {name: root}."""
     roots, queue = {}, [TOP]
     while queue:
         name = queue.pop(0)
@@ -111,7 +114,7 @@ class Known:
 
 
 def part(root, tag):
-    """The <enums> or <messages> of a file, made where it is missing."""
+    """Returns the <enums> or <messages> element of a file, and creates it if it is missing."""
     found = root.find(tag)
     return found if found is not None else ET.SubElement(root, tag)
 
@@ -154,7 +157,7 @@ def add_from_wheel(roots, extras):
 
 
 def element(node, depth):
-    """The lines of one element with what is kept of its inside."""
+    """Returns the lines of one element and of those of its children that are kept."""
     attributes = "".join(f" {key}={quoteattr(node.get(key))}" for key in ATTRIBUTES[node.tag]
                          if node.get(key) is not None)
     head, indent = f"<{node.tag}{attributes}", "  " * depth

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes tests/golden/dialect_all.tsv: what pymavlink's generator makes of dialects/all.xml, for comparison with our
+"""Writes tests/golden/dialect_all.tsv: the result of pymavlink's generator for dialects/all.xml, for comparison with our
 reader.
 
-pymavlink is an independent implementation: wire order, lengths, CRC_EXTRA, offsets and merged enums in the output are
-its own. Run it again after tools/import_dialect.py:
+pymavlink is an independent implementation: it computes the wire order, lengths, CRC_EXTRA, offsets and merged enums in
+the output. Run this script again after tools/import_dialect.py:
 
     python3 -m venv /tmp/golden && /tmp/golden/bin/pip install pymavlink==2.4.50
     /tmp/golden/bin/python tools/make_golden_dialect.py
@@ -27,7 +27,7 @@ NO_TARGET = 255
 
 
 def parse_closure(top):
-    """The file and all that it includes, breadth first, as mavgen's expand_includes does it."""
+    """Parses the file and everything that it includes, breadth first, like mavgen's expand_includes."""
     parsed, queue, seen = [], [top], set()
     while queue:
         path = os.path.abspath(queue.pop(0))

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes tests/golden/messages.tsv: for every message of dialects/all.xml a few sets of values as pymavlink encodes
-them. One line a case: name, case, frame in hexadecimal (MAVLink 2), and the fields as the JSON form must print them.
+"""Writes tests/golden/messages.tsv: a few frames for every message of dialects/all.xml, encoded by pymavlink.
+
+Each line is one case: message, case, frame in hexadecimal (MAVLink 2), and the fields as our JSON form must print them.
 Run it after a change of the definitions, with pymavlink installed: `build/venv/bin/python
 tools/make_golden_messages.py`."""
 import json

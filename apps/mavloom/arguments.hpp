@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of CLI11 with which a command declares its arguments.
-// Only arguments.cpp and main.cpp include CLI11: its headers add six seconds to the compilation of every file that
-// includes them.
+// The interface with which a command declares its arguments: a thin layer over CLI11.
+// Only arguments.cpp and main.cpp include CLI11, because its headers add six seconds to the compilation of each file.
 // Both classes are handles and may be copied freely. The CLI11 objects behind them live until the command has run.
 #pragma once
 

@@ -62,8 +62,8 @@ Run declare_bench(Arguments, const Common&);
 // Prints "mavloom: TEXT" to stderr and returns the exit status for the error.
 Exit fail(const SetupError& error);
 Exit fail(Exit status, std::string_view text);
-// For an error of a file that the user named as input. Every error but a usage error becomes bad_input (status 3): a
-// missing or unreadable file is treated like one with wrong content.
+// Converts an error of an input file. Every error except a usage error becomes bad_input (status 3), so a missing or
+// unreadable file is treated like one with wrong content.
 SetupError of_input_file(SetupError error);
 // Writes raw text to stderr. Ignores write errors: a closed or full stderr never ends a command.
 void talk(std::string_view text) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Formats numbers together with their nouns, for people. Pure functions that return a new string.
+// Formats numbers together with their nouns, such as "2 frames". Pure functions that return a new string.
 #pragma once
 
 #include <fmt/format.h>

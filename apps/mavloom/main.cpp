@@ -29,7 +29,7 @@ constexpr std::array commands{
     Command{"record", "write what arrives to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
     Command{"ctl", "inspect a running router and change its endpoints", declare_ctl, false},
-    Command{"stat", "the counters of a running router or a ring", declare_stat, false},
+    Command{"stat", "print the counters of a running router or a ring", declare_stat, false},
     Command{"shm", "manage shared-memory rings: list, stat, write, read, remove", declare_shm, false},
     Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},
@@ -45,7 +45,7 @@ constexpr std::string_view footer =
     "signal.";
 
 void add_common(CLI::App& command, Common& common, bool uses_dialect) {
-    command.add_flag("-v,--verbose", common.verbose, "log more to stderr (relay and route)");
+    command.add_flag("-v,--verbose", common.verbose, "log more to stderr (only relay and route)");
     command.add_flag("-q,--quiet", common.quiet, "log only errors to stderr");
     if (!uses_dialect) return;
     command

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A buffer of lines for standard output, and the rules for a slow or closed reader. Single owner.
+// A buffer of lines for standard output that handles slow and closed readers. Single owner.
+//
 // - A reader that closes the pipe (`| head`) ends the output normally. A full disk is an error.
-// - A stalled reader is waited for until the end is requested, by a signal or by the time of `end_at`.
-// - From then on the reader must accept some data within one second of a signal, or within ten seconds of `end_at`.
+// - If the reader stalls, the output waits until the end is requested, by a signal or at the time of `end_at`.
+// - After that, the reader must accept some data within one second of a signal, or within ten seconds of `end_at`.
 // - A pipe receives whole lines, as long as a line fits into PIPE_BUF bytes.
 #pragma once
 
@@ -24,8 +25,8 @@ public:
     // Append lines here. Call `flush_if_full` after each line and `flush` when idle.
     [[nodiscard]] message::TextBuffer& buffer() noexcept { return buffer_; }
     State flush_if_full() { return full() ? flush() : state_; }
-    // Writes everything and waits as long as the reader takes. After the end was requested, waits only while the reader
-    // still accepts data; otherwise discards the rest and returns `interrupted`.
+    // Writes everything, and waits for a slow reader. After the end was requested, waits only while the reader still
+    // accepts data; otherwise discards the rest and returns `interrupted`.
     State flush();
     // Never waits: writes the lines that fit and leaves the rest in the buffer. Check `full` before appending more.
     State flush_what_fits();

@@ -67,7 +67,9 @@ void ReceiveOptions::declare(Arguments command) {
     command.add_option("--count", count_text, "end after this many messages").type_name("N");
     command
         .add_option("--buffer", buffer,
-                    "memory for frames that wait to be handled (bytes, k, M); more frames are dropped and counted")
+                    "memory for received frames that are not handled yet (bytes, k, M); when it is full, frames are "
+                    "dropped and "
+                    "counted")
         .capture_default_str()
         .type_name("BYTES");
 }

@@ -44,7 +44,8 @@ struct ReceiveOptions {
     void declare(Arguments command);
     [[nodiscard]] SetupResult<std::unique_ptr<feed::Receiver>> open(const Common& common,
                                                                     const dialect::Dialect& dialect);
-    // When --for ends, or MonoTime::max() without it. Call after `open`, which validates the duration.
+    // Returns the time at which --for ends, or MonoTime::max() without it. Call after `open`, which validates the
+    // duration.
     [[nodiscard]] MonoTime end(MonoTime start) const;
 
 private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The output side of relay, replay and record: opens what --to and --output name, and prints what became of the frames.
+// The output side of relay, replay and record: opens the destinations of --to and --output, and reports how many frames
+// each of them received.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,8 +15,8 @@ namespace mavloom::app {
 
 using Json = nlohmann::ordered_json;
 
-// Creates the recording of a tlog:// destination. Logs the new name of a file that was there. Error texts begin with
-// `option`.
+// Creates the recording of a tlog:// destination. If the file exists, renames it and logs its new name. Error texts
+// begin with `option`.
 [[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const Common& common,
                                                                    const endpoint::Endpoint& endpoint,
                                                                    std::string_view option);
@@ -29,7 +30,7 @@ void say_sums(const Common& common, const feed::Destinations& destinations);
 // Returns the same totals as a JSON array. docs/guide/relay.md lists the keys.
 [[nodiscard]] Json sums_json(const feed::Destinations& destinations);
 
-// The same for one recording: "x.tlog: 12 frames, 348 bytes written".
+// Logs the totals of a recording: "x.tlog: 12 frames, 348 bytes written".
 void say_recorded(const Common& common, const record::RotatingWriter& file);
 [[nodiscard]] Json recorded_json(const record::RotatingWriter& file);
 

@@ -31,7 +31,8 @@ void handle(int signal) {
 
 enum class Ignored : bool { stay, are_taken };
 
-// Without SA_RESTART, so that a write that blocks on a slow reader returns. SIGHUP means that the terminal was closed.
+// Does not set SA_RESTART, so a signal interrupts a write that blocks on a slow reader. SIGHUP: the terminal was
+// closed.
 void install(void (*handler)(int), Ignored ignored) noexcept {
     struct sigaction action {};
     action.sa_handler = handler;

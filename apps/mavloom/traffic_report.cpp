@@ -36,7 +36,7 @@ struct Named {
     [[nodiscard]] std::string text() const { return fmt::format("{}: {} {}", name, counted(value, noun), rest); }
 };
 
-// Every counter of what was lost, damaged or left out, with the words for it.
+// Every counter of lost, damaged or omitted data, with its text.
 auto losses_of(const feed::Totals& t) {
     return std::array{
         Named{"kernel_drop", "datagram", "dropped by the kernel: the receive buffer was full", t.kernel_drop},

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The C++ half of bench/decode.py: parses the frames of a recording and decodes each into its generated struct. Every
-// message of the recording must be among the structs named here, else it fails: a figure for part of the traffic would
-// be meaningless.
-// usage: decode_bench FILE.tlog [TURNS]; prints one JSON object with the median messages a second.
+// The C++ half of bench/decode.py: parses the frames of a recording and decodes each into its generated struct. Fails
+// if the recording contains a message without a struct below, because a figure for part of the traffic would be
+// meaningless. usage: decode_bench FILE.tlog [TURNS]; prints one JSON object with the median messages a second.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,7 +55,7 @@ namespace {
 
 using namespace mavloom;
 
-// Decodes and hands the whole struct to the optimiser as used.
+// Decodes, and makes the optimiser treat the whole struct as used.
 template <class Struct>
 void decode_one(ByteView payload) {
     const auto decoded = Struct::decode(payload);
@@ -92,7 +91,7 @@ const auto structs = Structs::of<
     msg::PositionTargetGlobalInt, msg::PositionTargetLocalNed, msg::ScaledPressure, msg::ServoOutputRaw,
     msg::Statustext, msg::SysStatus, msg::TimeEstimateToTarget, msg::VfrHud, msg::Vibration>();
 
-// The frames of a tlog without their times.
+// Returns the frames of a tlog without their times.
 std::vector<std::uint8_t> frames_of(const char* path, const wire::MessageTable& table) {
     std::ifstream in(path, std::ios::binary);
     const std::vector<std::uint8_t> file{std::istreambuf_iterator<char>(in), {}};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// bench inside: what a frame costs between the system calls, step by step as the router takes them: parse, watch its
-// sequence, count, route, queue, gather. On frames of a recorded flight, one vehicle on one link and one ground station
-// on another, with no socket and no kernel, and without the look-ups by which Links finds a link, its counters and a
-// message's class. Every frame must come out as it went in, checked before any time is taken. Prints nanoseconds of
-// processor time a frame, in the fastest turn: what disturbs a turn is not the router.
+// bench inside: measures what a frame costs in the router between the system calls.
+// The steps are those of the router: parse, watch the sequence, count, route, queue, gather. The frames come from a
+// recorded flight, with one vehicle on one link and one ground station on another. There are no sockets, and none of
+// the look-ups with which Links finds a link, its counters and a message's class. Before the measurement, every frame
+// must come out unchanged. Prints nanoseconds of CPU time per frame, from the fastest turn, because other load on the
+// machine can only make a turn slower.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +37,8 @@ struct Datagrams {
     std::size_t frames = 0;
 };
 
-// Such frames are for somebody who is not here; the others go to everybody.
+// Returns true if the frame may have a target. Its target is not in this network, so it is left out; all other frames
+// are broadcast.
 bool may_have_target(const wire::ParseEvent& event) noexcept {
     return event.info == nullptr || event.info->target_system_offset < event.frame.payload().size();
 }
@@ -129,7 +131,8 @@ bool passes_unchanged(const Datagrams& datagrams) {
     return way.frames() == datagrams.frames && out == datagrams.bytes;
 }
 
-// One turn of the flight up to a step. Each turn is later than the last: nothing of it is an echo or a copy.
+// Runs the flight once, up to a step. Each turn has later times than the one before, so that no frame counts as an echo
+// or a copy.
 template <Until until>
 void take(const Datagrams& datagrams, Way& way, int turn, double& fastest) {
     const MonoTime begin{std::chrono::hours{1 + turn}};
@@ -154,7 +157,7 @@ int main(int argc, char** argv) {
         return 1;
     }
     if (!passes_unchanged(datagrams)) {
-        fmt::print(stderr, "inside_bench: what came out is not what went in\n");
+        fmt::print(stderr, "inside_bench: the frames that came out differ from those that went in\n");
         return 4;
     }
     std::array<double, step_names.size()> ns;

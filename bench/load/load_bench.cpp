@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The load of `bench listen` and of the router's figures: sends recorded frames to a UDP port at a steady rate, in
-// batches by sendmmsg, as thin as it can be. Prints how many frames it sent, and how long it took.
+// Generates the load of `bench listen`: sends recorded frames to a UDP port at a steady rate, in batches by sendmmsg,
+// with as little work per frame as possible. Prints how many frames it sent, and how long it took.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t batch = 64;
 
-// The frames of an undamaged tlog, by their own length bytes.
+// Returns the frames of an undamaged tlog, split by their own length bytes.
 std::vector<std::vector<char>> frames_of(const char* path) {
     std::ifstream in(path, std::ios::binary);
     const std::vector<char> file{std::istreambuf_iterator<char>(in), {}};
@@ -48,7 +48,7 @@ int connect_to(const char* host, const char* port) {
     return ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? fd : -1;
 }
 
-// All messages of the batch; a full send buffer is waited for, since the load must not lose anything itself.
+// Sends all messages of the batch. Waits if the send buffer is full, because the load must not lose frames itself.
 void send_all(int fd, mmsghdr* messages, std::size_t count) {
     while (count != 0) {
         const int sent = ::sendmmsg(fd, messages, static_cast<unsigned>(count), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// bench parse: our stream parser beside the C library's mavlink_parse_char, on the same bytes of a recorded flight, in
-// turns. The answers (how many frames, which, in which order) are compared before any time is taken. Prints bytes per
-// second of processor time for each, and the ratio turn by turn.
+// bench parse: compares our stream parser with the C library's mavlink_parse_char, in turns, on the same bytes of a
+// recorded flight. Before the measurement, both must find the same frames in the same order. Prints bytes per second of
+// CPU time for each, and the ratio of each turn.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace mavloom;
 using bench::cpu_seconds;
 
-// The frames of a tlog without their times: what a serial line would have carried.
+// Returns the frames of a tlog without their times, as a serial line would have carried them.
 std::vector<std::uint8_t> frames_of(const char* path, const wire::MessageTable& table) {
     std::ifstream in(path, std::ios::binary);
     const std::vector<std::uint8_t> file{std::istreambuf_iterator<char>(in), {}};
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
     const auto theirs = peer_parse(frames.data(), frames.size());
     const auto ours = our_parse(frames, chunk, table);
     if (theirs.frames != ours.frames || theirs.fingerprint != ours.fingerprint || ours.dropped != 0 || ours.frames == 0) {
-        fmt::print(stderr, "parse_bench: the answers differ: {} frames by us, {} by the C library\n", ours.frames,
+        fmt::print(stderr, "parse_bench: the frames differ: we found {}, the C library {}\n", ours.frames,
                    theirs.frames);
         return 4;
     }

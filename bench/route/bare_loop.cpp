@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The floor of `bench route`: reads datagrams from one port and sends them to others, by recvmmsg and sendmmsg, and
-// looks at nothing. With `gather` the datagrams of a turn share datagrams of up to 1280 bytes, as a router may that
-// knows where frames end.
+// The lower bound of `bench route`: copies datagrams from one port to others with recvmmsg and sendmmsg, without
+// looking at their content. With `gather` it combines the datagrams of a turn into datagrams of up to 1280 bytes, as a
+// router that knows where frames end may do.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -42,7 +42,7 @@ public:
         }
     }
 
-    // Blocks until there is something, then takes all that is there, up to a batch.
+    // Waits for a datagram, then receives all that have arrived, up to a batch.
     int receive(int fd) {
         for (auto& part : parts_) part.iov_len = slot_bytes;
         const int count = ::recvmmsg(fd, in_.data(), batch, MSG_WAITFORONE, nullptr);

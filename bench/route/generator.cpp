@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The load of `bench route`: sends numbered frames through sockets that the harness has connected to the router, at a
-// rate kept by absolute deadlines, in batches by sendmmsg. Every TICK_US microseconds leave the frames that are due,
-// never early, none left out. Prints what it sent.
+// Generates the load of `bench route`: sends numbered frames through sockets that bench/route.py has connected to the
+// router. Every TICK_US microseconds it sends the frames that are due, in batches by sendmmsg. Absolute deadlines keep
+// the rate: no frame is early, and none is left out. Prints what it sent.
 #include <fmt/format.h>
 #include <sys/socket.h>
 
@@ -25,7 +25,7 @@ void sleep_until(std::uint64_t at_ns) {
     while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {}
 }
 
-// A full send buffer is waited for: the load must not lose anything itself.
+// Waits if the send buffer is full, because the load must not lose frames itself.
 void send_all(int fd, mmsghdr* messages, std::size_t count) {
     while (count != 0) {
         const int sent = ::sendmmsg(fd, messages, static_cast<unsigned>(count), 0);
@@ -48,7 +48,7 @@ public:
         }
     }
 
-    // The frames [from, to), those of one link in one call as far as they follow each other.
+    // Sends the frames [from, to). Consecutive frames of one link go out in one call.
     void send(std::uint64_t from, std::uint64_t to) {
         while (from < to) {
             const unsigned link = traffic_.link_of(from);
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     const auto total = std::strtoull(argv[6], nullptr, 10), tick_ns = 1000 * std::strtoull(argv[8], nullptr, 10);
     const auto per_datagram = static_cast<std::size_t>(std::atoi(argv[7]));
     if (!traffic || rate <= 0 || tick_ns == 0 || per_datagram == 0 || per_datagram > max_per_datagram) return 1;
-    if (fds.size() > 1 && per_datagram > 1) return 1;  // neighbours are of different links
+    if (fds.size() > 1 && per_datagram > 1) return 1;  // consecutive frames belong to different links
 
     Sender sender(*traffic, std::move(fds), per_datagram);
     const std::uint64_t begin = now_ns();

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""One measurement of `bench route`: a router as a process of its own between the load and its far side. Sockets of both
-sides are opened here and handed to them, so that ports are the kernel's choice and every router gets the same."""
+"""One measurement of `bench route`: a router runs as a process between the load generator and the far side.
+
+This module opens the sockets of both sides and passes them on. So the kernel chooses the ports, and every router gets
+the same kind of sockets."""
 import dataclasses
 import json
 import math
@@ -20,8 +22,7 @@ START_DEADLINE_S = 30
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """`links` senders; `outs` receivers, or none: then the senders are the receivers, and each gets what the others
-    sent."""
+    """A load of `links` senders and `outs` receivers. With 0 receivers, each sender receives what the others sent."""
     key: str
     title: str
     rate: int
@@ -31,13 +32,13 @@ class Load:
     systems: int = 1
     components: int = 1
     longest_s: float = math.inf
-    sink_rest_us: int = 250  # a far side that wakes for each datagram would cost more than what is measured
+    sink_rest_us: int = 250  # waking for each datagram would cost more than what is measured
     tick_us: int = 100
 
 
 @dataclasses.dataclass(frozen=True)
 class Kit:
-    """The programs and the recording."""
+    """The programs and the recording that a measurement uses."""
     tools: pathlib.Path
     flight: pathlib.Path
 
@@ -47,7 +48,8 @@ class NoAnswer(Exception):
 
 
 def heartbeat(system, number):
-    """A HEARTBEAT (id 0, CRC_EXTRA 50) of component 1 that no other equals: `number` is its custom_mode.
+    """Returns a unique HEARTBEAT (id 0, CRC_EXTRA 50) of component 1, with `number` as its custom_mode.
+
     Its arrival shows that a router is up."""
     body = struct.pack("<BBBBBB3xIBBBBB", 9, 0, 0, number & 0xFF, system, 1, number, 2, 12, 81, 4, 3)
     crc = 0xFFFF
@@ -80,7 +82,7 @@ def dropped_by(sock):
 
 
 def cpu_seconds(pid):
-    """CPU time of all threads of a process, user and system."""
+    """Returns the CPU time of all threads of a process, user and system."""
     return sum(int((task / "schedstat").read_text().split()[0])
                for task in pathlib.Path(f"/proc/{pid}/task").iterdir()) / 1e9
 
@@ -90,19 +92,19 @@ def anonymous_kib(pid):
 
 
 def drain(sockets):
-    """Reads all that is there; the sockets that had something."""
+    """Reads everything that has arrived, and returns the sockets that had data."""
     heard = set()
     for sock in select.select(sockets, [], [], 0)[0]:
         try:
             while sock.recv(65536, socket.MSG_DONTWAIT):
                 heard.add(sock)
-        except OSError:  # nothing more, or the refusal of a router that is not up yet
+        except OSError:  # nothing more, or the port of a router that is not up yet refused a datagram
             pass
     return heard
 
 
 def wait_until_up(router, senders, receivers):
-    """Heartbeats from every sender until every receiver has heard one, then silence: what follows is the load alone."""
+    """Sends heartbeats from every sender until every receiver has received one, then waits until all is quiet."""
     deadline = time.monotonic() + START_DEADLINE_S
     silent, number = set(receivers), 0
     while silent:
@@ -133,7 +135,7 @@ def start(command, sockets=(), **options):
 
 
 def run_load(kit, load, rate, seconds, pid, senders, receivers):
-    """The load through the running router `pid`; what was sent, what arrived, and what the router took for it."""
+    """Runs the load through the running router `pid`. Returns what was sent, what arrived, and the router's cost."""
     frames = int(rate * seconds)
     shape = [kit.flight, load.systems, load.components]
     mode = "fan" if load.outs else "mesh"
@@ -156,8 +158,8 @@ def run_load(kit, load, rate, seconds, pid, senders, receivers):
 
 def summary(load, sent, arrived, cpu, dropped, early_kib, late_kib):
     delivered = sum(arrived["distinct"])
-    # In a mesh a sender does not hear itself: everybody's frames once, times all but one, however many frames each has
-    # sent.
+    # In a mesh, each sender receives the frames of all others but not its own. So each frame should arrive links - 1
+    # times, whichever link sent it.
     expected = sent["frames"] * (load.outs or load.links - 1)
     return {"sent": sent["frames"], "rate": sent["rate"], "expected": expected, "delivered": delivered,
             "lost": expected - delivered, "lost_at_sink": dropped,
@@ -171,7 +173,8 @@ def summary(load, sent, arrived, cpu, dropped, early_kib, late_kib):
 
 def measure(kit, peer, load, seconds, rate=None):
     """Starts the router, waits until it forwards, runs the load and ends the router.
-    Raises NoAnswer where it never forwards."""
+
+    Raises NoAnswer if it never forwards."""
     rate, seconds = rate or load.rate, min(seconds, load.longest_s)
     in_port = free_port()
     senders = [udp_socket() for _ in range(load.links)]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The routers of `bench route`: how each is got and how it is started. Peers are programs of their own;
-nothing of them is linked or copied."""
+"""The routers of `bench route`: how each is installed and started.
+
+Other routers run as separate programs; none of their code is linked or copied."""
 import os
 import pathlib
 import shutil
@@ -13,12 +14,12 @@ NOT_AT_HAND = "mavlink-router, mavp2p and mavlink-server are in no package regis
 
 
 class Missing(Exception):
-    """Why a peer cannot be had here."""
+    """A peer is not available on this machine; the text states why."""
 
 
 class Peer:
-    """A router. command() -> argv of a process that reads UDP datagrams at in_port and sends what it forwards to each
-    of out_ports."""
+    """A router. command() returns the argv of a process that reads UDP datagrams at in_port and forwards them to
+    each of out_ports."""
     note = ""
 
     def __init__(self, name):
@@ -49,7 +50,7 @@ class Mavloom(Peer):
         self.program = program
 
     def route(self, *arguments):
-        """A name of its own, where the program knows names, keeps it apart from a router that runs on this machine."""
+        """Gives the router its own name, if the program supports names, to avoid a clash with another router."""
         help_text = subprocess.run([str(self.program), "route", "--help"], capture_output=True, text=True).stdout
         return [self.program, "route", *(("--name", f"bench-{os.getpid()}") if "--name" in help_text else ()),
                 *arguments]
@@ -73,7 +74,8 @@ class MavloomWithRing(Mavloom):
 
 
 class MavloomConfigured(Mavloom):
-    """`mavloom route` for the many links: every peer of one udpin endpoint is a link;
+    """`mavloom route` with a configuration file, in which every peer of one udpin endpoint is a link.
+
     `router` and `endpoint` are lines of TOML."""
 
     def __init__(self, program, name, router, endpoint):
@@ -88,7 +90,7 @@ class MavloomConfigured(Mavloom):
 
 
 class Mavrouter(Peer):
-    """Its configuration is that of its own stress test (bus_capacity) with the endpoints exchanged."""
+    """mavrouter, with the configuration of its own stress test (bus_capacity) and our endpoints."""
     note = "keeps one frame of a datagram"
 
     def __init__(self, program):
@@ -106,7 +108,7 @@ class Mavrouter(Peer):
 
 
 class Mavproxy(Peer):
-    """As lean as it goes: no modules, no logs, no console."""
+    """MAVProxy with as little as possible: no modules, no logs, no console."""
     note = "without modules"
 
     def __init__(self, python):
@@ -120,7 +122,7 @@ class Mavproxy(Peer):
 
 
 def run_quietly(command, what):
-    """Runs an installer; its output is shown only where it fails."""
+    """Runs an installer. Shows its output only if it fails."""
     print(f"bench route: {what}", file=sys.stderr, flush=True)
     done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
@@ -150,7 +152,7 @@ def mavproxy(folder):
 
 
 def at_hand(program, tools, folder, without=()):
-    """(peers in the order of the table, why the others are missing)."""
+    """Returns (the available peers in the order of the table, why the others are missing)."""
     peers = [BareLoop("bare loop", tools / "route_bare_loop", "single"),
              BareLoop("bare loop, gathering", tools / "route_bare_loop", "gather"), Mavloom(program)]
     missing = [NOT_AT_HAND]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The far side of `bench route`: receives on sockets that the harness opened, proves of each frame that it is one that
-// the generator sent, whole and unchanged, and counts each number once per socket. When standard input has ended and
-// nothing came for a while it prints what it saw.
+// The far side of `bench route`: receives on sockets that bench/route.py opened. Checks that each frame is one that the
+// generator sent, whole and unchanged, and counts each frame number once per socket. After standard input has ended and
+// nothing has arrived for a while, prints what it received.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/epoll.h>
@@ -27,7 +27,7 @@ constexpr std::size_t batch = 64, slot_bytes = 2048;
 constexpr int tick_ms = 100, quiet_ticks = 20;
 constexpr std::uint64_t longest_wait_ns = 20'000'000'000;  // for a router that still sends what it has queued
 
-// Times in buckets of 1/64 of their size at most.
+// A histogram of times. A bucket is at most 1/64 as wide as the times in it.
 class Histogram {
 public:
     void add(std::uint64_t ns) noexcept {
@@ -75,7 +75,7 @@ public:
         }
     }
 
-    // All that is there.
+    // Reads everything that has arrived.
     void drain(Port& port, unsigned link) {
         while (take_batch(port, link) == static_cast<int>(batch)) {}
     }
@@ -152,8 +152,8 @@ bool input_ended() {
     return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-// Until the input has ended and all is there, or nothing comes any more. After each look it rests, so that a fast load
-// wakes it in batches.
+// Receives until the input has ended and every frame has arrived, or no more frames arrive. Sleeps after each wake-up,
+// so that it handles a fast load in batches.
 void receive(Sink& sink, std::vector<Port>& ports, useconds_t rest_us) {
     const int epoll = ::epoll_create1(EPOLL_CLOEXEC);
     for (std::size_t i = 0; i < ports.size(); ++i) {

@@ -18,8 +18,8 @@ constexpr std::size_t number_at = header_bytes, sent_at = number_at + 8, carried
 constexpr std::size_t pattern_count = 512;
 
 // ATTITUDE, ATTITUDE_QUATERNION, LOCAL_POSITION_NED, GLOBAL_POSITION_INT, SERVO_OUTPUT_RAW, ATTITUDE_TARGET,
-// POSITION_TARGET_LOCAL_NED, ALTITUDE: no target, and nothing but numbers in the first 16 bytes (a router that decodes
-// must not stumble over an enumeration's value).
+// POSITION_TARGET_LOCAL_NED, ALTITUDE. They have no target. Their first 16 bytes, which this file overwrites, hold
+// plain numbers and no enum, so that a router that decodes accepts any value.
 constexpr std::array<std::uint32_t, 8> suitable{30, 31, 32, 33, 36, 83, 85, 141};
 
 std::uint32_t id_of(const std::uint8_t* frame) noexcept {
@@ -64,7 +64,7 @@ std::optional<Traffic> Traffic::load(const char* flight, unsigned systems, unsig
     return traffic;
 }
 
-// All but the checksum; the size with it.
+// Writes everything except the checksum. Returns the size of the frame including the checksum.
 std::size_t Traffic::fill(std::span<std::uint8_t, max_frame_bytes> out, std::uint64_t number,
                           std::uint64_t time_ns) const noexcept {
     const Pattern& pattern = patterns_[number % patterns_.size()];
@@ -89,7 +89,8 @@ std::size_t Traffic::write(std::span<std::uint8_t, max_frame_bytes> out, std::ui
 Received Traffic::check(ByteView bytes) const noexcept {
     Received result{.size = bytes.size()};
     if (bytes.size() < header_bytes || bytes[0] != 0xfd) {
-        if (!bytes.empty() && bytes[0] == 0xfe) result.kind = Received::Kind::foreign;  // MAVLink 1 is nothing of ours
+        if (!bytes.empty() && bytes[0] == 0xfe)
+            result.kind = Received::Kind::foreign;  // the generator sends no MAVLink 1
         return result;
     }
     const std::size_t size = frame_bytes(bytes.data());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The same load through Aeron IPC, with an exclusive publication and a media driver of one shared thread:
+// Runs the load of throughput.hpp through Aeron IPC, with an exclusive publication and a media driver of one shared
+// thread:
 //     AeronIpc threads|processes READERS RECORDS
-// In processes each reader is a Java of its own that this one starts with `reader DIRECTORY RECORDS`, and the clock stops when the last has said that it is
-// through. Prints the records and the seconds they took.
+// With `processes`, each reader is a Java process, started with `reader DIRECTORY RECORDS`. The clock stops when the last
+// reader has reported that it is done. Prints the records and the seconds they took.
 import io.aeron.Aeron;
 import io.aeron.ExclusivePublication;
 import io.aeron.Subscription;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The least that moves records from one core to another: each is copied, behind 24 bytes of tags as a ring's
-// record has them, into memory that both see, and published by one store. One reader.
+// The minimum that moves records from one core to another: each record is copied into shared memory, after 24 bytes of
+// tags like those of a ring's record, and published by one store. One reader.
 #pragma once
 
 #include <sched.h>
@@ -23,7 +23,7 @@ class BareTransport {
     struct Memory {
         alignas(128) std::atomic<std::uint64_t> tail{0};
         alignas(128) std::atomic<std::uint64_t> head{0};
-        alignas(128) std::uint8_t bytes[capacity + longest + sizeof(Tags)];  // a record at the end is not cut
+        alignas(128) std::uint8_t bytes[capacity + longest + sizeof(Tags)];  // room for a record that starts just before the end
 
         [[nodiscard]] std::uint8_t* at(std::uint64_t position) noexcept { return bytes + position % capacity; }
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// shm_iceoryx READERS threads|processes RECORDS: the same load through iceoryx 2.0 publish/subscribe, whose publisher
-// blocks where a subscriber's queue is full. Needs iox-roudi beside it.
+// shm_iceoryx READERS threads|processes RECORDS: runs the load of throughput.hpp through iceoryx 2.0 publish/subscribe,
+// whose publisher blocks while a subscriber's queue is full. Needs a running iox-roudi.
 #include <sched.h>
 
 #include <iceoryx_posh/popo/publisher.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// shm_latency line|ring|futex|pipe ROUNDS: how long 64 bytes take from one core to the other, as half of a round trip
-// between two threads that are kept on two cores; of `line` a single word does, which is the least there is. Prints
-// median and 99.9th percentile in ns.
+// shm_latency line|ring|futex|pipe ROUNDS: measures how long 64 bytes take from one core to another, as half of a round
+// trip between two threads that are pinned to two cores. `line` passes a single word in a cache line, the minimum.
+// Prints the median and the 99.9th percentile in ns.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ void keep_on(unsigned core) {
     ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set);
 }
 
-// One direction each. `give` and `take` number `n`, from 1 on.
+// One direction of a transport. `give` sends number `n` and `take` waits for it. Numbers start at 1.
 class Line {
 public:
     explicit Line(std::string_view) {}

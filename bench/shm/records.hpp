@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is written, and what must so be read.
+// The records of `bench shm`, and the check that a reader received them unchanged.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace mavloom::bench {
 
-// 64 bytes, their number in the first word and its complement in the last.
+// Records of 64 bytes, with their number in the first word and its complement in the last.
 class NumberedRecords {
 public:
     static constexpr std::size_t bytes = 64;
@@ -29,11 +29,11 @@ public:
     }
 
 private:
-    mutable std::array<std::uint64_t, bytes / sizeof(std::uint64_t)> record_{};  // of the one writer
+    mutable std::array<std::uint64_t, bytes / sizeof(std::uint64_t)> record_{};  // used only by the writer
 };
 
-// The frames of a recording, over and over. Each record is copied out by its reader, as the copy is that this is
-// measured against; `verify` compares all bytes.
+// The frames of a recording, repeated. The reader copies each record, as the transport that it is compared with does.
+// With `verify` it compares all bytes instead.
 class RecordedFrames {
 public:
     RecordedFrames(std::vector<ByteView> frames, bool verify) : frames_(std::move(frames)), verify_(verify) {}
@@ -47,7 +47,7 @@ public:
         static thread_local std::array<std::uint8_t, 512> mine;
         if (record.size() > mine.size()) return false;
         std::memcpy(mine.data(), record.data(), record.size());
-        asm volatile("" : : "r"(mine.data()) : "memory");  // the copy is wanted
+        asm volatile("" : : "r"(mine.data()) : "memory");  // the optimiser must not remove the copy
         return true;
     }
 

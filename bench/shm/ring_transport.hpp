@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Our ring as it is used: `write`, batches in place, and sleep where there is nothing.
+// Our ring as programs use it: `write`, batches read in place, and sleep while there is nothing to read.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace mavloom::bench {
 
-// Ends the program if it cannot be opened.
+// Returns the opened object, or ends the program if it could not be opened.
 template <class Opened>
 auto or_exit(Opened opened) {
     if (opened) return std::move(*opened);

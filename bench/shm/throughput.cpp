@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// shm_throughput ring|ring32|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]: records a second from
-// one writer to READERS lossless readers, of 64 bytes or of the recorded mix; ring32: of 32 MiB. Prints the records and
-// the seconds they took.
+// shm_throughput ring|ring32|bare|udp READERS threads|processes RECORDS [FLIGHT.tlog [verify]]
+// Measures how many records per second go from one writer to READERS lossless readers. Records have 64 bytes, or are
+// the frames of FLIGHT.tlog. ring32 is a ring of 32 MiB. Prints the records and the seconds they took.
 #include <string_view>
 
 #include "bare_transport.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How many records a second go from one writer to some readers, in threads or in processes. The same for every
-// transport, which is a type with
+// Measures how many records per second go from one writer to several readers, in threads or in processes, over any
+// transport. A transport returns its two sides from `writer()` and `reader(number)`, which are called in the thread or
+// process that uses the side:
 //     Writer: void write(const Shared&, ByteView record);  void flush(const Shared&);
-//     Reader: void poll(each);     each(ByteView) for the records that are there, in order; none may be missing
-// that gives its sides by `writer()` and `reader(number)`, each called in the thread or process that uses it. Every
-// record is compared, in its first and last word or as a whole, with what it must be.
+//     Reader: void poll(each);     calls each(ByteView) for the records that have arrived, in order and without a gap
+// Readers compare every record with what was written: its first and last word, or all bytes.
 #pragma once
 
 #include <sched.h>
@@ -31,7 +31,7 @@ struct Plan {
     unsigned readers = 1;
     bool processes = false;
     std::uint64_t records = 10'000'000;
-    std::uint64_t before = 1'000'000;  // that the clock does not see
+    std::uint64_t before = 1'000'000;  // warm-up records, which are not timed
 };
 
 // The state that both sides share, apart from the measured transport.
@@ -65,7 +65,7 @@ inline Shared& make_shared_page(unsigned readers) {
     return shared;
 }
 
-// `taken` is published only now and then: with a shared cache line for each record, that would be measured.
+// Updates `taken` only now and then. Otherwise the benchmark would measure the shared cache line that holds it.
 template <class Transport, class Records>
 void read_all(Transport& transport, const Records& records, unsigned number, Shared::Reader& self, const Plan& plan) {
     auto reader = transport.reader(number);
@@ -103,7 +103,7 @@ double write_all(Transport& transport, const Records& records, const Shared& sha
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The children end by themselves; a failed one ends the program.
+// Runs `run` in a child process, which then exits. wait_for_processes() ends the program if a child failed.
 template <class Run>
 void start_process(Run&& run) {
     if (::fork() != 0) return;
@@ -116,7 +116,7 @@ inline void wait_for_processes() {
         if (status != 0) std::exit(1);
 }
 
-// Prints records and seconds.
+// Runs the measurement and prints records and seconds.
 template <class Transport, class Records>
 void measure(Transport& transport, const Records& records, const Plan& plan) {
     Shared& shared = make_shared_page(plan.readers);

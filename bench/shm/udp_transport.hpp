@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// UDP on loopback at its best: 64 datagrams a system call, never more on the way than the receive buffer holds, so that
-// none is lost.
+// UDP on loopback at its best: 64 datagrams per system call, and never more in flight than the receive buffer holds, so
+// that none is lost.
 #pragma once
 
 #include <arpa/inet.h>
@@ -20,7 +20,8 @@ namespace mavloom::bench {
 
 class UdpTransport {
     static constexpr unsigned batch = 64;
-    static constexpr std::uint64_t counted = 1024;  // what the kernel takes a datagram for at most (768 here)
+    static constexpr std::uint64_t counted =
+        1024;  // upper bound for the buffer memory that the kernel charges per datagram (768 here)
     static constexpr std::size_t longest = 512;
 
     struct Batch {

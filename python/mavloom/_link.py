@@ -93,7 +93,7 @@ class Link:
                instance: int | str | None = None, max_age: float | None = None) -> Message | None:
         """Returns the newest message of this type; None if none arrived, or none in the last `max_age` seconds.
 
-        Takes no message away from `recv`.
+        `recv` still returns the message.
         """
         return self._port.latest(type, system, component, instance, max_age)
 

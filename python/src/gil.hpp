@@ -12,9 +12,9 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// Releases the GIL until the end of the scope. A thread that wants the GIL back after the interpreter has ended would
-// end the process. Therefore, once the interpreter begins to exit, every thread but the exiting one sleeps for ever
-// instead, as in Python 3.14.
+// Releases the GIL until the end of the scope. After the interpreter has ended, taking the GIL back would end the
+// process. So once the interpreter begins to exit, every thread except the exiting one sleeps forever instead, as in
+// Python 3.14.
 class WithoutGil {
 public:
     // Called by the exiting thread, without the GIL. Waits for the threads that are on their way back to the GIL.

@@ -11,10 +11,11 @@ NB_MODULE(_core, module) {
     using namespace mavloom::python;
     nb::set_leak_warnings(false);  // users would take the warnings for bugs
     module.def("set_leak_warnings", &nb::set_leak_warnings, nb::arg("on"),
-               "Whether the interpreter's exit says which objects of this module are left: for tests of this package.");
-    module.doc() = "The compiled part of mavloom: use the package.";
+               "Sets whether the interpreter reports objects of this module that remain at exit. For tests of\n"
+               "this package.");
+    module.doc() = "The compiled part of mavloom. Use the package `mavloom` instead.";
     module.def("version", &mavloom::version,
-               "The version of what is compiled: \"0.1.0\", between releases with the commit behind it.");
+               "The version of the compiled code, such as \"0.1.0\"; between releases, with the commit appended.");
     bind_message(module);
     bind_dialect(module);
     bind_parser(module);

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package, the definitions as type checkers and
-editors see them."""
+"""generate.py PACKAGE: writes messages.pyi and enums.pyi into the built package.
+
+They describe the built-in definitions to type checkers and editors.
+"""
 import pathlib
 import sys
 

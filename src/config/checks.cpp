@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks that only a router needs. `mavloom check` and `mavloom route` both run them.
+// Checks of a configuration that only routers need. `mavloom check` and `mavloom route` both run them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ SetupResult<void> check_sections(const Config& config, std::string_view file_nam
     return {};
 }
 
-// Refuses what Links::add would refuse at once.
+// Rejects endpoints that Links::add would reject immediately.
 SetupResult<void> check_links(const Config& config, std::string_view file_name) {
     return detail::each_endpoint(
         config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {

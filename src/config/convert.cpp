@@ -20,7 +20,7 @@ using namespace detail;
 
 namespace {
 
-// A mavlink-router key without counterpart, and the value that is the same as leaving it out.
+// A mavlink-router key without counterpart, and the value that means the same as no key.
 struct WithoutCounterpart {
     std::string_view key, default_value, advice;
 };

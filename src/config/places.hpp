@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds conflicts between endpoints over ports and files of this machine. Private to module config; pure functions.
+// Finds endpoints that conflict over a port or file of this machine. Private to module config; pure functions.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace mavloom::config::detail {
 
-// The line of the first of these keys that the file sets; 0 if it sets none.
+// Returns the line of the first key in `keys` that the file sets; 0 if it sets none of them.
 [[nodiscard]] std::uint32_t line_of(const Section& section, std::span<const std::string_view> keys);
 
 // Calls `use(endpoint, its section)` for each endpoint, and stops at the first error.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a configuration file as text, up to 4 MiB. A larger file is probably a recording or a device, and an error.
-// Private to module config.
+// Reads a configuration file as text, up to 4 MiB. A larger file is an error, because it is probably a recording or a
+// device. Private to module config.
 #pragma once
 
 #include <filesystem>

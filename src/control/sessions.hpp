@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two kinds of client session that control.cpp accepts. Each keeps itself alive until its client is gone. All run
-// on the control thread.
+// The two kinds of client session that control.cpp accepts. Each session keeps itself alive until its client is gone.
+// All sessions run on the control thread.
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
@@ -24,8 +24,8 @@ using Local = asio::local::stream_protocol;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-// Runs `ask` on the served program's thread, then `then` with its result on `back`. The caller's session stays alive
-// meanwhile if `then` holds a pointer to it.
+// Runs `ask` on the served program's thread, then calls `then` with the result on `back`. To keep its session alive
+// meanwhile, the caller stores a shared pointer to it in `then`.
 template <class Ask, class Then>
 void ask_served(Served& served, const asio::any_io_executor& back, Ask ask, Then then) {
     served.post([&served, ask = std::move(ask), then = std::move(then), back]() mutable {
@@ -35,14 +35,14 @@ void ask_served(Served& served, const asio::any_io_executor& back, Ask ask, Then
 
 constexpr std::size_t longest_request = 64 * 1024, longest_http_header = 8 * 1024;
 
-// One client of the control socket. It repeats: read a request, write the answer.
+// One client of the control socket. The session reads a request, writes the answer, and repeats.
 class ControlSession : public std::enable_shared_from_this<ControlSession> {
 public:
     ControlSession(Local::socket socket, Served& served, std::shared_ptr<void> place)
         : socket_(std::move(socket)), served_(served), place_(std::move(place)) {}
 
     void read();
-    // Reports that there are too many clients, if the socket accepts the text at once.
+    // Sends the client an error that there are too many clients, if the socket accepts the text at once.
     static void turn_away(Local::socket& socket);
 
 private:
@@ -51,12 +51,12 @@ private:
 
     Local::socket socket_;
     Served& served_;
-    std::shared_ptr<void> place_;  // one of most_sessions
+    std::shared_ptr<void> place_;  // this session's share of the limit most_sessions
     asio::streambuf input_{longest_request};
     std::string output_;
 };
 
-// One HTTP client. It must send its request, and read the answer, within http_patience each.
+// One HTTP client. It has http_patience to send its request, and the same time again to read the answer.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
     MetricsSession(Tcp::socket socket, Served& served, std::shared_ptr<void> place)

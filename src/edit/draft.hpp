@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A decoded frame: header and full payload, to be changed and encoded again.
-// Private to the module edit; lives on the stack and allocates nothing.
+// A decoded frame: header and full payload, which can be changed and encoded again. Private to the module edit; lives
+// on the stack and allocates nothing.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace mavloom::edit {
 
 class Draft {
 public:
-    // Decodes the payload field by field if `message` covers all of it.
-    // Otherwise (no definition, or a longer payload) keeps the payload as it is. Without definition, derives the
-    // CRC_EXTRA from the checksum. Returns empty if there is no definition and no CRC_EXTRA fits the checksum.
+    // Decodes the payload field by field if `message` covers all of it. Otherwise (no definition, or a longer payload)
+    // keeps the payload as it is. Without a definition, derives the CRC_EXTRA from the frame's checksum. Returns empty
+    // if there is no definition and no CRC_EXTRA fits the checksum.
     [[nodiscard]] static std::optional<Draft> of(const wire::FrameView& frame, const dialect::Message* message) noexcept;
 
     // Each of these returns true if it changed the frame; `patch` returns true if it applied a patch.

@@ -58,7 +58,7 @@ void HubLinks::on_bad_checksum(LinkId, link::EndpointId endpoint, MessageId id) 
     if (auto* served = served_by(endpoint)) served->channel->on_bad_checksum(id);
 }
 
-// Does not route: a program that fills a ring has vehicles of one kind behind it, and all of them get each answer.
+// Does not route: all peers of the endpoint that fills the ring get each answer.
 void HubLinks::pass_answer(const link::RxFrame& rx) {
     const auto filled = filled_from_.find(rx.endpoint);
     if (filled == filled_from_.end()) return;
@@ -94,7 +94,7 @@ bool HubLinks::is_up(link::EndpointId endpoint) const {
 }
 
 std::optional<SetupResult<void>> HubLinks::far_side(const Hub::Opened& opened) {
-    bool is_there = opened.is_ring || is_up(opened.endpoint);  // a required ring was there when it was added
+    bool is_there = opened.is_ring || is_up(opened.endpoint);  // a required ring existed when it was added
     for (const auto& info : links().endpoints())
         if (info.id == opened.endpoint && listens(info.endpoint.scheme)) is_there = is_there || info.local_port != 0;
     if (is_there) return SetupResult<void>{};
@@ -131,7 +131,7 @@ SetupResult<void> HubLinks::serve_inlet(link::EndpointId endpoint, const std::st
 
 // ---- closing
 
-// The endpoint that carries what is sent: the inlet of a ring, else the endpoint itself.
+// Returns the endpoint that carries sent frames: for a ring its inlet, else the endpoint itself.
 link::EndpointId HubLinks::way_out(link::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
 
 bool HubLinks::is_flushed(link::EndpointId endpoint) {
@@ -184,7 +184,7 @@ void HubLinks::add_live_counters(link::EndpointId endpoint, EndpointStats& stats
     }
 }
 
-// Sums over the senders that are there and those that are gone.
+// Sums over present and former senders.
 std::uint64_t HubLinks::frames_in(link::EndpointId endpoint) {
     std::uint64_t sum = 0;
     for (const auto& link : links().links())

@@ -22,7 +22,7 @@ public:
     // Receives and sends; sleeps until the deadline if there is nothing to do.
     void turn(MonoTime deadline);
     void send(link::EndpointId to, const wire::FrameView& frame) { links().send(to, frame); }
-    // At the end: readers get nothing more.
+    // Closes all channels, so that readers get no more frames. Called when the loop ends.
     void close_channels();
 
     // See Hub, which calls these on the loop thread.
@@ -35,15 +35,16 @@ public:
 
     // Returns whether the far side was reached, or why not; nullopt while neither is known.
     [[nodiscard]] std::optional<SetupResult<void>> far_side(const Hub::Opened& opened);
-    // Whether all frames were sent, or nobody is there to receive them.
+    // True if all frames were sent, or if there is no peer to receive them.
     [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
 
 private:
     struct Served {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
-        std::optional<link::EndpointId> inlet{};         // of a ring that is read: carries frames to its router
-        std::optional<link::EndpointId> served_inlet{};  // of a ring that is filled: receives frames of its readers
+        std::optional<link::EndpointId> inlet{};  // for a ring that is read: the endpoint that carries frames to its router
+        std::optional<link::EndpointId>
+            served_inlet{};  // for a ring that this endpoint fills: receives frames from the ring's readers
         std::uint64_t unheard_answers = 0;
     };
 
@@ -64,7 +65,7 @@ private:
 
     // sources_ refers to dialects that the channels in served_ own, so served_ is destroyed after it.
     std::unordered_map<link::EndpointId, Served> served_;
-    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // the filled endpoint, by served inlet
+    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // by served inlet: the endpoint that fills the ring
     Sources sources_;
 };
 

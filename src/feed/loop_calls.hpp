@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// LoopCalls: runs functions of other threads on a loop thread, and lets those threads wait for them.
-// The loop calls `run` and `end_waits` between two turns, and `end` when it has ended.
+// LoopCalls: lets other threads run functions on a loop thread and wait until they are done. The loop calls `run` and
+// `end_waits` between two turns, and `end` when it has ended.
 #pragma once
 
 #include <condition_variable>
@@ -28,7 +28,7 @@ public:
     // ---- loop thread
     void run();
     void end_waits();
-    // When the first of the waits reaches its limit. A turn must not sleep longer.
+    // When the earliest wait reaches its limit. A turn must not sleep beyond that time.
     [[nodiscard]] MonoTime first_limit() const noexcept;
     // Releases the threads that wait. Later calls return at once.
     void end();

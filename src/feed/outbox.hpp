@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Outbox: a bounded list of frames that any threads put in and the loop thread sends. The frames of one thread keep
-// their order.
+// Outbox: a bounded list of frames. Any thread may add frames; the loop thread sends them. The frames of one thread
+// keep their order.
 #pragma once
 
 #include <condition_variable>
@@ -41,7 +41,7 @@ public:
 
     // Loop thread: returns all frames and makes room.
     [[nodiscard]] std::vector<Entry> take();
-    // Loop thread: the same, and refuses frames from now on.
+    // Loop thread: returns all frames and refuses new ones from now on.
     [[nodiscard]] std::vector<Entry> close();
 
 private:

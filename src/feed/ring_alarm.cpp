@@ -14,8 +14,8 @@
 
 namespace mavloom::feed {
 
-// All alarms of a process. A forked child makes a new Clock. It leaves the old one alone, because that one's thread and
-// locks stayed in the parent.
+// All alarms of a process. A forked child creates a new Clock and leaves the old one alone, whose thread and locks
+// stayed in the parent.
 class RingAlarm::Clock {
 public:
     [[nodiscard]] static Clock& here() {
@@ -118,7 +118,7 @@ void RingAlarm::arm() {
 }
 
 void RingAlarm::tell() const noexcept {
-    if (!fork_.is_here()) return;  // the parent would see it: both have the same eventfd
+    if (!fork_.is_here()) return;  // the parent would be signalled too: both share the eventfd
     const std::uint64_t one = 1;
     // If the counter is full, the write fails and the descriptor is readable already.
     [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);

@@ -15,13 +15,13 @@ static constexpr std::chrono::milliseconds pipe_look{5};
 static constexpr std::uint64_t damage_a_turn = 256u << 10;
 // A drain ends at the first of these limits:
 // - last_empty_turns turns in a row without a frame. There are several, because a turn of junk has no frame either.
-// - last_late_turns turns in a row without a frame that arrived before the drain began. They read 8 MiB of a stream, at
-//   128 KiB a turn.
-// - most_drain_turns turns in all. They empty a receive buffer of 64 MiB, at 64 datagrams of 768 bytes a turn.
+// - last_late_turns turns in a row without a frame that arrived before the drain began. That many turns read 8 MiB of a
+//   stream, at 128 KiB per turn.
+// - most_drain_turns turns in all. That many turns empty a receive buffer of 64 MiB, at 64 datagrams of 768 bytes each.
 // The first turns wait, because the system may still be delivering what was sent.
 static constexpr int last_empty_turns = 16, last_late_turns = 64, most_drain_turns = 1400;
 static constexpr std::chrono::milliseconds empty_turn{1};
-// How many turns lossless rings wait for a caller without room: some hundred milliseconds, for a busy disk.
+// How many turns lossless rings wait while the caller has no room: a few hundred milliseconds, for a busy disk.
 static constexpr int most_full_turns = 300;
 
 SetupResult<Sources> Sources::create(const dialect::Dialect& dialect, Copies copies) {

@@ -28,9 +28,9 @@ struct Link {
     std::string name;
     bool up = false;
     bool told_up = false;
-    // Its outlet knows that the queue is not empty.
+    // True if the outlet was notified that the queue is not empty.
     bool queued = false;
-    // The far side reads outgoing frames from the ring: count them, never queue them.
+    // True if the far side reads outgoing frames from the ring. They are then counted, never queued.
     bool finds_in_ring = false;
     Signature* signature = nullptr;
     LinkCounters counters;

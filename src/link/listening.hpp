@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opens an endpoint that listens at a host: udpin or tcpin. Private to module link.
+// Opens an endpoint that listens on a local address: udpin or tcpin. Private to module link.
 #pragma once
 
 #include <chrono>

@@ -40,7 +40,7 @@ public:
     virtual std::size_t send(const wire::FrameView& frame) = 0;
     [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
     virtual void refresh_kernel_drops() {}
-    // Counts frames that were sent and not refused so far.
+    // Counts frames as sent if they have not been refused so far.
     virtual void settle_sent() {}
     // Closes one peer or client. Returns false if the endpoint cannot have several links.
     virtual bool close_link(LinkId) { return false; }
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] EndpointId next_id() const noexcept {
         return EndpointId{static_cast<EndpointId::rep>(endpoints_.size())};
     }
-    // Its id is `next_id`.
+    // The endpoint's id must be `next_id`.
     void add(std::unique_ptr<OpenEndpoint> endpoint) { endpoints_.push_back(std::move(endpoint)); }
     void remove(EndpointId id) noexcept;
     [[nodiscard]] OpenEndpoint* find(EndpointId id) const noexcept {
@@ -76,13 +76,13 @@ private:
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints_;  // index: id; null: removed
 };
 
-// Which link id an endpoint signs with. An endpoint that is reopened keeps the id of its label, so that the far side
-// sees the same link. Of several open endpoints with one label, the first has that id.
+// Decides which link id an endpoint signs with. A reopened endpoint keeps the signing id of its label, so that the far
+// side sees the same link. If several open endpoints have one label, the first one has that id.
 class SigningIds {
 public:
     // `fresh` is the id of the endpoint that is about to be opened.
     [[nodiscard]] EndpointId id_for(const std::string& label, EndpointId fresh, const OpenEndpoints& endpoints) const;
-    // The endpoint was opened as `holder`.
+    // Notes that the endpoint was opened: `holder` now signs with the id `signs_as`.
     void keep(const std::string& label, EndpointId signs_as, EndpointId holder);
 
 private:

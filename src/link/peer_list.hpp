@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
     [[nodiscard]] bool is_full() const noexcept { return size() >= endpoint_.info.endpoint.options.max_peers; }
-    // Null if the link is none of them.
+    // Returns null if no peer has this link id.
     [[nodiscard]] Peer* find(LinkId link) const noexcept {
         const auto at = std::ranges::find_if(peers_, [&](const auto& peer) { return peer->id == link; });
         return at == peers_.end() ? nullptr : at->get();
@@ -52,7 +52,7 @@ public:
         *at = std::move(peers_.back());
         peers_.pop_back();
     }
-    // Calls drop(Peer&), which removes the peer, for all that were silent for `idle`. Returns the
+    // Calls drop(Peer&), which must remove the peer, for each peer that has been silent for `idle`. Returns the
     // earliest time at which another peer can expire.
     template <class Drop>
     MonoTime expire(MonoTime now, Nanoseconds idle, Drop&& drop) {
@@ -63,8 +63,8 @@ public:
         }
         return oldest + idle;
     }
-    // The peer that is evicted for a newcomer: the longest idle of those heard once, else the longest idle of the rest.
-    // Null if that peer is protected. `Peer` has `datagrams`.
+    // Returns the peer to evict for a newcomer: the longest idle of those heard once, else the longest idle of all.
+    // Returns null if that peer is protected. Requires a `Peer` with `datagrams`.
     [[nodiscard]] Peer* to_evict(MonoTime now) const {
         const auto rank = [](const auto& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };
         const auto first = std::ranges::min_element(peers_, {}, rank);
@@ -73,7 +73,7 @@ public:
         return is_protected ? nullptr : first->get();
     }
 
-    // Queues the frame for all that are up. Returns how many took it.
+    // Queues the frame for all peers that are up. Returns how many took it.
     std::size_t send(const wire::FrameView& frame) {
         Departure departure(frame);
         std::size_t taken = 0;

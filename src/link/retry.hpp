@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Retries an endpoint indefinitely: 100 ms after the first failure, then doubling to 5 s. Of a series of failures
-// only the first is reported. Private to module link; single owner thread.
+// Retries an endpoint indefinitely. The delay is 100 ms after the first failure and doubles up to 5 s. Only the first
+// failure of a series is reported. Private to module link; single owner thread.
 #pragma once
 
 #include <fmt/format.h>

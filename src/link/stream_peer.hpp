@@ -15,14 +15,14 @@
 namespace mavloom::link::detail {
 
 // Reads once per turn, and writes the queue in as few calls as possible. Bytes that the kernel does not accept stay in
-// the queue.
-// `Self` derives from it. Its function `wants(event)` returns whether the handler gets what the parser found.
+// the queue. `Self` is the derived class (CRTP). Its function `wants(event)` returns whether to pass the parser's event
+// to the handler.
 template <class Self, class Stream>
 class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
 public:
     ~StreamPeer() override { release(); }
 
-    // Starts to read the stream, and to write what waited and is not too old.
+    // Starts to read the stream, and to write the queued frames that are not too old.
     [[nodiscard]] SetupResult<void> attach(Stream stream) {
         auto watch = core_.loop().watch(stream.fd(), true, false, *this);
         if (!watch) return tl::unexpected(std::move(watch).error());
@@ -62,7 +62,7 @@ protected:
     StreamPeer(Core& core, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
         : Link(endpoint_id, limits), core_(core), parser_(core.languages.of(endpoint_id).table) {}
 
-    // Reading or writing failed for good.
+    // Called when the stream has ended, or reading or writing has failed permanently.
     virtual void on_end(net::IoError error) = 0;
 
     // Writes at most about `room` bytes. Returns false if the queue holds more than that; true if it is empty, or if
@@ -83,7 +83,7 @@ protected:
         queued = false;
         return true;
     }
-    // Delivers what the parser still holds back.
+    // Delivers the events that the parser still holds back.
     void finish_parsing() { parser_.finish(sink(wall_now())); }
 
     Core& core_;

@@ -22,7 +22,7 @@ public:
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
 
-    // Makes room for `bytes` more. The `_unchecked` functions and `set` use it up.
+    // Makes room for `bytes` more bytes. The `_unchecked` functions and `set` write into this room without checking it.
     void reserve(std::size_t bytes) {
         if (static_cast<std::size_t>(end_ - at_) < bytes) [[unlikely]]
             grow(bytes);

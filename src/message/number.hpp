@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Writes numbers as text, for the formatters: integers in decimal, floats in their shortest form.
-// The shortest form has the fewest digits that read back as the same float32 or double, laid out as in Python and
-// numpy: 0.01, 1.0, -0.0, 1e-05, 1e+16. Each function writes at `at`, which must have `number_room` bytes, and returns
-// the end. Pure; allocates nothing.
+// Writes numbers as text, for the formatters: integers in decimal, floats in their shortest form. The shortest form has
+// the fewest digits that read back as the same float32 or double. It looks as in Python and numpy: 0.01, 1.0, -0.0,
+// 1e-05, 1e+16. Each function writes at `at`, which must have `number_room` bytes, and returns the end. Pure; allocates
+// nothing.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace mavloom::message {
 
-// The room that every function below needs. It may write beyond the end that it returns.
-// The longest result is "-2.2250738585072014e-308".
+// The room that every function below needs. A function may write beyond the end that it returns. The longest result is
+// "-2.2250738585072014e-308".
 inline constexpr std::size_t number_room = 48;
 
 namespace detail {
 
-// Returns the eight decimal digits of `value` < 10^8 as values 0 to 9, the first one in the lowest byte.
-// Splits the value into fours, then pairs, then digits, in all lanes of a word at once.
-// It has no branch, because a branch predictor cannot guess the lengths of telemetry numbers.
+// Returns the eight decimal digits of `value` < 10^8 as values 0 to 9, the first one in the lowest byte. Splits the
+// value into fours, then pairs, then digits, in all lanes of a word at once. It has no branches, because the lengths of
+// telemetry numbers are unpredictable.
 constexpr std::uint64_t eight_digits(std::uint32_t value) noexcept {
     // x * 10486 >> 20 is x / 100 for x below 10^4; x * 103 >> 10 is x / 10 for x below 100.
     constexpr std::uint64_t by_100 = 10486, by_10 = 103;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scales raw integers that people cannot read easily, for example degE7, centi- and deci- units.
-// Only the text format uses it; JSON and CSV always have raw values. Pure; allocates nothing.
+// Scales raw integers whose units people cannot read easily, for example degE7, cdeg or dpix. Only the text format uses
+// it; JSON and CSV always have raw values. Pure; allocates nothing.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace mavloom::message {
 struct Scale {
     std::string_view units;  // units to print; empty for none
     unsigned decimals = 0;   // printed value = raw / 10^decimals, exactly
-    double factor = 1;       // for other multipliers: printed value = raw * factor, as a float
+    double factor = 1;       // if not 1: printed value = raw * factor, as a float
 };
 
 // Units with prefixes that people read easily (mm, cm, ms, us, mV, mAh, mG, hPa) are not scaled.

@@ -25,7 +25,7 @@ std::string_view value_of(const char* variable) {
     return value == nullptr ? std::string_view{} : value;
 }
 
-// In order of preference.
+// The folders for sockets, in order of preference.
 std::vector<std::filesystem::path> run_folders() {
     if (const auto only = value_of(run_variable); !only.empty()) return {only};
     std::vector<std::filesystem::path> folders{"/run/mavloom"};

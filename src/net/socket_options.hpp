@@ -9,7 +9,7 @@
 
 namespace mavloom::net {
 
-// Sets an optional option: ignores the error if the kernel refuses it.
+// Sets an option that is not essential: ignores the error if the kernel refuses it.
 void set_option(int fd, int level, int name, int value) noexcept;
 // Sets the receive buffer size: beyond net.core.rmem_max if permitted, else as large as allowed. Returns the actual
 // size.

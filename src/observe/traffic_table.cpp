@@ -17,7 +17,7 @@ double TrafficRow::recent_rate_hz(WallTime now) const noexcept {
     const std::chrono::duration<double> silence = now - last;
     std::chrono::duration<double> span = last - from.time;
     const auto gaps = static_cast<double>(count - from.count);
-    // The rate of a burst does not hold for the silence after it, so include the silence.
+    // Silence after a burst lowers the rate, so include the silence in the span.
     if (span < rate_window && silence > 4 * span / gaps) span += silence;
     if (span.count() <= 0 || gaps == 0) return 0;
     const double rate = gaps / span.count();
@@ -28,7 +28,7 @@ Nanoseconds TrafficRow::mean_gap() const noexcept {
     return count > 1 ? (last - first) / static_cast<std::int64_t>(count - 1) : Nanoseconds{};
 }
 
-// After a pause, the older mark is the last frame before it. If the clock was set back, the marks start anew.
+// After a pause, the older mark is the last frame before the pause. If the clock was set back, both marks are reset.
 static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
     const auto age = now.time - row.newer.time;
     row.older = age < Nanoseconds{}                 ? now

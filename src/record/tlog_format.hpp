@@ -11,7 +11,7 @@ struct Found {
     enum class Kind : std::uint8_t {
         nothing,        // no record begins here
         record,         // a plausible time and an intact frame
-        unknown_flags,  // the same, but with an incompatibility flag that is not defined
+        unknown_flags,  // like `record`, but the frame has an incompatibility flag that is not defined
     };
     Kind kind = Kind::nothing;
     std::size_t size = 0;  // of the whole record
@@ -21,8 +21,8 @@ struct Found {
 // Examines the start of `bytes`, which must hold the rest of the file or at least two records of the maximum length.
 [[nodiscard]] Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept;
 
-// Returns how many bytes at the front cannot begin a record, because no start byte follows at the right distance or no
-// plausible time precedes it. Never skips the last eight bytes.
+// Returns how many bytes at the front cannot begin a record. A record begins with a plausible time, directly followed
+// by a start byte. The result never includes the last eight bytes.
 [[nodiscard]] std::size_t skip_startless(ByteView bytes) noexcept;
 
 // Returns the length of the record at the front, from its header alone, or 0 if `bytes` does not hold all of it.
@@ -38,8 +38,8 @@ struct Joined {
 // day of `before_us`, and its id must be known. Its frame must have no undefined flag, and a payload no longer than its
 // definition. `record` must point to at least max_record_length bytes.
 //
-// Each call depends only on the length that the previous call returned. Version and flags are therefore branches, which
-// the processor predicts.
+// For speed, the only dependency between calls in a loop is the returned length. Version and flags are therefore tested
+// with branches, which the processor predicts.
 [[nodiscard]] inline Joined joined_record(const std::uint8_t* record, std::uint64_t before_us,
                                           const wire::MessageTable& table) noexcept {
     constexpr std::uint64_t day_us = 86'400'000'000;

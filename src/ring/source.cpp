@@ -17,8 +17,7 @@ namespace {
 
 // Limit for records without a frame that one turn reads.
 constexpr std::size_t most_empty_records = 4096;
-// Limits the memory that a writer's link numbers can take. Twice a router's link limit, so that no live link is
-// evicted.
+// Limits the memory for a writer's link numbers. Twice the link limit of a router, so that no live link is evicted.
 constexpr std::size_t most_links = 2 * route::Engine::max_links;
 constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two reads of the page for missing names
 constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;

@@ -45,7 +45,7 @@ public:
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
-        // The last long list of links that frames of this link went to.
+        // A cache of the last long list of links that frames from this link were sent to.
         std::size_t listed = 0;  // length; 0 if there is no list
         std::vector<std::uint64_t> listed_set{};
         std::vector<LinkId> list{};
@@ -62,9 +62,10 @@ private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
-    // Within this time, slower links of a vehicle report the same restart again.
+    // Within this time, a restart reported by another link of the vehicle counts as the same restart.
     static constexpr std::chrono::seconds one_reboot{10};
-    // Heard on A, B, A, B: a sender that merely moves between links does not alternate like that within the timeout.
+    // A source heard on A, B, A, B counts as two senders. A sender that merely moves between links does not alternate
+    // like that within the timeout.
     static constexpr std::uint8_t turns_of_duplicates = 4;
 
     struct Group {

@@ -3,7 +3,7 @@
 // of links for a system, or for a pair of system and component. Routes expire exactly at the timeout.
 //
 // Memory is bounded: at most `per_link` routes on one link and `most` in total. A new route evicts the stalest route of
-// its link, or, if the table is full, of the link with most routes. Private to module route; one owner thread.
+// its link, or, if the table is full, that of the link with the most routes. Private to module route; one owner thread.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Route {
     std::uint32_t older, newer;  // neighbors in the list of the link's routes by age
     Slot slot;
     Pair pair;
-    bool known;  // false if a reboot made it forgotten; the entry then only keeps its count
+    bool known;  // false if a reboot made the table forget the route; the entry then only keeps `frames`
 };
 
 class RouteTable {

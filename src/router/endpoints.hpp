@@ -23,7 +23,7 @@ struct RoutedEndpoint {
     route::LinkPolicy policy{};
     bool verifies = false;
     bool is_inlet = false;
-    LineBudget lines{};  // about its links
+    LineBudget lines{};  // limits log lines about its links
 };
 
 class RoutedEndpoints {
@@ -32,9 +32,9 @@ public:
     RoutedEndpoints(const dialect::Dialect& dialect, link::Links& links, Notice notice)
         : dialect_(dialect), links_(links), notice_(std::move(notice)) {}
 
-    // Opens an endpoint. Fails as Links::add does, or if a filter, a rate or the group's mode is wrong.
+    // Opens an endpoint. Fails if Links::add fails, or if a filter, a rate or the group's mode is wrong.
     [[nodiscard]] SetupResult<void> add(const endpoint::Endpoint& endpoint);
-    // Opens the inlet of a ring. It is no endpoint that `find` or `all` returns.
+    // Opens the inlet of a ring. `find` and `all` do not return it.
     [[nodiscard]] SetupResult<void> add_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
     // Closes the endpoint and its links.
     void remove(const RoutedEndpoint& endpoint);
@@ -45,16 +45,17 @@ public:
     // Null if no endpoint has this label.
     [[nodiscard]] const RoutedEndpoint* find(std::string_view label) const;
     [[nodiscard]] bool has(const endpoint::Endpoint& endpoint) const;
-    // True if the endpoint is open as in `wanted`: with its options, the mode of its group and its keys' contents.
+    // True if the open endpoint matches `wanted`: same options, same group mode, and unchanged contents of its key
+    // files.
     [[nodiscard]] bool is_as_wanted(const RoutedEndpoint& open, std::span<const endpoint::Endpoint> wanted) const;
     [[nodiscard]] std::span<const std::unique_ptr<RoutedEndpoint>> all() const noexcept { return endpoints_; }
     [[nodiscard]] std::optional<link::EndpointId> inlet() const noexcept;
     [[nodiscard]] Groups& groups() noexcept { return groups_; }
 
-    // Orders the endpoints as `wanted`, and returns the new order of their links. Groups of mode `primary` prefer links
-    // in the order of the configuration, not in the order of opening.
+    // Puts the endpoints into the order of `wanted`, and returns the new order of their links. Groups of mode `primary`
+    // prefer links in the order of the configuration, not in the order of opening.
     [[nodiscard]] std::vector<route::GroupOrder> order_as(std::span<const endpoint::Endpoint> wanted);
-    // Refills the budgets of log lines, and reports how many lines were left out.
+    // Refills the budgets of log lines, and logs how many lines were suppressed.
     void refill_lines();
 
 private:

@@ -39,8 +39,8 @@ void Forwarder::configure(const config::RouterConfig& config) {
     own_messages_.configure(config);
 }
 
-// Taps get none of the router's own messages. Neither does the inlet: programs behind it read the ring, which does not
-// hold these messages.
+// The router sends its own messages neither to taps nor to the inlet: programs at the inlet read the ring, which does
+// not contain these messages.
 bool Forwarder::add_link(LinkId link, const RoutedEndpoint& endpoint) {
     if (!engine_.add_link(link, endpoint.policy)) return false;
     if (!endpoint.policy.tap && !endpoint.is_inlet)

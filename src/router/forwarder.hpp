@@ -36,12 +36,14 @@ public:
     void configure(const config::RouterConfig& config);
     void explain(Explainer explainer) { explainer_ = std::move(explainer); }
 
-    // Returns false if there are too many links. Frames of this link then go nowhere, and it gets none.
+    // Returns false if there are too many links. The router then neither forwards frames from this link nor sends it
+    // any.
     [[nodiscard]] bool add_link(LinkId link, const RoutedEndpoint& endpoint);
     void remove_link(LinkId link);
     void set_group_orders(std::span<const route::GroupOrder> orders) { engine_.set_group_orders(orders); }
 
-    // A received frame passes these three in order. `mark_of` prefetches what `decide` needs, so call it early.
+    // Call these three, in order, for each received frame. `mark_of` prefetches the entry that `decide` needs, so call
+    // it early.
     [[nodiscard]] std::uint64_t mark_of(const link::RxFrame& rx) const noexcept { return engine_.mark_of(rx.frame); }
     [[nodiscard]] route::Decision decide(const link::RxFrame& rx, std::uint64_t mark);
     // Sends the frame to the links of `decision`. `from` is the endpoint at which it arrived.
@@ -50,8 +52,8 @@ public:
     // When the router's next own message is due; MonoTime::max() if none is.
     [[nodiscard]] MonoTime next_due() const noexcept { return own_messages_.next_due(); }
     void send_due(MonoTime now) { own_messages_.send_due(now); }
-    // Call about once a second. Forgets the traffic of links that went. Returns warnings: each id that two senders use,
-    // once.
+    // Call about once a second. Forgets the traffic of links that are gone. Returns one warning for each newly found id
+    // that two senders use.
     [[nodiscard]] std::vector<std::string> look_after();
 
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }

@@ -22,10 +22,10 @@ public:
     void set_modes(Modes modes) { modes_ = std::move(modes); }
     // The mode of an endpoint's group: its own `group_mode=`, or else the mode that its group has.
     [[nodiscard]] endpoint::GroupMode mode_of(const endpoint::EndpointOptions& options) const;
-    // The same name has the same id for as long as the object lives. An empty name is no group.
+    // Returns the id of a group. A name keeps its id for as long as the object exists. An empty name means no group.
     [[nodiscard]] route::GroupId id_of(const std::string& name);
     void note_mode(const endpoint::EndpointOptions& options);
-    // The group has no member any more.
+    // Call it when the group has no members any more.
     void forget_mode(const std::string& name) { modes_.erase(name); }
 
 private:

@@ -14,7 +14,8 @@ namespace mavloom::router {
 
 using Notice = std::function<void(config::LogLevel, std::string_view)>;
 
-// Limits the lines about one subject to a burst of 100, then to two at each refill. Counts the others.
+// Limits the log lines about one subject to a burst of 100, then to two after each refill. Counts the lines that it
+// suppresses.
 class LineBudget {
 public:
     static constexpr std::size_t burst = 100, each_refill = 2;

@@ -29,8 +29,8 @@ namespace mavloom::router {
 
 class OwnMessages {
 public:
-    // Callbacks to the owner. `send` returns false if the link did not take the frame. `answered` returns whether any
-    // frame has arrived on the link.
+    // Callbacks to the owner of this object. `send` returns false if the link did not take the frame. `answered`
+    // returns whether any frame has arrived on the link.
     struct Ways {
         std::function<bool(LinkId, const wire::FrameView&)> send;
         std::function<bool(LinkId)> answered;

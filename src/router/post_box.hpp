@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work that other threads leave for the owner of a loop. Private to module router.
+// A queue of work that other threads post to the thread that runs a loop, its owner. Private to module router.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ class PostBox {
 public:
     using Work = std::function<void()>;
 
-    // Any thread. The caller then wakes the owner.
+    // Any thread. The caller must wake the owner afterwards.
     void post(Work work) {
         const std::lock_guard lock(mutex_);
         work_.push_back(std::move(work));
@@ -25,7 +25,7 @@ public:
     void run_one() {
         if (const Work work = take()) work();
     }
-    // Any thread. Destroys what was not run.
+    // Any thread. Destroys the work that has not run yet.
     void drop() {
         std::deque<Work> work;
         const std::lock_guard lock(mutex_);

@@ -22,7 +22,7 @@ public:
     Recordings(Notice notice, std::function<void(std::string)> warn)
         : notice_(std::move(notice)), warn_(std::move(warn)) {}
 
-    // Fails if the file is recorded already, or cannot be written.
+    // Fails if the file is being recorded already, or cannot be written.
     [[nodiscard]] SetupResult<void> add(const endpoint::Endpoint& endpoint);
     // Ends the recording without waiting for the disk, so that routing continues. Returns false if there is none.
     bool remove(std::string_view label);
@@ -36,9 +36,9 @@ public:
     void publish() noexcept {
         for (const auto& open : open_) open.recorder->publish();
     }
-    // Lets go of removed recordings that have been written to the end.
+    // Frees removed recordings whose frames have all been written.
     void look_after();
-    // Writes what is queued and closes all files.
+    // Writes the queued frames and closes all files.
     void stop();
 
     // Calls f(const record::Recorder&) for each recording.

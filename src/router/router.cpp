@@ -138,8 +138,8 @@ MonoTime Router::next_due() const noexcept {
 }
 
 void Router::finish(Nanoseconds limit) {
-    // Reads what has already arrived, in a flood no more than 64 turns of 64 datagrams; `flush` adds its own turns. A
-    // turn may read only junk, so a single turn without a frame does not end the loop.
+    // Reads what has already arrived. The limit matters only in a flood: 64 turns of 64 datagrams; `flush` adds its own
+    // turns. A turn may read only junk, so a single turn without a frame does not end the loop.
     constexpr int most_turns = 64, most_empty = 4;
     for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty; ++turns)
         empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;

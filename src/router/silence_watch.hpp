@@ -20,7 +20,7 @@ class SilenceWatch {
 public:
     static constexpr Nanoseconds patience = std::chrono::seconds{5};
 
-    // Starts to watch a link that came up. Its endpoint must satisfy expects_answer.
+    // Starts to watch a link that came up. expects_answer must be true for its endpoint.
     void add(LinkId link, link::EndpointId endpoint);
     void remove(LinkId link);
 

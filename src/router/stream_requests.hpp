@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Decides when to request the data streams of an ArduPilot, which sends only heartbeats on a link until it is asked.
-// Each source on each link is asked when it is first heard, and again at its next heartbeat once 30 s have passed.
+// Decides when to request the data streams of an ArduPilot, which sends only heartbeats on a link until it gets a
+// request. The router asks each source on each link when it first hears it, and again at the next heartbeat once 30 s
+// have passed.
 //
-// Memory is bounded: a new source evicts the one that has been silent longest. So sources that keep sending heartbeats
-// outlast any number of sources that are heard once. Private to module router. One owner thread; time is a parameter.
-// Allocates for a new source.
+// Memory is bounded: a new source evicts the one that has been silent longest. A flood of sources that are heard only
+// once therefore does not displace those that keep sending heartbeats. Private to module router. One owner thread; time
+// is a parameter. Allocates for a new source.
 #pragma once
 
 #include <algorithm>

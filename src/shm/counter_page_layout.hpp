@@ -34,8 +34,8 @@ static_assert(offsetof(PageHeader, major) == 8 && offsetof(PageHeader, byte_orde
               offsetof(PageHeader, counters) == 16 && offsetof(PageHeader, links) == 20 &&
               offsetof(PageHeader, started_ns) == 24 && offsetof(PageHeader, pid) == 32);
 
-// One counter. `version` only increases. It is odd while anything but the value changes, so readers compare it before
-// and after a read.
+// One counter. `version` only increases. It is odd while anything but the value changes. Readers compare it before and
+// after a read to detect such a change.
 struct CounterSlot {
     SharedWords::Word64 version;  // 0: never used
     SharedWords::Word64 value;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A descriptor that holds open-file-description locks, by which other processes see that this one is alive.
+// A descriptor that holds open-file-description locks. Other processes test these locks to see whether this process is
+// alive.
 //
-// A child of fork() shares the descriptor's open file description. It would keep the locks of a parent that has died,
+// A child of fork() shares the descriptor's open file description. It would keep the locks after the parent has died,
 // so an at-fork handler closes the descriptor in the child. Any thread may construct and destroy a LockFile; one owner
 // uses everything else.
 #pragma once

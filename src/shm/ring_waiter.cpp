@@ -68,8 +68,9 @@ public:
     void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
     void arm_until(MonoTime due) noexcept {
         arm();
-        // Sequentially consistent with is_due() and tell(): they take `due_` before `armed_`. If this thread still
-        // reads an earlier due time, the helper thread has not taken `armed_` yet, and will call `wake_`.
+        // All accesses here and in is_due() and tell() are sequentially consistent, and those two take `due_` before
+        // `armed_`. So if this thread still reads an earlier due time, the helper thread has not taken `armed_` yet,
+        // and will call `wake_`.
         MonoTime before = due_.load(std::memory_order_seq_cst);
         do
             if (before <= due) return;

@@ -65,4 +65,4 @@ def test_the_way_back_is_proved(program, flight, tmp_path):
 
     assert done.returncode == 0 and "demo: the way back: " in done.stdout
     assert "demo: OK: byte for byte what was sent, there and back" in done.stdout
-    assert faulty.returncode == 4 and "demo: MISMATCH: what the ground station sent" in faulty.stdout, faulty
+    assert faulty.returncode == 4 and "demo: MISMATCH: the frames of the ground station" in faulty.stdout, faulty

@@ -419,10 +419,11 @@ def test_the_end_waits_for_a_reader_that_takes_what_is_left(spawn, end, status):
         text += chunk
         time.sleep(0.01)  # 400 kB/s: slower than it is written
     os.close(read_end)
+    done = process.wait()
+    assert done.status == status, done.stderr
     lines = json_lines(text.decode())
     totals = lines[-1]["stats"]["totals"]
 
-    assert process.wait().status == status
     assert len(lines) - 1 == totals["frames"] == 5_000 - totals["kernel_drop"] and totals["unprinted"] == 0
 
 

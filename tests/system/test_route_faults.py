@@ -106,7 +106,9 @@ def garbage(rng) -> bytes:
     good = routers.attitude((66, 66))
     broken = bytearray(good)
     broken[12] ^= 1 << rng.randrange(8)
-    return rng.choice([noise(rng, STRANGER_BYTES), bytes(broken), good[:-3], b"\xfd" * STRANGER_BYTES,
+    cut = bytearray(good[:-3])
+    cut[2] = 0x80  # an undefined flag: else what follows could happen to be the checksum
+    return rng.choice([noise(rng, STRANGER_BYTES), bytes(broken), bytes(cut), b"\xfd" * STRANGER_BYTES,
                        b"\xfd\xff" + noise(rng, 20), b""])
 
 

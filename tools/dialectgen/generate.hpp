@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a dialect as C++: tables that give a dialect::Dialect without reading XML, and one header per message and enum
-// with typed structs. The output depends on the definitions alone: the same input gives the same bytes.
+// Writes a dialect as C++: tables from which a dialect::Dialect is built without reading XML, and a header with a typed
+// struct per message and enum. The output depends only on the definitions: the same input gives the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ struct Options {
     bool is_builtin = false;    // defines mavloom::dialect::default_dialect() in place of NAMESPACE::dialect()
 };
 
-// "mavloom::msg" to "mavloom/msg".
+// Converts the namespace to a folder, "mavloom::msg" to "mavloom/msg".
 [[nodiscard]] std::string include_folder(const Options& options);
 
 [[nodiscard]] SetupResult<void> write_tables(const dialect::Dialect& dialect, const Options& options);

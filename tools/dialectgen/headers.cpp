@@ -28,7 +28,7 @@ std::string member_type(const Field& field) {
     return fmt::format("std::array<{}, {}>", cpp_type(field.type), field.array_length);
 }
 
-// The definition's facts about a field, for the comment behind it.
+// Returns the comment after a field: its unit, enum and other facts of the definition.
 std::string note(const Field& field) {
     std::vector<std::string> facts;
     if (!field.units.empty()) facts.push_back(fmt::format("[{}]", field.units));
@@ -118,7 +118,7 @@ std::string enum_header(const Enum& e, const Options& options) {
         pascal_case(e.name), underlying_type(e), entries);
 }
 
-// Two XML names that become one C++ or file name.
+// Reports an error if two XML names become the same C++ or file name.
 SetupResult<void> claim(std::map<std::string, std::string_view>& taken, const std::string& key,
                         std::string_view xml_name) {
     const auto [at, is_new] = taken.emplace(key, xml_name);

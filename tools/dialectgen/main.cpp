@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mavloom_dialectgen: a MAVLink XML file in, C++ out. Run by mavloom_add_dialect() (cmake/MavloomDialect.cmake).
+// mavloom_dialectgen: generates C++ from a MAVLink XML file. mavloom_add_dialect() runs it
+// (cmake/MavloomDialect.cmake).
 #include <cerrno>
 #include <cstdio>
 #include <optional>

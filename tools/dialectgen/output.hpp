@@ -10,17 +10,17 @@
 
 namespace mavloom::dialectgen {
 
-// A C++ string literal, quotes included, in ASCII.
+// Returns `text` as a C++ string literal in ASCII, with its quotes.
 [[nodiscard]] std::string literal(std::string_view text);
-// "ATTITUDE_QUATERNION" to "AttitudeQuaternion"; an underscore stays between two digits.
+// Converts "ATTITUDE_QUATERNION" to "AttitudeQuaternion". Keeps an underscore between two digits.
 [[nodiscard]] std::string pascal_case(std::string_view name);
 [[nodiscard]] std::string lower_case(std::string_view name);
-// `name`, with a trailing underscore where C++ or a generated struct has another use for it, never beginning with a
-// digit.
+// Returns `name`, with a trailing underscore if C++ or a generated struct already uses it. The result never begins with
+// a digit.
 [[nodiscard]] std::string safe_member(std::string_view name, std::string_view struct_name);
 [[nodiscard]] std::string safe_enumerator(std::string_view name);
 
-// Leaves a file that has this content already untouched, so that nothing is rebuilt for it.
+// Writes the file, unless it already has this content: an unchanged file causes no rebuild.
 [[nodiscard]] SetupResult<void> write_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace mavloom::dialectgen

@@ -72,7 +72,7 @@ private:
             options_.source, tables_, dialect_.enums().size() + 1);
     }
 
-    // Each kind of record is one array; an owner refers to a part of it by first index and count.
+    // Records of one kind form one array. An owner refers to its records by first index and count.
     std::string enums() const {
         std::string params, entries, records;
         std::size_t param_count = 0, entry_count = 0;

@@ -258,8 +258,8 @@ Exit bench_shm(const RingOptions& options) {
 }
 
 Arguments declare_shm(Arguments command, RingOptions& options) {
-    auto sub = command.add_subcommand("shm", "pass records through a ring to other threads: records a second");
-    sub.add_option("--readers", options.readers, "lossless readers, each with a thread; 1 to 64")
+    auto sub = command.add_subcommand("shm", "pass records through a ring to other threads: records per second");
+    sub.add_option("--readers", options.readers, "number of lossless readers, each in its own thread; 1 to 64")
         .capture_default_str()
         .type_name("N")
         .range(1, 64);
@@ -267,15 +267,15 @@ Arguments declare_shm(Arguments command, RingOptions& options) {
         .capture_default_str()
         .type_name("N")
         .range(8, 65536);
-    sub.add_option("--records", options.records, "records for each turn")
+    sub.add_option("--records", options.records, "number of records in each measurement")
         .capture_default_str()
         .type_name("N")
         .range(1, 1 << 30);
-    sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
+    sub.add_option("--turns", options.turns, "number of measurements, 1 to 10000; the result is their median")
         .capture_default_str()
         .type_name("N")
         .range(1, 10'000);
-    sub.add_flag("--json", options.json, "one JSON object");
+    sub.add_flag("--json", options.json, "print one JSON object");
     sub.fallthrough();
     sub.footer("Example:\n  mavloom bench shm --readers 3 --turns 5");
     return sub;
@@ -284,14 +284,14 @@ Arguments declare_shm(Arguments command, RingOptions& options) {
 Arguments declare_one(Arguments command, BenchOptions& options, const char* name, const char* description) {
     auto sub = command.add_subcommand(name, description);
     sub.add_option("file", options.file, "a recording").required().type_name("FILE.tlog");
-    sub.add_option("--turns", options.turns, "how often to measure, 1 to 10000; the median counts")
+    sub.add_option("--turns", options.turns, "number of measurements, 1 to 10000; the result is their median")
         .capture_default_str()
         .type_name("N")
         .range(1, 10'000);
     sub.add_option("--chunk", options.chunk_text, "bytes passed to the parser at once: 4096, 64k; up to 1G")
         .capture_default_str()
         .type_name("BYTES");
-    sub.add_flag("--json", options.json, "one JSON object a line");
+    sub.add_flag("--json", options.json, "print one JSON object per line");
     sub.fallthrough();
     sub.footer(fmt::format("Example:\n  mavloom bench {} flight.tlog --turns 5 --json", name));
     return sub;
@@ -301,13 +301,13 @@ Arguments declare_one(Arguments command, BenchOptions& options, const char* name
 
 Run declare_bench(Arguments command, const Common& common) {
     auto options = std::make_shared<BenchOptions>();
-    auto parse = declare_one(command, *options, "parse", "find and validate the frames of a recording: bytes a second");
-    declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages a second");
+    auto parse = declare_one(command, *options, "parse",
+                             "find and validate the frames of a recording: bytes per second");
+    declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages per second");
     auto ring_options = std::make_shared<RingOptions>();
     auto ring = declare_shm(command, *ring_options);
     command.require_subcommand();
-    command.footer(
-        "Example:\n  mavloom bench parse flight.tlog\n\n./run bench compares other programs with these figures.");
+    command.footer("Example:\n  mavloom bench parse flight.tlog\n\n./run bench compares Mavloom with other programs.");
     return [options, ring_options, parse, ring, &common] {
         if (ring.parsed()) return bench_shm(*ring_options);
         return parse.parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);

@@ -94,15 +94,16 @@ Exit convert(const CheckOptions& options) {
 Run declare_check(Arguments command, const Common& common) {
     auto options = std::make_shared<CheckOptions>();
     command.add_option("file", options->file, "a router's configuration (TOML)").required().type_name("FILE");
-    auto json = command.add_flag("--json", options->json, "one JSON object a line, one for each value");
+    auto json = command.add_flag("--json", options->json, "print one JSON object per line, one for each value");
     command
         .add_flag("--convert", options->convert,
                   "FILE is a configuration of mavlink-router: convert it, and report what cannot be converted")
         .excludes(json);
     command.footer(
         "Prints every effective value and its origin: default, FILE:LINE, or an environment variable, for example\n"
-        "MAVLOOM_ROUTER_DEDUP_MS for dedup_ms in [router]. If the file has an error, the text gives its line, and the\n"
-        "status is 3. Names of messages are looked up in the built-in definitions and those of --dialect. Key files "
+        "MAVLOOM_ROUTER_DEDUP_MS for dedup_ms in [router]. If the file has an error, the message names its line and\n"
+        "the exit status is 3. Message names are looked up in the built-in definitions and those of --dialect. Key "
+        "files "
         "are\n"
         "read; no port is opened.\n\n"
         "Examples:\n"

@@ -205,9 +205,9 @@ Run declare_ctl(Arguments command, const Common&) {
         .required()
         .members({"links", "routes", "stats", "add", "remove"})
         .type_name("ACTION");
-    command.add_option("argument", options->argument, "what to add or remove").type_name("ARGUMENT");
+    command.add_option("argument", options->argument, "the URL to add, or the name to remove").type_name("ARGUMENT");
     command.footer(
-        "Answers are JSON, one object a line (docs/guide/route.md).\n\nExamples:\n"
+        "Answers are JSON, one object per line (docs/guide/route.md).\n\nExamples:\n"
         "  mavloom ctl router links\n"
         "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
         "  mavloom ctl router remove tablet");
@@ -219,10 +219,10 @@ Run declare_stat(Arguments command, const Common&) {
     command.add_option("name", options->name, "the router's --ring, or its --name")
         .capture_default_str()
         .type_name("NAME");
-    command.add_flag("--json", options->json, "one JSON object a line");
+    command.add_flag("--json", options->json, "print one JSON object per line");
     command.footer(
-        "Reads the counter page of a router with --ring, without disturbing it. Asks other routers, as "
-        "`ctl NAME stats` does.\n\n"
+        "If the router has a --ring, reads the ring's counter page, without involving the router. Otherwise asks the "
+        "router, like `ctl NAME stats`.\n\n"
         "Examples: mavloom stat router\n"
         "          mavloom stat px4 --json");
     return [options] { return stat(*options); };

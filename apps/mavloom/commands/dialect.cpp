@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `mavloom dialect list|show NAME|check FILE`: lists, shows and checks message definitions.
+// `mavloom dialect list`, `show NAME` and `check FILE`: lists, shows and checks message definitions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,17 +142,18 @@ Run declare_dialect(Arguments command, const Common& common) {
         auto added = command.add_subcommand(name, description);
         added.fallthrough();
         added.footer(examples);
-        added.add_flag("--json", options->json, "one JSON object a line");
+        added.add_flag("--json", options->json, "print one JSON object per line");
         return added;
     };
-    auto list = part("list", "all messages: id, name, payload bytes (without..with extensions), file",
+    auto list = part("list", "list all messages: id, name, payload bytes (without..with extensions), file",
                      "Examples: mavloom dialect list\n"
                      "          mavloom dialect list --dialect mine.xml --json");
-    auto show = part("show", "a message by name or id, an enum, or an entry of an enum, commands with their parameters",
-                     "Examples: mavloom dialect show ATTITUDE\n"
-                     "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
+    auto show = part(
+        "show", "show a message (by name or id), an enum, or an enum entry; a command is shown with its parameters",
+        "Examples: mavloom dialect show ATTITUDE\n"
+        "          mavloom dialect show MAV_CMD_NAV_WAYPOINT --json");
     show.add_option("NAME", options->name, "ATTITUDE, 30, MAV_TYPE, MAV_CMD_NAV_WAYPOINT").required();
-    auto check = part("check", "read an XML file and its includes; status 3 if there is an error",
+    auto check = part("check", "check an XML file and its includes; exit status 3 if there is an error",
                       "Example: mavloom dialect check mine.xml");
     check.add_option("FILE", options->file, "message definitions in MAVLink's XML").required();
     return [&common, options, list, show, check] {

@@ -17,7 +17,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// How long to keep printing a backlog after Ctrl-C. A terminal then stops; a pipe or file gets the rest, with a notice.
+// After Ctrl-C, the backlog is printed for at most this long if the output is a terminal. A pipe or file gets all of
+// it, after a notice.
 constexpr auto short_backlog = 1s;
 
 struct ListenOptions {
@@ -101,13 +102,13 @@ private:
         if (!options_.stats) say_losses(common_, receiver_.totals());
         if (unprinted != 0)
             say(common_,
-                counted(unprinted, "message") + " received but not printed: the end did not wait for the output");
+                counted(unprinted, "message") + " received but not printed: the output had stalled at the end");
         if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(unprinted != 0 ? Exit::failed : Exit::done);
     }
 
-    // Counts the messages that still waited behind a stalled output at the end. Returns 0 if the reader closed the
-    // output or --count was reached.
+    // Counts the messages that could not be printed because the output had stalled at the end. Returns 0 if the reader
+    // closed the output or --count was reached.
     std::uint64_t count_unprinted() {
         const bool complete = options_.receive.count != 0 && printed_ == options_.receive.count;
         if (complete || output_.state() == Output::State::closed_by_reader) return 0;
@@ -161,16 +162,20 @@ Run declare_listen(Arguments command, const Common& common) {
     auto options = std::make_shared<ListenOptions>();
     options->receive.declare(command);
     options->selection.declare(command);
-    auto json = command.add_flag("--json", options->json, "one JSON object a line (docs/guide/listen.md)");
-    command.add_option("--csv", options->csv, "one message, by name or id, as CSV: a header, then a row each")
+    auto json = command.add_flag("--json", options->json, "print one JSON object per line (docs/guide/listen.md)");
+    command
+        .add_option("--csv", options->csv,
+                    "print only this message (name or id), as CSV: a header, then one row per message")
         .type_name("MESSAGE")
         .excludes(json);
-    command.add_flag("--stats", options->stats, "end with a table: rates, gaps, bytes and loss by source and message");
+    command.add_flag("--stats", options->stats,
+                     "at the end, print a table of rates, gaps, bytes and loss by source and message");
     command.footer(
         "Examples:\n  mavloom listen udpin://0.0.0.0:14550\n  mavloom listen udpin://0.0.0.0:14550 --only "
         "ATTITUDE,VFR_HUD --json\n"
-        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nThe status is 0 whatever the "
-        "link lost, 130 after Ctrl-C, and 1 if messages could not be printed because the output stalled at the end.");
+        "  mavloom listen flight.tlog --stats\n  mavloom listen shm://px4 --for 10s\n\nExit status: 0 even if "
+        "frames were lost, 130 after Ctrl-C, 1 if messages could not be printed because the output stalled at the "
+        "end.");
     return [options, &common] { return listen(common, *options); };
 }
 

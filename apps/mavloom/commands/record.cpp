@@ -143,13 +143,13 @@ Run declare_record(Arguments command, const Common& common) {
     options->selection.declare(command);
     command
         .add_option("-o,--output", options->file,
-                    "the file to write; an existing one is first renamed FILE.1. FILE.tlog?rotate_bytes=100M or "
+                    "the file to write; an existing file is first renamed to FILE.1. FILE.tlog?rotate_bytes=100M or "
                     "?rotate_every=1h "
-                    "begins new files")
+                    "starts a new file at that size or interval")
         .required()
         .type_name("FILE");
     command.add_flag("--json", options->json,
-                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
+                     "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.footer(
         "Records every good frame with the kernel's receive time, in the tlog format (docs/formats/tlog.md).\n\n"
         "Examples:\n  mavloom record udpin://0.0.0.0:14550 -o flight.tlog --for 10m\n"

@@ -133,14 +133,14 @@ SetupResult<void> open_sources(const RelayOptions& options, feed::Sources& sourc
     return {};
 }
 
-// Whether `host` is a name of this machine, as far as that is known without a lookup.
+// Returns true if `host` is a name of this machine, as far as that is known without a lookup.
 bool is_own_name(const std::string& host) {
     std::array<char, HOST_NAME_MAX + 1> own{};
     return ::gethostname(own.data(), own.size() - 1) == 0 && host == own.data();
 }
 
-// Whether a socket bound to `bound` receives what is sent to `host`. A socket on 0.0.0.0 receives no IPv6; one on ::
-// receives both.
+// Returns true if a socket bound to `bound` receives datagrams for `host`. A socket on 0.0.0.0 receives only IPv4; one
+// on :: receives both.
 bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     const auto here = net::Address::parse(bound, 0);
     const auto there = net::Address::parse(host == "localhost" ? "127.0.0.1" : host, 0);
@@ -151,7 +151,7 @@ bool hears(const std::string& bound, const std::string& host, bool broadcast) {
     return broadcast || there->is_loopback() || net::OwnAddresses().contains(*there, mono_now());
 }
 
-// Whether frames sent to `to` would arrive at `source` again.
+// Returns true if frames sent to `to` would arrive at `source` again.
 bool leads_back(const link::EndpointInfo& source, const endpoint::Endpoint& to) {
     using endpoint::Scheme;
     const auto in = source.endpoint.scheme;
@@ -215,18 +215,19 @@ Run declare_relay(Arguments command, const Common& common) {
         .type_name("MESSAGE.FIELD=VALUE");
     command
         .add_option("--remap-system", edit.remap_system,
-                    "change system id A to B, and back in answers from the far side")
+                    "change system id A to B; in answers from the far side, change B back to A")
         .type_name("A=B");
     command.add_option("--only", edit.only, "only these messages: names or ids, separated by commas")
         .delimiter(',')
         .type_name("NAMES");
     command
         .add_option("--max-rate", edit.max_rate,
-                    "at most this many a second of a message from each source; * is all telemetry: ATTITUDE:10,*:50")
+                    "limit a message from each source to this rate; * is all telemetry: ATTITUDE:10,*:50")
         .delimiter(',')
         .type_name("MESSAGE:HZ");
-    auto v1 = command.add_flag("--as-v1", options->as_v1,
-                               "send MAVLink 1 (extension fields are cut, ids over 255 dropped and counted)");
+    auto v1 = command.add_flag(
+        "--as-v1", options->as_v1,
+        "send MAVLink 1: extension fields are cut; messages with ids over 255 are dropped and counted");
     command.add_flag("--as-v2", options->as_v2, "send MAVLink 2").excludes(v1);
     auto sign = command.add_option("--sign", options->sign_file,
                                    "sign sent frames with the key in this file (64 hexadecimal digits, mode 0600)");
@@ -236,9 +237,10 @@ Run declare_relay(Arguments command, const Common& common) {
         .type_name("N")
         .range(0, 255)
         .needs(sign);
-    command.add_flag("--resequence", edit.resequence, "new sequence numbers, so that a filtered stream shows no loss");
+    command.add_flag("--resequence", edit.resequence,
+                     "assign new sequence numbers, so that a filtered stream shows no loss");
     command.add_flag("--json", options->json,
-                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
+                     "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Without options, the output is byte for byte the input. Answers from the far side go back to the "

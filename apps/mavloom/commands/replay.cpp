@@ -62,7 +62,7 @@ public:
 
 private:
     void on_frame(const link::RxFrame& rx) override {
-        if (destinations_.has(rx.endpoint)) return;  // answers are of no use to a recording
+        if (destinations_.has(rx.endpoint)) return;  // a recording has no use for answers
         ++frames_;
         bytes_ += rx.frame.size();
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
@@ -123,8 +123,8 @@ private:
     std::uint64_t frames_ = 0, bytes_ = 0;  // read from the recording so far
 };
 
-// Whether `--to` names the recording itself: creating that output would rename the file to be read. An output that
-// rotates chooses names of its own, so it does not count.
+// Returns true if a destination is the recording itself: creating that output would rename the file to be read.
+// Rotating outputs are allowed, because they choose their own file names.
 bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std::string>& to) {
     return std::ranges::any_of(to, [&](const std::string& text) {
         const auto endpoint = endpoint::parse_endpoint(text);
@@ -135,7 +135,7 @@ bool is_written_over(const endpoint::Endpoint& recording, const std::vector<std:
     });
 }
 
-// The value of a time option; 0 if it is not given.
+// Returns the value of a time option, or 0 if it is not given. Error texts begin with `option`.
 SetupResult<Nanoseconds> time_of(const std::string& text, std::string_view option) {
     if (text.empty()) return Nanoseconds{};
     auto parsed = endpoint::parse_duration(text);
@@ -190,7 +190,7 @@ Run declare_replay(Arguments command, const Common& common) {
     command.add_flag("--no-wait", options->no_wait, "start even if a destination has no peer");
     options->selection.declare(command);
     command.add_flag("--json", options->json,
-                     "at the end, print the sums as one JSON object on stdout (docs/guide/relay.md)");
+                     "at the end, print the totals as one JSON object on stdout (docs/guide/relay.md)");
     command.footer("Example:\n  mavloom replay flight.tlog --to udpout://127.0.0.1:14550 --speed 2");
     return [options, &common] { return replay(common, *options); };
 }

@@ -38,8 +38,8 @@ struct RouteOptions {
     std::string metrics;  // HOST:PORT
 };
 
-// The endpoints to route between: those of the file, then those of the command line. A reload changes only those of the
-// file.
+// The endpoints to route between: first those of the configuration file, then those of the command line. A reload
+// changes only those of the file.
 struct Plan {
     config::Config config;
     std::vector<endpoint::Endpoint> from_command_line;
@@ -103,8 +103,8 @@ SetupResult<Plan> make_plan(const RouteOptions& options, const dialect::Dialect&
     return plan;
 }
 
-// Adds either the recordings or all other endpoints. Recordings come last, because creating one renames an existing
-// file. A router that finds its port in use must not do that.
+// Adds either the recordings or all other endpoints. Recordings are added last: creating one renames an existing file,
+// which must not happen if the router cannot start because a port is in use.
 SetupResult<void> add_endpoints(router::Router& router, const Plan& plan, bool recordings) {
     for (const auto& endpoint : plan.endpoints())
         if ((endpoint.scheme == endpoint::Scheme::tlog) == recordings)
@@ -229,7 +229,7 @@ private:
         auto config = read_config(options_, dialect_);
         if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
-        // An editor may have truncated it.
+        // An editor may have truncated the file before rewriting it.
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))
             return tell(fmt::format("mavloom: {} has no endpoint; nothing was changed", options_.config));
         if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
@@ -254,7 +254,7 @@ private:
     control::ServiceManager manager_ = control::ServiceManager::from_environment();
 };
 
-// Opens the ring and the way back from its readers. Without a folder for sockets there is no way back.
+// Opens the ring, and the inlet through which its readers send. Without a folder for sockets there is no inlet.
 SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring, router::Router& router) {
     if (ring.name.empty()) return {};
     if (auto opened = router.open_ring(ring); !opened) return opened;
@@ -335,7 +335,7 @@ Run declare_route(Arguments command, const Common& common) {
         .type_name("FILE");
     command
         .add_option("--explain", options->explain,
-                    "print for every frame, or for those of one message, where it went and why")
+                    "print where each frame went and why; with MESSAGE, only for frames of that message")
         .expected(0, 1)
         .default_str("*")
         .type_name("[MESSAGE]");
@@ -347,7 +347,8 @@ Run declare_route(Arguments command, const Common& common) {
         .type_name("NAME");
     command
         .add_option("--name", options->name,
-                    "the name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the ring's name, else router)")
+                    "the router's name for `mavloom ctl` and `stat`: A-Z a-z 0-9 _ - (default: the name of the ring, "
+                    "or router)")
         .type_name("NAME");
     command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
         .type_name("HOST:PORT");

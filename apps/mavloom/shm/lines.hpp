@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The input of `shm write`: lines of standard input, as they are or as hexadecimal digits.
+// Reads the input of `shm write`: lines of text or of hexadecimal digits from standard input.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ private:
     std::size_t searched_ = 0;
 };
 
-// Decodes pairs of hexadecimal digits in place. Returns false if the line has anything else.
+// Decodes pairs of hexadecimal digits in place. Returns false if the line contains anything else.
 [[nodiscard]] bool decode_hex(std::string& line);
 
 }  // namespace mavloom::app::shm_parts

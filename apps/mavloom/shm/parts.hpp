@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The parts of `mavloom shm`. Each has its own file with one function, which declares the options and returns the
-// function to run, as a command does (command.hpp). The table in shm.cpp lists all parts.
+// The subcommands of `mavloom shm`: list, stat, write, read and remove.
+// Each has its own source file with one function. That function declares the options and returns the function to run,
+// like those in command.hpp. The table in shm.cpp lists all subcommands.
 #pragma once
 
 #include <chrono>
@@ -17,13 +18,13 @@ Run declare_write(Arguments, const Common&);
 Run declare_read(Arguments, const Common&);
 Run declare_remove(Arguments, const Common&);
 
-// How often a part that waits for a ring checks whether a signal arrived.
+// How often a subcommand that waits for a ring checks for signals.
 inline constexpr Nanoseconds look_at_signals = std::chrono::milliseconds{100};
 
-// Arguments that several parts take.
+// Arguments that several subcommands take.
 inline void add_name(Arguments part, std::string& name) {
     part.add_option("NAME", name, "the ring: letters, digits, _ and -").required();
 }
-inline void add_json(Arguments part, bool& json) { part.add_flag("--json", json, "one JSON object a line"); }
+inline void add_json(Arguments part, bool& json) { part.add_flag("--json", json, "print one JSON object per line"); }
 
 }  // namespace mavloom::app::shm_parts

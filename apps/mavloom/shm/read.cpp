@@ -151,8 +151,8 @@ Run declare_read(Arguments part, const Common& common) {
         .members({"newest", "oldest"})
         .capture_default_str()
         .type_name("WHERE");
-    part.add_flag("--lossless", options->lossless, "miss nothing: the writer waits, or evicts this reader");
-    part.add_flag("--data", options->data, "print only the bytes of each record, and a newline");
+    part.add_flag("--lossless", options->lossless, "miss no record: the writer waits for this reader, or evicts it");
+    part.add_flag("--data", options->data, "print each record as its bytes and a newline, without tags");
     part.add_flag("--drain", options->drain, "end when everything is read and no process writes the ring");
     part.add_option("--count", options->count, "end after this many records").range(1, 2147483647).type_name("N");
     part.add_option("--for", options->duration, "end after this time: 10s, 2m, 500ms").type_name("TIME");

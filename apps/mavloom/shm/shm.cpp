@@ -16,22 +16,25 @@ struct Part {
 };
 
 constexpr std::array parts{
-    Part{"list", "every ring with its writer, readers and records", "Example: mavloom shm list --json",
+    Part{"list", "list every ring with its writer, readers and records", "Example: mavloom shm list --json",
          shm_parts::declare_list},
-    Part{"stat", "one ring: its writer and readers, how far behind they are, what was lost",
+    Part{"stat", "show one ring: its writer and readers, how far behind they are, and what was lost",
          "Example: mavloom shm stat px4", shm_parts::declare_stat},
-    Part{"write", "write each line of standard input as a record; status 4 if a full ring did not take some",
-         "A ring that exists and has no writer is continued. The ring remains when the command ends.\n\n"
+    Part{"write", "write each line of standard input as a record; exit status 4 if a full ring dropped some",
+         "If the ring exists and has no writer, the command appends to it. The ring stays after the command ends, "
+         "unless "
+         "--remove is given.\n\n"
          "Examples: mavloom shm write px4 --capacity 1M < lines.txt\n"
          "          mavloom shm write px4 --hex --full evict < frames.hex",
          shm_parts::declare_write},
-    Part{"read", "print the records of a ring; status 4 if some were missed",
-         "Waits for a ring that does not exist yet, and for the next writer of one that ended. Never holds the "
-         "writer unless --lossless.\n\n"
+    Part{"read", "print the records of a ring; exit status 4 if some were missed",
+         "If the ring does not exist, waits for it. If its writer ends, waits for the next one. Never delays the "
+         "writer, "
+         "unless --lossless is given.\n\n"
          "Examples: mavloom shm read px4 --json --count 10 --for 1s\n"
          "          mavloom shm read px4 --from oldest --drain --data",
          shm_parts::declare_read},
-    Part{"remove", "remove rings and their counters; programs that have one open notice it",
+    Part{"remove", "remove rings and their counters; programs that use a ring are notified",
          "Example: mavloom shm remove px4", shm_parts::declare_remove},
 };
 
@@ -40,7 +43,7 @@ constexpr std::array parts{
 Run declare_shm(Arguments command, const Common& common) {
     command.require_subcommand();
     command.footer(
-        "Rings are files /dev/shm/mavloom.NAME; docs/guide/shm.md, docs/formats/ring.md.\n\n"
+        "Rings are the files /dev/shm/mavloom.NAME. See docs/guide/shm.md and docs/formats/ring.md.\n\n"
         "Examples: mavloom shm list\n"
         "          mavloom shm stat px4\n"
         "          mavloom shm read px4 --from oldest --for 1s");

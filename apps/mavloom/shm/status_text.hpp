@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How `shm list` and `shm stat` print a ring: as JSON, as one line, or with all details. Pure functions.
+// Formats the status of a ring for `shm list` and `shm stat`. Pure functions that return a new string.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,11 +12,11 @@ namespace mavloom::app::shm_parts {
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json json_of(const shm::RingStatus& ring);
-// One JSON object and a newline.
+// Returns the JSON object and a newline.
 [[nodiscard]] std::string line_of(const Json& object);
-// One line: size, writer, number of readers and records.
+// Returns one line: size, writer, number of readers and records.
 [[nodiscard]] std::string text_of(const shm::RingStatus& ring);
-// The same, with the file, the counters and a line for each reader.
+// Returns the line of `text_of`, followed by the file, the counters and a line for each reader.
 [[nodiscard]] std::string details_of(const shm::RingStatus& ring);
 
 }  // namespace mavloom::app::shm_parts

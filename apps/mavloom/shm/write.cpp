@@ -49,7 +49,7 @@ public:
     Writing(const WriteOptions& options, shm::RingWriter& writer)
         : options_(options), writer_(writer), lines_(writer.longest() * (options.hex ? 2 : 1)) {}
 
-    // Writes all lines. An error of the input or of the ring ends it.
+    // Writes all lines. Stops at the first error of the input or of the ring.
     Exit run() {
         for (std::string line; lines_.next(line);) {
             ++number_;
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // A line that the full ring does not take is no error: it is missing in the sums.
+    // A line that a full ring drops is not an error: it counts as not written.
     Exit write(std::string& line) {
         if (line.size() <= lines_.longest() && options_.hex && !decode_hex(line))
             return refuse(Exit::bad_input, "expected pairs of hexadecimal digits");
@@ -123,9 +123,10 @@ Exit write(const Common& common, const WriteOptions& options) {
 Run declare_write(Arguments part, const Common& common) {
     auto options = std::make_shared<WriteOptions>();
     add_name(part, options->name);
-    part.add_option("--capacity", options->capacity,
-                    "bytes that a new ring holds: a power of two from 64k (bytes, k, M, G); default 8M. A ring of "
-                    "another capacity without a writer is replaced")
+    part.add_option(
+            "--capacity", options->capacity,
+            "capacity of a new ring, a power of two from 64k (bytes, k, M, G); default 8M. An existing ring of another "
+            "capacity is replaced if it has no writer")
         .type_name("BYTES");
     part.add_option("--full", options->full,
                     "what to do while lossless readers keep the ring full: wait, drop_newest, or evict them")

@@ -33,7 +33,8 @@ struct RouterConfig {
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
     std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat{};  // system and component; empty: off
-    // Rate at which the router asks ArduPilot for its streams, as the id in `heartbeat`. 0: off.
+    // The rate that the router requests for ArduPilot's telemetry streams. It sends the requests under the id in
+    // `heartbeat`. 0: off.
     std::uint16_t request_streams_hz = 0;
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
@@ -68,7 +69,7 @@ struct Setting {
     std::string value;  // empty: not set, and there is no default
     Origin origin = Origin::by_default;
     std::uint32_t line = 0;  // in the file, if `origin` is `file`
-    std::string variable;    // its name, if `origin` is `environment`
+    std::string variable;    // the variable's name, if `origin` is `environment`
 };
 
 struct Section {
@@ -92,8 +93,8 @@ struct Config {
 };
 
 // NAME=VALUE pairs whose name begins with MAVLOOM_. MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router]; _RING_,
-// _RECORD_, _LOG_ and _WEB_ work the same way. A variable that sets nothing is an error if it begins like a section
-// or resembles a key. Otherwise it adds a note.
+// _RECORD_, _LOG_ and _WEB_ work the same way. A variable that matches no key is an error if its name begins like a
+// section or resembles a key. Otherwise it only adds a note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Environment environment_of(const char* const* envp);
 

@@ -4,9 +4,9 @@
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// Both run on one thread of their own. Requests are posted to the router's thread, which runs them between two turns
-// and only copies counters. The control thread formats the answer, so a client that stalls or floods cannot slow down
-// routing.
+// Both run on one thread of their own. Requests are posted to the router's thread, which runs them between two turns of
+// its loop and only copies counters. The control thread formats the answer. A client that stalls or floods therefore
+// cannot slow down routing.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.
@@ -36,7 +36,7 @@ struct ControlOptions {
 class Control {
 public:
     // Replaces a socket that a dead router left behind. A socket that another router serves is an error (`in_use`).
-    // `served` must outlive the object. Its turns must keep running, or stop for good.
+    // `served` must outlive the object. Its loop must keep taking turns until it ends for good.
     [[nodiscard]] static SetupResult<std::unique_ptr<Control>> create(Served& served, const ControlOptions& options);
     ~Control();
     Control(const Control&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program that a control socket and a metrics address can serve. It is a router, or another long-running program such
-// as a simulator or a gateway.
+// The interface of a program that can be queried through a control socket and a metrics address: a router, or another
+// long-running program such as a simulator or a gateway.
 #pragma once
 
 #include <functional>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MAVLink message and enum definitions, as immutable records with the computed wire layout.
-// There is no global dialect: a process can hold several, and gives each parser and decoder the one to use.
-// The records of the built-in dialect are read-only tables in the binary; a dialect loaded from XML owns its records.
-// All members are const and safe from any thread. Look-ups allocate nothing; a failed `message` or `field` allocates
-// its error text.
-// Source: MAVLink guide, "MAVLink XML Schema" and "Packet Serialization".
+// MAVLink message and enum definitions, as immutable records with the computed wire layout. There is no global dialect:
+// a process can hold several and passes the one to use to each parser and decoder. The records of the built-in dialect
+// are read-only tables in the binary; a dialect loaded from XML owns its records. All members are const and safe from
+// any thread. Look-ups allocate nothing; a failed `message` or `field` allocates its error text. Source: MAVLink guide,
+// "MAVLink XML Schema" and "Packet Serialization".
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Classifies messages for links that cannot carry everything.
-// The class decides what a full queue drops first, which frame a newer one supersedes, and what `max_rate=*:N` does not
-// limit.
-// docs/guide/queues.md lists every message that this module treats specially.
-// Pure functions, safe from any thread; nothing allocates.
+// Classifies messages for links that cannot carry everything. The classification decides which frames a full queue
+// drops first, which frames a newer frame supersedes, and which messages `max_rate=*:N` does not limit.
+// docs/guide/queues.md lists every message that this module treats specially. Pure functions, safe from any thread;
+// nothing allocates.
 #pragma once
 
 #include <string_view>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The editing stage of `mavloom relay`: decodes frames, applies the options, and encodes them again.
-// Apart from some options of a link, this is the only place that changes the bytes of frames.
-// Without options, every frame leaves byte for byte as it came; a frame that cannot be decoded passes untouched.
-// One owner thread; time is a parameter; nothing allocates per frame. docs/guide/relay.md lists what passes untouched
-// and why.
+// The editing stage of `mavloom relay`: decodes frames, applies the options, and encodes them again. Only this stage
+// and some options of a link change the bytes of frames. Without options, every frame leaves byte for byte as it came;
+// a frame that cannot be decoded passes untouched. One owner thread; time is a parameter; nothing allocates per frame.
+// docs/guide/relay.md lists what passes untouched and why.
 #pragma once
 
 #include <cstdint>
@@ -38,14 +37,13 @@ struct Options {
     bool resequence = false;
 };
 
-// A counter for every way in which a frame can be treated. For frames in the forward direction:
-// frames = reencoded + rewrapped + passed_untouched + filtered + rate_limited + not_v1.
-// Frames in the backward direction are counted in `backward` only, and in `signature_removed` if they lose their
-// signature.
+// Counts frames by how they were treated. For frames in the forward direction: frames = reencoded + rewrapped +
+// passed_untouched + filtered + rate_limited + not_v1. Frames in the backward direction are counted in `backward` only,
+// and in `signature_removed` if they lose their signature.
 struct Counters {
-    Counter frames;     // input frames, forward direction
-    Counter reencoded;  // decoded and encoded again
-    Counter rewrapped;  // new header and checksum, original payload: no definition, or not for all of the payload
+    Counter frames;            // input frames, forward direction
+    Counter reencoded;         // decoded and encoded again
+    Counter rewrapped;         // new header, original payload: no definition, or it does not cover the whole payload
     Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
     Counter filtered;          // dropped by `only`
     Counter rate_limited;      // dropped by `max_rate`
@@ -73,9 +71,8 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    // Processes a frame from a source to the destinations; all options apply.
-    // `received` is the frame's own time (from the kernel or the recording), used by max_rate. `now` is the time for
-    // signatures.
+    // Processes a frame from a source to the destinations; all options apply. `received` is the frame's own time, from
+    // the kernel or the recording; max_rate uses it. Signatures use `now`.
     [[nodiscard]] Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept;
     // Processes a frame from a destination back to the sources. Only remap_system applies, in reverse (source and
     // target system).

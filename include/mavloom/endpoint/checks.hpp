@@ -11,9 +11,9 @@
 
 namespace mavloom::endpoint {
 
-// How to treat an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. They are an
-// error (`refused`), or the owner of the links (the router) applies them (`by_owner`). In the second case the owner
-// also decides which frames count for a link's loss, because only it recognises echoes.
+// How to treat an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. With `refused`,
+// they are an error. With `by_owner`, the owner of the links (the router) applies them. That owner also decides which
+// frames count for a link's loss, because only it recognises echoes.
 enum class RoutingOptions : std::uint8_t { refused, by_owner };
 
 // Refuses a scheme or option that live links do not support, so that none is silently ignored.
@@ -27,7 +27,7 @@ enum class RoutingOptions : std::uint8_t { refused, by_owner };
 // bind=HOST:PORT as an address; empty if bind= is not set.
 [[nodiscard]] SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint);
 
-// Refuses `speed` at a recording that is to be written: it is an option of recordings that are read.
+// Refuses the option `speed` for a recording that is to be written. Only recordings that are read have it.
 [[nodiscard]] SetupResult<void> check_written(const Endpoint& recording);
 
 }  // namespace mavloom::endpoint

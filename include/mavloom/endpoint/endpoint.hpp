@@ -22,7 +22,7 @@ namespace mavloom::endpoint {
 enum class Scheme : std::uint8_t { udpin, udpout, udpbcast, udpmcast, tcpin, tcpout, serial, shm, tlog };
 
 [[nodiscard]] std::string_view scheme_name(Scheme scheme) noexcept;
-// True if an endpoint of this scheme speaks first, to a far side that it names. False if peers or clients contact it.
+// True if endpoints of this scheme have a fixed far side and contact it first. False if peers or clients contact them.
 [[nodiscard]] bool calls_somebody(Scheme scheme) noexcept;
 
 struct HostPort {
@@ -97,7 +97,7 @@ struct Endpoint {
 // The error text for shm://NAME in a router, with the option to use instead.
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
 
-// True if a path names a recording: FLIGHT.tlog, FLIGHT.TLOG, or a rotated FLIGHT.tlog.1.
+// True if the path's name is that of a recording: FLIGHT.tlog, FLIGHT.TLOG, or a rotated FLIGHT.tlog.1.
 [[nodiscard]] bool names_recording(std::string_view path) noexcept;
 
 // The canonical path of a file, so that two spellings of it compare equal. The file need not exist.

@@ -19,7 +19,7 @@
 
 namespace mavloom::endpoint {
 
-using SchemeSet = std::uint16_t;  // bit n: the scheme whose enumerator is n
+using SchemeSet = std::uint16_t;  // bit n stands for the scheme with enumerator value n
 
 [[nodiscard]] constexpr SchemeSet set_of(Scheme scheme) noexcept {
     return static_cast<SchemeSet>(1u << static_cast<unsigned>(scheme));
@@ -50,8 +50,8 @@ struct OptionText {
     std::string value;
 };
 
-// The text after the '?' that begins the options; nothing if there is none. A bare path that ends in ".tlog" may
-// contain a '?' itself.
+// Returns the text after the '?' that begins the options; nothing if there is none. The path of a bare recording, which
+// ends in ".tlog", may itself contain a '?'.
 [[nodiscard]] std::optional<std::string_view> query_of(std::string_view endpoint);
 
 // Splits and decodes "a=1&b=x%20y". A repeated key, a missing value and an invalid escape are errors.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Channel: the frames of one endpoint, on their way from one loop thread to any number of readers. Consumer: one
-// reader.
-// The loop thread never waits for a reader: frames go into a bounded buffer, which overwrites the oldest ones, and each
-// reader counts those that it missed. Any thread, except for the functions under "loop thread". The channel must
-// outlive its readers, which hold a shared pointer to it.
+// Channel: passes the frames of one endpoint from the loop thread to any number of readers. Consumer: one reader. The
+// loop thread never waits for a reader. It writes frames into a bounded buffer, which overwrites the oldest frames.
+// Each reader counts the frames that it missed. Any thread may call it, except for the functions under "loop thread".
+// The channel must outlive its readers, which hold a shared pointer to it.
 #pragma once
 
 #include <atomic>
@@ -51,16 +50,16 @@ public:
 
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return *dialect_; }
     [[nodiscard]] const LinkNames& names() const noexcept { return *names_; }
-    // How many peers are there now.
+    // The number of current peers.
     [[nodiscard]] std::size_t peers() const noexcept { return peers_.load(std::memory_order_relaxed); }
 
     // Returns a copy of the newest frame that matches: see NewestFrames.
     [[nodiscard]] std::optional<NewestFrames::Entry> latest(const Filter& filter,
                                                             const std::optional<Instance>& instance,
                                                             MonoTime not_before) const;
-    // Frames that `latest` does not know, because NewestFrames had no place.
+    // The number of frames that `latest` cannot return, because NewestFrames was full.
     [[nodiscard]] std::uint64_t not_kept() const;
-    // Source of the first heartbeat from a vehicle; zeros before it.
+    // The source of the first heartbeat from a vehicle. Both ids are 0 until one arrives.
     [[nodiscard]] Source target() const;
     [[nodiscard]] std::map<MessageId, CrcErrors> crc_errors() const;
     // Losses of links that are gone.
@@ -71,27 +70,28 @@ public:
     void on_link_up(LinkId link, std::string_view name);
     void on_link_down(LinkId link, std::span<const wire::SequenceStats> losses);
     void on_bad_checksum(MessageId id);
-    // Names a link of a ring. Such a link is not a peer: nothing can be sent to it.
+    // Sets the name of a ring's link. Such a link is not a peer: nothing can be sent to it.
     void name_link(LinkId link, std::string_view name) { names_->add(link, std::string(name)); }
     void forget_link(LinkId link, std::span<const wire::SequenceStats> losses);
     // Wakes readers that wait for frames that arrived since the last call.
     void publish();
-    // Ends the channel: no frames follow, and readers get none of those that are left.
+    // Ends the channel. Readers get no more frames, not even those that are still in the buffer.
     void close();
 
     // For a source that can pause, such as a lossless ring:
     static constexpr std::size_t frames_a_turn = 128;
-    // Protects what `reader` has not read from being overwritten, as long as the caller obeys `has_room`. The
-    // protection ends when the reader is closed or destroyed. `room_made` is called with the mutex held.
+    // Protects the frames that `reader` has not read from being overwritten, as long as the caller pushes frames only
+    // while `has_room` is true. The protection ends when the reader is closed or destroyed. `room_made` is called with
+    // the mutex held.
     void hold_for(const Consumer* reader, std::function<void()> room_made);
-    // Whether `frames_a_turn` frames fit without overwriting what is protected. If not, `room_made` is called once they
-    // do.
+    // Whether `frames_a_turn` frames fit without overwriting protected frames. If not, `room_made` is called as soon as
+    // they fit.
     [[nodiscard]] bool has_room();
 
 private:
     friend class Consumer;
 
-    // These limits bound the memory that forged sources and ids can take.
+    // These limits bound the memory that forged sources and ids can use.
     static constexpr std::size_t most_losses = 4096, most_bad_ids = 1024;
 
     // Call these with mutex_ held.
@@ -119,24 +119,25 @@ private:
     bool news_ = false;
 };
 
-// One reader of a channel, with its own position. Any thread; several may read, and each frame goes to one of them.
+// One reader of a channel, with its own position. Any thread may call it. If several threads read from one Consumer,
+// each frame goes to only one of them.
 class Consumer {
 public:
-    // Reads what arrives from now on.
+    // The reader starts at the next frame that arrives.
     Consumer(std::shared_ptr<Channel> channel, Filter filter);
     ~Consumer();
     Consumer(const Consumer&) = delete;
     Consumer& operator=(const Consumer&) = delete;
 
-    // Adds matching frames to the batch, up to `most` in the batch. Returns false if closed. If it adds none, use
-    // `wait` or the descriptor to learn when to call again. Both report at once if frames remain: one call looks at a
-    // limited number of frames.
+    // Adds matching frames to the batch until it holds `most`. Returns false if closed. If it adds none, use `wait` or
+    // the descriptor to learn when to call again. One call examines a limited number of frames; if more remain, both
+    // report at once.
     bool take(FrameBatch& batch, std::size_t most);
     // Waits until a frame arrives, the channel or the reader is closed, or the deadline passes. Returns after one slice
     // (turns.hpp) at the latest, so that the caller can handle signals.
     void wait(MonoTime deadline);
-    // Returns a descriptor. After a `take` that added no frame, it becomes readable when another call is worthwhile.
-    // Created at the first call; the reader closes it.
+    // Returns a descriptor that, after a `take` that added no frame, becomes readable when it is worth calling `take`
+    // again. Created at the first call; the reader closes it.
     [[nodiscard]] SetupResult<int> event_fd();
     // Frames that were overwritten before this reader read them.
     [[nodiscard]] std::uint64_t missed() const;

@@ -29,7 +29,7 @@ struct Delivery {
     std::uint64_t dropped = 0;            // whole frames, from a queue
     std::uint64_t refused = 0, not_sent = 0;
     std::uint64_t nobody_there = 0;  // frames for which there was no link
-    std::uint64_t send_errors = 0;   // datagrams that were refused or rejected
+    std::uint64_t send_errors = 0;   // datagrams that the peer's port refused (ICMP) or the kernel rejected
     std::uint64_t queued_bytes = 0;  // not sent yet
 
     [[nodiscard]] bool lost_any() const noexcept {
@@ -42,15 +42,15 @@ public:
     using OnFile = std::function<void(const record::RotatingWriter&)>;
 
     // Opens the endpoints; `links` must outlive the object. Files come last, because creating one renames an existing
-    // file: that does not happen if a link cannot be opened. `on_file` is called for each file that was created, also
-    // if a later one fails.
+    // file, and a link that cannot be opened must not cause that. `on_file` is called for each file that was created,
+    // even if a later one fails.
     [[nodiscard]] static SetupResult<Destinations> open(std::span<const endpoint::Endpoint> endpoints,
                                                         link::Links& links, const OnFile& on_file = {});
 
     // Queues the frame for every peer of every endpoint, and writes it to the files with `time`. Returns false if no
     // peer and no file took it.
     bool send(const wire::FrameView& frame, WallTime time);
-    // How many frames of maximum length still fit into every queue. A source that can wait delivers no more than that.
+    // How many frames of maximum length still fit into every queue. A source that can pause delivers no more than that.
     [[nodiscard]] std::size_t room_in_frames() const;
     // Whether every endpoint has at least one link that is up.
     [[nodiscard]] bool all_up() const;
@@ -64,7 +64,7 @@ public:
     [[nodiscard]] std::span<const record::RotatingWriter> files() const noexcept { return files_; }
     // Whether a live endpoint lost frames: dropped, refused, without a peer, or still queued.
     [[nodiscard]] bool lost_any() const;
-    // Whether there are no files and no frame was sent to any peer.
+    // True if there are no files and no peer was sent any frame.
     [[nodiscard]] bool reached_nobody() const;
 
     // Whether a file could not be written. The command must then end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recognises objects that belong to the parent of a forked process. Threads and locks stay in the parent, so a child
-// must neither use nor destroy an object that has them. Any thread.
+// Recognises objects that a forked process inherited from its parent. Threads do not survive a fork and locks may stay
+// locked, so the child must neither use nor destroy an object that has them. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace mavloom::feed {
 // A member of an object that a forked child must not touch.
 class BeforeFork {
 public:
-    // Whether the object was made by this process.
+    // Whether this process created the object.
     [[nodiscard]] bool is_here() const noexcept { return born_ == forks(); }
 
 private:

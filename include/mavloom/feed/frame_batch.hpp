@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// FrameBatch: copies of frames that were read together, to be handed out one by one.
-// Not synchronized. The memory is reused from batch to batch.
+// FrameBatch: copies of frames that were read together, for callers that take them one by one. Not synchronized. The
+// memory is reused from batch to batch.
 #pragma once
 
 #include <cstdint>

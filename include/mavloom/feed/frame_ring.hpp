@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// FrameRing: the frames of an endpoint in a bounded ring of bytes.
-// The writer never waits: it overwrites the oldest frames. Any number of readers each keep a Position and learn how
-// many frames they missed. Holds whole frames only. Not synchronized: the owner's mutex guards it. Allocates once; the
-// system provides the memory as it is first used.
+// FrameRing: the frames of an endpoint in a bounded ring of bytes. The writer never waits: it overwrites the oldest
+// frames. Each reader keeps its own Position, and `next` counts the frames that it missed. The ring holds whole frames
+// only. Not synchronized: the owner's mutex guards it. Allocates once; the system provides the memory as it is first
+// used.
 #pragma once
 
 #include <algorithm>
@@ -68,9 +68,9 @@ public:
         return at.frame < tail_.frame ? tail_.frame - at.frame : 0;
     }
     [[nodiscard]] Position newest() const noexcept { return head_; }
-    // Whether `frames` more frames of any length fit without overwriting what this reader has not read.
+    // Whether `frames` more frames of any length fit without overwriting frames that this reader has not read.
     [[nodiscard]] bool has_room(const Position& reader, std::size_t frames) const noexcept {
-        // One more for the padding at the wrap.
+        // Counts one frame more for the padding at the wrap.
         const std::size_t needed = (frames + 1) * length_of(wire::max_frame_length);
         return head_.byte - reader.byte + needed <= capacity_;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Hub: one loop thread that serves all open endpoints of the process, whatever their dialects.
-// It receives into channels, sends and reconnects. It runs as long as a shared pointer to it exists. Any
-// thread may call it. Calls wait for the loop thread, which never waits for a caller.
-// In a forked child the parent's hub must be neither used nor destroyed (fork.hpp); `get` makes a new one.
+// Hub: one loop thread that serves all open endpoints of the process, whatever their dialects. The loop thread writes
+// received frames into channels, sends queued frames and reconnects. The hub runs as long as a shared pointer to it
+// exists. Any thread may call it. Calls wait for the loop thread, which never waits for a caller. A forked child must
+// neither use nor destroy the parent's hub (fork.hpp); there, `get` creates a new one.
 #pragma once
 
 #include <atomic>
@@ -30,7 +30,7 @@ struct EndpointStats {
     link::EndpointCounters endpoint;
     Totals ring;
     std::uint64_t peers = 0;
-    std::uint64_t answers = 0, unheard_answers = 0;  // of programs that read a ring which this endpoint fills
+    std::uint64_t answers = 0, unheard_answers = 0;  // from programs that read the ring which this endpoint fills
     Losses losses;
     std::map<MessageId, Channel::CrcErrors> crc_errors;
 };
@@ -39,7 +39,7 @@ class Hub {
 public:
     // Returns the hub that is running, or a new one.
     [[nodiscard]] static SetupResult<std::shared_ptr<Hub>> get();
-    // Ends every loop thread and closes its channels. Later calls of such a hub fail or do nothing.
+    // Ends every loop thread and closes its channels. Later calls on a stopped hub fail or do nothing.
     static void stop_all();
 
     Hub(const Hub&) = delete;
@@ -52,19 +52,19 @@ public:
         std::string name;
         bool is_ring = false;
     };
-    // Opens an endpoint. `channel` gets its frames, from the first one on. On return, everything that can be opened at
-    // once is open. With `required=true`, waits up to 5 s for the far side and fails without it. A lossless ring is
-    // held for `reader`.
+    // Opens an endpoint. `channel` receives its frames, from the first one on. On return, everything that can be opened
+    // at once is open. With `required=true`, waits up to 5 s for the far side and fails if it is absent. A lossless
+    // ring pauses while `reader` has no room (Channel::hold_for).
     [[nodiscard]] SetupResult<Opened> open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                            const Consumer& reader);
 
     // The calls below take the id of an endpoint that is open.
 
-    // Returns the endpoint that carries frames to the router of a ring. Opened at the first call.
+    // Returns the endpoint that carries frames back to the router of a ring, and opens it at the first call.
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // Opens the way back of the ring `ring`, which this endpoint fills. Frames that programs send to the socket
-    // RUN/`ring`.in go to every peer of the endpoint. Fails with `in_use` if that socket is already served. Closed with
-    // the endpoint. `mode` has the permissions of the socket.
+    // Opens the inlet of the ring `ring`, which this endpoint fills: frames that programs send to the socket
+    // RUN/`ring`.in go to every peer of the endpoint. Fails with `in_use` if that socket is already served. The inlet
+    // closes with the endpoint. `mode` sets the permissions of the socket.
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     // Closes an endpoint and returns its last counters. Queued frames are sent first, for at most one second; other
     // endpoints are served meanwhile.

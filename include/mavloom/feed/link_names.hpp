@@ -14,11 +14,12 @@ namespace mavloom::feed {
 
 class LinkNames {
 public:
-    // How many links that are gone keep their names.
+    // How many closed links keep their names.
     static constexpr std::size_t most_gone = 65'536;
 
     void add(LinkId link, std::string name);
-    // The link is gone. It keeps its name for frames that still refer to it, until `most_gone` later links are gone.
+    // Notes that the link is closed. Its name stays for frames that still refer to it, until `most_gone` more links
+    // have closed.
     void gone(LinkId link);
     // Empty for a link that has no name.
     [[nodiscard]] std::string find(LinkId link) const;
@@ -27,7 +28,7 @@ private:
     mutable std::mutex mutex_;
     // Guarded by mutex_:
     std::unordered_map<LinkId, std::string> names_;
-    std::deque<LinkId> gone_;  // links in names_ that are gone, the latest last
+    std::deque<LinkId> gone_;  // closed links that are still in names_, the latest last
 };
 
 }  // namespace mavloom::feed

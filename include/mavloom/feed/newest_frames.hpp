@@ -17,7 +17,7 @@ namespace mavloom::feed {
 
 class NewestFrames {
 public:
-    // How many frames are kept. Later sources, ids and instances are counted, not kept.
+    // How many frames are kept. Once that many are kept, frames with a new source, id or instance are only counted.
     static constexpr std::size_t capacity = 16'384;
 
     struct Entry {
@@ -38,14 +38,14 @@ public:
     // `definition` is null for a message that the dialect does not define.
     [[nodiscard]] static Key key_of(const wire::FrameView& frame, const dialect::Message* definition);
 
-    // Keeps a copy of the frame in the place of the one before.
+    // Keeps a copy of the frame, in place of the previous one with the same key.
     void put(const Key& key, const FrameRing::Head& head, const wire::FrameView& frame, MonoTime now);
     // Returns the newest frame that matches the filter and `instance` and arrived at `not_before` or later; null if
     // there is none. Valid until the next `put`.
     [[nodiscard]] const Entry* find(const Filter& filter, const std::optional<Instance>& instance,
                                     MonoTime not_before) const;
     [[nodiscard]] bool has(MessageId id) const;
-    // Frames that found no place.
+    // Frames that were not kept because the table was full.
     [[nodiscard]] std::uint64_t not_kept() const noexcept { return not_kept_; }
 
 private:

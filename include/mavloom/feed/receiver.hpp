@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Receives frames on its own thread, so that a consumer that prints, writes or sleeps does not make the kernel drop
-// datagrams. Frames wait in a bounded queue (`--buffer`). The receiver drops frames from live links that do not fit and
-// counts them as `buffer_full`. Recordings and rings are read only while there is room.
+// datagrams. Frames wait in a bounded queue (`--buffer`). If a frame from a live link does not fit, the receiver drops
+// it and counts it in `buffer_full`. Recordings and rings are read only while there is room.
 //
 // One consumer thread calls `next`, `wait` and `link_name`. Any thread, and a signal handler, may call `stop`. The
 // results under "after stop" are complete once `wait` has returned false or `join` has returned.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The loop of `mavloom relay`: frames of the sources pass the editing stage and go to the destinations; answers of the
-// destinations go back to the sources. docs/guide/relay.md describes what a user sees.
+// The loop of `mavloom relay`. Frames from the sources pass through the editing stage to the destinations. Answers from
+// the destinations go back to the sources. docs/guide/relay.md describes what a user sees.
 //
-// Recordings wait until every destination has a peer; live sources do not wait. If a queue is full, recordings and
-// lossless rings are paused, so that nothing is dropped; a lossless ring then holds its writer.
+// Recordings wait until every destination has a peer; live sources do not wait. If a queue is full, the relay stops
+// reading recordings and lossless rings, so that nothing is dropped. The writer of a lossless ring then waits.
 //
 // One owner thread, which also drives the links. All objects that are passed to the constructor must outlive the relay.
 #pragma once
@@ -27,7 +27,7 @@ public:
     virtual ~RelayHandler() = default;
     // Called before each turn; true ends the relay. To end a turn that waits, call Sources::wake.
     virtual bool should_stop() { return false; }
-    // A recording waits because a destination has no peer yet; and the wait is over.
+    // `on_waiting`: a recording waits because a destination has no peer yet. `on_started`: that wait is over.
     virtual void on_waiting() {}
     virtual void on_started() {}
     virtual void on_link_up(std::string_view /*name*/) {}
@@ -40,7 +40,7 @@ struct RelayOutcome {
     Totals totals;                      // of the sources
     std::uint64_t unheard_answers = 0;  // answers for which there was no source
     bool is_incomplete = false;         // all sources were recordings and ended, and a destination lost frames
-    bool reached_nobody = false;        // there were frames, or recordings that waited, and no destination took any
+    bool reached_nobody = false;        // there were frames, or waiting recordings, and no destination took any frame
     std::optional<SetupError> write_error, read_error;  // of the first file or recording that failed
 };
 
@@ -53,14 +53,15 @@ public:
           Signing signing = Signing::off)
         : sources_(sources), destinations_(destinations), stage_(stage), handler_(handler), signing_(signing) {}
 
-    // Relays until `end`, `should_stop`, the end of all recordings or the failure of a file. Then it delivers what had
-    // arrived, sends what is queued (for at most 5 s) and closes the files. Call it once.
+    // Relays until `end`, until `should_stop` returns true, until all recordings have ended, or until a file fails.
+    // Then it delivers the frames that had already arrived, sends those that are queued (for at most 5 s) and closes
+    // the files. Call it once.
     [[nodiscard]] RelayOutcome run(MonoTime end);
 
 private:
     static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
     static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
-    static constexpr std::chrono::milliseconds look_for_room{1};  // a socket may have taken everything by then
+    static constexpr std::chrono::milliseconds look_for_room{1};  // how often to check whether a full queue has room again
 
     void on_frame(const link::RxFrame& rx) override;
     void on_link_up(LinkId, link::EndpointId, std::string_view name) override { handler_.on_link_up(name); }

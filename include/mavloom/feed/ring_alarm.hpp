@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// RingAlarm: a descriptor that becomes readable when a ring's reader has something to read, for epoll or asyncio.
-// One thread serves all alarms of a process. It starts with the first alarm. Any thread. In a forked child, an alarm of
-// the parent does nothing; it may be destroyed.
+// RingAlarm: a descriptor that becomes readable when a ring's reader has something to read, for epoll or asyncio. One
+// thread serves all alarms of a process; it starts with the first alarm. Any thread may call the functions. In a forked
+// child, an alarm of the parent does nothing, and may be destroyed.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ namespace mavloom::feed {
 
 class RingAlarm {
 public:
-    // Returns how long the reader can be left alone; 0 if something waits for it. It is called with a lock held, also
-    // on the alarm thread. It must neither wait nor call functions of RingAlarm.
+    // Returns how long the alarm thread need not look at the reader again; 0 if the reader has something to read. It is
+    // called with a lock held, also on the alarm thread. It must neither wait nor call functions of RingAlarm.
     using Nap = std::function<Nanoseconds()>;
-    // Returns an alarm whose descriptor is readable, so that the first look at the ring is not missed.
+    // Returns an alarm whose descriptor is already readable, so that the caller looks at the ring once before it waits.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, Nap nap);
     // Ends the thread. Armed alarms, and those that are armed later, become readable at once.
     static void stop_all();
@@ -27,9 +27,9 @@ public:
     RingAlarm& operator=(const RingAlarm&) = delete;
     ~RingAlarm();
 
-    // An eventfd. The alarm closes it; the caller reads it empty.
+    // An eventfd. The alarm closes it; the caller reads it to clear it.
     [[nodiscard]] int fd() const noexcept { return fd_; }
-    // Makes the descriptor readable once, when something waits; at once if something waits already.
+    // Makes the descriptor readable once, as soon as there is something to read.
     void arm();
     // Makes the descriptor readable now.
     void tell() const noexcept;

@@ -56,7 +56,8 @@ public:
     void remove_ring(link::EndpointId ring);
     void hold_ring(link::EndpointId ring, bool held) noexcept;
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // The ring's counters as a link; `add_ring_to` adds them, and the records that were not delivered, to `totals`.
+    // The ring's counters, in the form of a link's. `add_ring_to` adds them to `totals`, together with the counts of
+    // records that were not delivered.
     [[nodiscard]] const link::LinkCounters& ring_counters(link::EndpointId ring) const noexcept;
     void add_ring_to(link::EndpointId ring, Totals& totals) const noexcept;
 
@@ -67,14 +68,14 @@ public:
     // The losses of each source on each current link of a live endpoint or ring.
     [[nodiscard]] std::vector<SourceLoss> losses(link::EndpointId endpoint) const;
 
-    // The same for the ring's link `name` alone. Call it in `on_link_down`, before the link is forgotten.
+    // The losses on one link of the ring, given by its name. Call it in `on_link_down`, before the link is forgotten.
     [[nodiscard]] std::span<const wire::SequenceStats> ring_losses(link::EndpointId ring, const std::string& name) const;
 
     // Runs one turn: first the links, then the rings, then the recordings that are due, earliest record first. Rings
     // and recordings deliver only as many frames as `room` allows. Returns the number of frames delivered.
     std::size_t turn(link::LinkHandler& handler, MonoTime deadline, Room room);
 
-    // Call this at the end: it delivers the frames that had already arrived from live links and rings. It stops after
+    // Delivers the frames that had already arrived from live links and rings. Call it at the end. It stops after
     // several turns in a row without a frame, and reads no more than a full receive buffer holds. It calls `room`
     // before each turn and after the last. Rings deliver only what `room` allows; recordings deliver nothing.
     void drain(link::LinkHandler& handler, const std::function<Room()>& room);
@@ -106,7 +107,7 @@ public:
         record::TlogReader reader;
         record::Pacer pacer;
         wire::SequenceTracker sequence;
-        std::optional<record::Record> next;  // read, but not yet delivered
+        std::optional<record::Record> next;  // already read, not yet delivered
         MonoTime due{};
         bool ended = false;
         std::optional<SetupError> error{};  // set if the recording failed before its end
@@ -118,7 +119,8 @@ private:
     static constexpr std::uint32_t first_recording_id = 0x8000'0000;
 
     Sources(std::unique_ptr<link::Links> links, const wire::MessageTable& table, Copies copies);
-    // Reads the next record of `recording`. Returns false if it met so much damage that links and signals go first.
+    // Reads the next record of `recording`. Returns false if it skipped so much damage that links and signals must be
+    // handled before it continues.
     bool advance(Recording& recording, link::LinkHandler& handler);
     std::size_t play(link::LinkHandler& handler, std::size_t most_frames);
     [[nodiscard]] Recording* earliest() noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Turns: a mutex for threads that wait while they hold it. They wait in slices, and other threads go first between two
-// slices. Any thread. `glance` serves one further thread that must never wait, such as that of RingAlarm.
+// Turns: a mutex for threads that wait for data while they hold it. They wait in slices and let other threads take the
+// mutex between two slices. Any thread may use it. `glance` is for one further thread that must never wait, such as
+// that of RingAlarm.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,8 @@
 
 namespace mavloom::feed {
 
-// The longest wait without a pause. In the pause, callers handle signals and other threads get their turn.
+// The longest wait while holding the mutex. Between two slices, callers handle signals and other threads get their
+// turn.
 inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
 
@@ -29,7 +31,7 @@ class Turns {
 public:
     using Lock = std::unique_lock<std::timed_mutex>;
 
-    // Waits as long as it takes.
+    // Waits until the mutex is free.
     [[nodiscard]] Lock take() {
         const Asking asking(asking_);
         return Lock(mutex_);
@@ -58,7 +60,8 @@ public:
     void give_way() const {
         if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    // Returns `look(is_free)`. If the lock was free, it is held meanwhile. Never waits. One call at a time.
+    // Calls `look(is_free)` and returns its result. If the mutex was free, `glance` holds it during the call. Never
+    // waits. Only one thread may call it at a time.
     [[nodiscard]] auto glance(auto&& look) {
         const Glance glance(glances_);
         const Lock lock(mutex_, std::try_to_lock);

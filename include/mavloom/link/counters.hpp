@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What links and endpoints count, and under which names it is shown. One thread writes; any thread may read values.
+// The counters of links and endpoints, and the names under which they are shown. One thread writes; any thread may read
+// values.
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ struct LinkCounters {
     // Loss on the link itself, from gaps in the sequence numbers received.
     Counter lost, late, duplicate, resync;
     Counter frames_not_sent;  // in datagrams that the kernel rejected
-    // Frames sent to a closed port: those that met an ICMP refusal, and those sent within 1 s of one while the peer
+    // Frames sent to a closed port: those answered by an ICMP refusal, and those sent within 1 s of one while the peer
     // is silent.
     Counter refused;
     void add(const LinkCounters& other) noexcept;
@@ -65,7 +66,7 @@ struct EndpointCounters {
     // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
     Counter peers_refused;
     Counter peers_evicted;  // the longest idle peers, evicted for new ones
-    // Datagrams that met a closed port, as far as ICMP reports it, or that the kernel rejected.
+    // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;
     // Sums over links that no longer exist, plus bad signatures of senders that never became peers. Added to the
@@ -75,7 +76,7 @@ struct EndpointCounters {
     Counter gone_queued;  // frames still queued when their link ended
 };
 
-// The same for endpoints. `gone` and `gone_queued` are shown apart.
+// One counter of an endpoint, with its name. `gone` and `gone_queued` are shown separately.
 struct EndpointCounter {
     std::string_view name;
     Counter EndpointCounters::*word;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The last turns of a program that sends: what is still queued leaves before the links are closed.
+// Sends the frames that are still queued before a program closes its links.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace mavloom::link {
 
 // Runs turns until nothing is queued, for at most `longest`. One more turn then collects the errors of the last
-// datagrams. Frames that arrive meanwhile go to `handler` as in every turn.
+// datagrams. Frames that arrive meanwhile go to `handler` as usual.
 inline void flush(Links& links, LinkHandler& handler, Nanoseconds longest) {
     constexpr Nanoseconds look_again = std::chrono::milliseconds{5};
     const MonoTime end = mono_now() + longest;

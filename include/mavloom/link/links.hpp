@@ -70,7 +70,7 @@ public:
 struct LinkInfo {
     LinkId id;
     EndpointId endpoint;
-    // Unique: the endpoint's label. "#HOST:PORT" of the peer is added if the endpoint can have several.
+    // A unique name: the endpoint's label, followed by the peer's "#HOST:PORT" if the endpoint can have several peers.
     std::string name;
     bool up = false;
     const LinkCounters* counters = nullptr;
@@ -92,7 +92,7 @@ struct EndpointInfo {
     }
 };
 
-// Access to links for code that forwards frames, apart from how the links are opened. Links implements it.
+// The interface for code that forwards frames over links but does not open them. Links implements it.
 class LinkAccess {
 public:
     LinkAccess() = default;
@@ -135,11 +135,11 @@ public:
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
-    // far side (name look-up, connect) continue in the background if they take long.
-    // With `required=true` the call fails if the far side is absent. It waits up to 5 s for a look-up, and up to 5 s
-    // for each TCP connection attempt. After the first turn it never waits, whatever the value of `required`.
-    // An option that live links do not support is an error.
-    // If `dialect` is given, this endpoint's links use it to find and queue frames. It must outlive the endpoint.
+    // far side (name look-up, connect) continue in the background if they take long. With `required=true` the call
+    // fails if the far side is absent. It waits up to 5 s for a look-up, and up to 5 s for each TCP connection attempt.
+    // After the first turn it never waits, whatever the value of `required`. An option that live links do not support
+    // is an error. If `dialect` is given, this endpoint's links use it instead of the dialect of `create` to find and
+    // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
     // From now on, several endpoints without name= may have the same address. The caller distinguishes them by their
@@ -165,8 +165,8 @@ public:
     // if the link is gone or is the only one that its endpoint can have.
     // Must not be called inside a callback; on_link_down is not called for this link.
     bool close(LinkId link);
-    // True if the key files of `sign=` and `verify=` now hold other keys than those in use. False while one of them
-    // cannot be read.
+    // True if a key file of `sign=` or `verify=` now holds a different key from the one in use. False while one of the
+    // files cannot be read.
     [[nodiscard]] bool has_other_keys(EndpointId endpoint) const;
 
     // Runs one turn. It waits for input, output, a timer or `deadline`, reads what has arrived, calls the handler, then
@@ -176,7 +176,7 @@ public:
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
 
     std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override;
-    // The same for one link, and for every active link of an endpoint.
+    // Queue a frame for one link, and for every active link of an endpoint.
     std::size_t send(LinkId link, const wire::FrameView& frame);
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
     std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override;
@@ -184,7 +184,7 @@ public:
     [[nodiscard]] MonoTime now() const noexcept override;
     // True while a queued frame has not been handed to the kernel.
     [[nodiscard]] bool pending() const;
-    // Bytes queued for an endpoint's links. A file source pauses on it instead of overflowing a queue.
+    // Bytes queued for an endpoint's links. A source that reads a file can pause instead of overflowing a queue.
     [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;
 
     // Wakes `turn`. Callable from any thread and from signal handlers.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Formats messages as text for people, as JSON for programs, and as CSV. docs/guide/listen.md describes the three
-// forms. All functions append to the caller's buffer, which is meant to be reused: once it has grown, formatting does
-// not allocate. Pure functions, safe from any thread with separate buffers.
+// forms. All functions append to the caller's buffer. Reuse the buffer: once it has grown, formatting does not
+// allocate. Pure functions, safe from any thread with separate buffers.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,9 +35,9 @@ struct Received {
 // {"time_us":…,"link":"…","sys":1,"comp":1,"seq":7,"id":30,"name":"ATTITUDE","v":2,"signed":false,"fields":{…}}
 void append_json(TextBuffer& out, const Received& received);
 
-// Writes the same output as append_json, but faster, for programs that print many messages.
-// The constructor prepares the keys of every message of a dialect. It allocates; afterwards the object is immutable and
-// safe from any thread. The records of the dialect must outlive it.
+// Writes the same output as append_json, but faster, for programs that print many messages. The constructor prepares
+// the keys of every message of a dialect and allocates. Afterwards the object is immutable and safe from any thread.
+// The records of the dialect must outlive it.
 class JsonFormatter {
 public:
     explicit JsonFormatter(const dialect::Dialect& dialect);
@@ -48,7 +48,7 @@ private:
     struct Step {                  // one field
         std::array<char, 28> key;  // `,"roll":`, or `{"roll":` for the first field
         std::uint8_t key_length;   // 0 if the key does not fit
-        dialect::FieldType type;   // this and the next two as in dialect::Field
+        dialect::FieldType type;   // this and the next two members as in dialect::Field
         std::uint8_t offset;
         std::uint8_t array_length;
     };

@@ -39,8 +39,8 @@ public:
 
     // Return an element of any numeric type, converted:
     // - `number`: as double; 64-bit integers beyond 2^53 lose digits.
-    // - `integer`, `unsigned_integer`: integers convert modulo 2^64; floats are truncated and limited to the range, and
-    //   NaN becomes 0.
+    // - `integer`, `unsigned_integer`: integers convert modulo 2^64. Floats are truncated and limited to the range of
+    //   the result; NaN becomes 0.
     // Use `unsigned_integer` to look up enum entries.
     [[nodiscard]] double number(const dialect::Field& field, std::size_t index = 0) const noexcept;
     [[nodiscard]] std::int64_t integer(const dialect::Field& field, std::size_t index = 0) const noexcept;

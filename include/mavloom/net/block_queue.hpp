@@ -66,8 +66,8 @@ public:
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
 
     // For datagrams. `gather` collects whole blocks, starting at `from`, into as few pieces as possible. It takes at
-    // most `max_bytes` in total, but always takes the first block. It moves `from` behind the last block taken. It
-    // takes no blocks at the end of the queue. After sending, remove the sent blocks with `pop`.
+    // most `max_bytes` in total, but always takes the first block. It moves `from` behind the last block taken. At the
+    // end of the queue it takes no block. After sending, remove the sent blocks with `pop`.
     [[nodiscard]] Position front() const noexcept { return {head_}; }
     [[nodiscard]] Gathered gather(Position& from, std::size_t max_bytes, std::span<iovec> room) const noexcept;
     void pop(Position until) noexcept;
@@ -93,7 +93,7 @@ private:
         std::uint32_t index = 0;
     };
     static constexpr std::size_t first_capacity = 16384;
-    // When a jam is over, the queue frees a larger buffer.
+    // When a jam is over, the queue frees a buffer that is larger than this.
     static constexpr std::size_t kept_capacity = 65536;
 
     Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
@@ -116,7 +116,7 @@ private:
     Limits limits_;
     std::unique_ptr<std::uint8_t[]> memory_;
     std::size_t capacity_ = 0, tail_ = 0;  // bytes
-    std::vector<Entry> entries_;           // oldest first; those before head_ are gone, dropped ones may follow
+    std::vector<Entry> entries_;  // oldest first; entries before head_ are finished; later ones with `live` = false were dropped
     std::size_t head_ = 0;
     std::size_t begun_ = 0;  // bytes of entries_[head_] that a stream has already sent
     std::size_t bytes_ = 0, blocks_ = 0;
@@ -124,9 +124,9 @@ private:
     // Start of the search for the oldest block of each class: no droppable block of that class lies before it.
     std::array<std::size_t, classes> oldest_{};
 
-    // Used only while jammed: from the moment the byte bound is reached until the queue is empty or rewound. `newest_`
-    // maps each key to its newest block. `superseded_` lists the blocks that have a newer one, in the order in which
-    // they were superseded.
+    // Used only while the queue is jammed: from the moment it reaches the byte bound until it is empty or rewound.
+    // `newest_` maps each key to its newest block. `superseded_` lists the blocks that have a newer one, in the order
+    // in which they were superseded.
     bool jammed_ = false;
     std::vector<Newest> newest_;
     std::size_t keys_ = 0;

@@ -96,7 +96,7 @@ private:
     [[nodiscard]] Watch* find(WatchId id) noexcept;
 
     Fd epoll_;
-    Fd alarm_;  // a timerfd, for all but short waits
+    Fd alarm_;  // a timerfd, used for all but short waits
     MonoTime alarm_at_ = MonoTime::max();
     std::shared_ptr<const Fd> wake_;
     std::vector<Watch> watches_;

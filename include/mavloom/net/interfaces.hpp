@@ -25,8 +25,8 @@ public:
     [[nodiscard]] bool contains(const Address& address, MonoTime now);
 
 private:
-    // Addresses change over time (DHCP), so the list is re-read. Without this interval, each unknown address would
-    // cause a read.
+    // Addresses change over time (DHCP), so an unknown address causes the list to be read again, but at most once per
+    // interval.
     static constexpr std::chrono::seconds refresh_interval{1};
 
     std::vector<Address> known_;  // all with port 0

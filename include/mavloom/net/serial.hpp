@@ -43,7 +43,8 @@ public:
     // control could block the close for half a minute.
     void close() noexcept;
 
-    // Changes the baud rate. Discards received bytes that were not read yet, because they came at the old rate.
+    // Changes the baud rate. Discards received bytes that were not read yet, because they were received at the old
+    // rate.
     [[nodiscard]] SetupResult<void> set_baud(std::uint32_t baud);
     // The rate that the driver actually uses, which may differ from the requested one.
     [[nodiscard]] std::uint32_t baud() const noexcept { return baud_; }
@@ -57,7 +58,7 @@ public:
     [[nodiscard]] IoResult<std::size_t> read(ByteSpan room) noexcept;
     // Writes some of the bytes, or returns would_block. Any other error means that the port is gone.
     [[nodiscard]] IoResult<std::size_t> write(std::span<const iovec> pieces) noexcept;
-    // Bytes that the driver holds and has not sent yet (TIOCOUTQ). 0 if the driver does not know.
+    // The number of bytes that the driver has not sent yet (TIOCOUTQ). 0 if the driver does not report it.
     [[nodiscard]] std::size_t unsent_bytes() const noexcept;
 
 private:
@@ -72,8 +73,8 @@ private:
 
 // Finds one serial device again after it was unplugged. It tracks two names: the path that the user gave, and the link
 // in /dev/serial/by-id that led to the open device. The link still leads to the device if it returns under another
-// number. While that link leads to a different device than the user's path, the path is not tried: another device may
-// have taken it.
+// number. While that link and the user's path lead to different devices, the path is not tried, because another device
+// may have taken it.
 class SerialDevice {
 public:
     static constexpr std::string_view default_id_folder = "/dev/serial/by-id";

@@ -31,8 +31,8 @@ struct Datagram {
     WallTime time{};  // set by the kernel (SO_TIMESTAMPNS); the epoch if it gave none
 };
 
-// Buffers for the datagrams of one recvmmsg. A slot holds the longest possible datagram, so none is cut. Memory becomes
-// resident only as far as datagrams are long. Any number of sockets that are read in turn may share one batch.
+// Buffers for the datagrams of one recvmmsg. A slot holds the longest possible datagram, so none is cut. Slots take up
+// memory only as far as datagrams fill them. Several sockets may share one batch if they are read one after the other.
 class ReceiveBatch {
 public:
     static constexpr std::size_t slots = 64;
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] int fd() const noexcept { return fd_.get(); }
     [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(fd_); }
     [[nodiscard]] const Address& local() const noexcept { return local_; }
-    // As the kernel counts it, including the kernel's overhead.
+    // The size as the kernel reports it, which includes its own overhead.
     [[nodiscard]] std::uint64_t receive_buffer_bytes() const noexcept { return receive_buffer_bytes_; }
 
     // Reads the waiting datagrams, at most one batch. Returns would_block if there are none.

@@ -28,14 +28,14 @@ struct TrafficRow {
         WallTime time{};
         std::uint64_t count = 0;
     };
-    Mark older{}, newer{};  // at least rate_window apart, or equal at the start and after the clock was set back
+    Mark older{}, newer{};  // at least rate_window apart; equal at the start and after the clock was set back
     static constexpr Nanoseconds rate_window = std::chrono::seconds{5};
 
     // The average rate between the first and the last frame, in Hz. 0 before the second frame, or if no time has
     // passed.
     [[nodiscard]] double rate_hz() const noexcept;
-    // The rate over the last 5 to 10 s in which frames arrived, in Hz.
-    // After a longer silence, or for rarer messages, at most one frame per gap.
+    // The rate over the last 5 to 10 s, in Hz. For rarer messages, or after a longer silence, at most one frame per
+    // gap.
     [[nodiscard]] double recent_rate_hz(WallTime now) const noexcept;
     [[nodiscard]] Nanoseconds mean_gap() const noexcept;
 };

@@ -48,7 +48,7 @@ public:
     [[nodiscard]] bool wait() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
-    // Writer: an upper bound, because the reader may free entries meanwhile.
+    // Writer: returns an upper bound of the bytes in use, because the reader may free entries meanwhile.
     [[nodiscard]] std::size_t used_bytes() const noexcept;
 
 private:

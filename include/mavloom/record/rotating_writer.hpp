@@ -40,7 +40,7 @@ public:
     // - This record was not taken, because TlogWriter::write failed or the next segment could not be opened.
     // - The last records of the previous segment could not be written when it was closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
-    // Counts a record that the caller stopped trying to write as lost.
+    // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
     [[nodiscard]] SetupResult<void> close();

@@ -86,7 +86,7 @@ private:
     std::uint64_t base_ = 0;           // the file offset of the buffer's first byte
     std::uint64_t size_ = 0;
     std::uint64_t lost_run_ = 0;       // bytes skipped since the last record
-    std::uint64_t examine_until_ = 0;  // file offset; before it, `next_of` skips nothing unchecked
+    std::uint64_t examine_until_ = 0;  // file offset up to which `next_of` checks every record
     bool at_end_ = false;
     std::optional<SetupError> error_;
     ReadCounters counters_;

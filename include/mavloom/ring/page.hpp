@@ -17,7 +17,7 @@
 
 namespace mavloom::ring {
 
-// The counters of a link that the page contains.
+// The link counters that the page contains.
 inline constexpr auto paged_counters = [] {
     constexpr auto count = std::ranges::count_if(link::link_counters, &link::LinkCounter::on_page);
     std::array<link::LinkCounter, static_cast<std::size_t>(count)> paged{};
@@ -35,8 +35,8 @@ public:
 
     void name_link(LinkId link, std::string_view name);
     void link_went(LinkId link);
-    // Adds the link names that a killed router left. They count as closed links. The page forgets the lowest numbers
-    // first.
+    // Adds the link names that a killed router left in its page. These links count as closed. If there are too many,
+    // the page forgets the lowest link numbers first.
     void inherit(const std::map<LinkId, std::string>& names);
 
     struct OfRing {

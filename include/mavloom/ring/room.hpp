@@ -15,7 +15,7 @@ struct Room {
     std::size_t recordings, lossless, lossy;
 };
 
-// Frames that the ring's router marked as a duplicate or an echo are delivered, or left out and counted.
+// Whether frames that the ring's router marked as a duplicate or an echo are delivered, or left out and counted.
 enum class Copies : std::uint8_t { kept, left_out };
 
 }  // namespace mavloom::ring

@@ -57,12 +57,12 @@ public:
     // Returns when to call play next: at once if frames are waiting, provided there is room. Asks the writer to wake
     // this process earlier if it commits a record.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
-    // Makes the current end of the ring the end of reading. Later records stay in the ring.
+    // Reads no further than the current end of the ring. Later records stay in the ring.
     void end_here() noexcept;
     // Returns whether everything up to that end was delivered.
     [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
-    // Paused: the consumer has no room for more frames.
+    // Pauses reading while `held` is true, because the consumer has no room for more frames.
     void hold(bool held) noexcept { held_ = held; }
 
     // Sends a frame to the ring's inlet. Returns true if it was accepted.

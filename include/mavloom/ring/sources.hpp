@@ -30,7 +30,7 @@ public:
     [[nodiscard]] MonoTime due(const Room& room);
     // Delivers the waiting frames. Returns how many.
     std::size_t play(link::LinkHandler& handler, const Room& room);
-    // Makes the current end of each ring the end of reading. Later records stay in the rings.
+    // Reads no further than the current end of each ring. Later records stay in the rings.
     void end_here() noexcept;
     // Returns whether everything up to those ends was delivered.
     [[nodiscard]] bool at_end() const noexcept;
@@ -47,7 +47,7 @@ private:
     Copies copies_;
     shm::RingWaiter waiter_;
     std::vector<std::unique_ptr<RingSource>> rings_;
-    std::vector<std::uint64_t> watched_;  // the opening of each ring that the waiter sleeps on; 0: none
+    std::vector<std::uint64_t> watched_;  // for each ring, the value of opened() that the waiter watches; 0: none
     std::size_t first_ = 0;
     RingLinkIds link_ids_;
 };

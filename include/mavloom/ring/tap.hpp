@@ -34,7 +34,7 @@ public:
     [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
-    // Removes the ring and its page. A router that could not start leaves a ring that existed before.
+    // Removes the ring and its page. If the router could not start, a ring that existed before stays.
     ~RingTap();
 
     // `verified`: the frame came through an endpoint with verify=.

@@ -117,7 +117,7 @@ struct EngineCounters {
     Counter unknown_link;
     Counter routes_learned;  // new, or learned again after they were forgotten
     Counter routes_expired;
-    Counter routes_evicted;  // the stalest route of a full link, or of the link with most routes if the table is full
+    Counter routes_evicted;  // the stalest route of a full link, or, if the table is full, of the link with the most routes
     Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
     Counter reboots;         // restarts of a system, see note_reboot
     Counter duplicate_ids;   // sources heard alternately on links that do not share a group
@@ -189,9 +189,9 @@ public:
                                  MonoTime now) noexcept {
         return route(frame, mark_of(frame), info, ingress, now);
     }
-    // The same, but looks up `info` in the table.
+    // Like `route` above, but looks up `info` in the table.
     [[nodiscard]] Decision route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept;
-    // The same, and fills `why` with the reason for every link, sorted by link id. Allocates.
+    // Like `route`, but also fills `why` with the reason for every link, sorted by link id. Allocates.
     Decision explain(const wire::FrameView& frame, const wire::MessageInfo* info, LinkId ingress, MonoTime now,
                      std::vector<Explanation>& why);
 

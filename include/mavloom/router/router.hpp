@@ -61,12 +61,13 @@ public:
     // Opens a shared-memory ring and its counter page (docs/formats/ring.md). The router writes every good frame that
     // arrives into the ring once, whatever its verdict. The page holds the counters of the links. If a killed router
     // left the ring, this router continues it. `finish` and the destructor remove ring and page. Call once, before the
-    // first turn. Errors as of shm::RingWriter::open.
+    // first turn. Errors are those of shm::RingWriter::open.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
     // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
-    // Removes an endpoint or recording by its label: `name=`, or else the URL without its query. A link's name closes
-    // the link of one peer or client; if it sends again, it gets a new link. Returns false if nothing has that name.
+    // Removes an endpoint or recording by its label: `name=`, or else the URL without its query. If `label` is the name
+    // of a link, closes only that link; if its peer or client sends again, it gets a new link. Returns false if nothing
+    // has that name.
     bool remove(std::string_view label);
     // Applies new [router] values. Links, routes and counters stay.
     void configure(const config::RouterConfig& config);
@@ -80,7 +81,8 @@ public:
 
     void explain(Explainer explainer);
 
-    // Runs one turn of the links, which waits until `deadline` at most. Then runs one posted item and does what is due.
+    // Runs one turn of the links, which waits until `deadline` at most. Then runs one piece of posted work and the
+    // periodic tasks that are due.
     void turn(MonoTime deadline);
     // Handles frames that have already arrived, sends queued frames for at most `limit`, closes the recordings and
     // removes the ring.
@@ -130,7 +132,7 @@ private:
     const dialect::Dialect& dialect_;
     bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
-    // Never null, apart from `ring_`.
+    // Never null, except `ring_`.
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;

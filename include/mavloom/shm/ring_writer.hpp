@@ -31,7 +31,7 @@ struct RingOptions {
     unsigned mode = 0600;  // of a new ring, regardless of the umask; readers that register need write access
 };
 
-// Link numbers from here up are not used for counting links; last_link() ignores them.
+// last_link() ignores link numbers from here up, so that no writer continues its numbering there.
 inline constexpr LinkId end_of_link_numbers{0xf000'0000};
 
 class RingWriter {

@@ -45,8 +45,8 @@ public:
     static constexpr std::size_t max_sources = 4096;
 
     enum class Verdict : std::uint8_t { first, good, gap, late, duplicate, resync, reboot, no_sequence, untracked };
-    // How one frame changed the totals. A gap raises `lost`, and a late frame lowers it by one.
-    // A reboot reverts what its jump in the sequence had counted.
+    // How one frame changed the totals. A gap raises `lost`, and a late frame lowers it by one. A reboot reverts the
+    // counts that its jump in the sequence caused.
     struct Update {
         Verdict verdict = Verdict::good;
         std::int32_t lost = 0, late = 0, duplicate = 0, resync = 0;
@@ -70,7 +70,7 @@ public:
 private:
     // Recent frames remembered per source, to distinguish duplicates from late frames.
     static constexpr std::size_t window = 32;
-    // So many equal sequence numbers in a row mark a sender that does not count.
+    // A sender that repeats its sequence number this many times in a row is taken for one that does not count.
     static constexpr std::uint8_t constant_after = 8;
 
     struct Clock {  // time_boot_ms of one message

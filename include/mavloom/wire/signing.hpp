@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MAVLink 2 message signing: keys, signing outgoing frames, and verifying received ones.
-// A signature is a 48-bit SHA-256 over key and frame, with a timestamp that must rise per (link id, system, component).
-// Signer and Verifier have a single owner thread each and take the time as a parameter. Nothing allocates per frame.
-// A SigningKey wipes its memory when destroyed.
-// Source: MAVLink guide, "Message Signing". Timestamps count 10 µs ticks since 2015-01-01 00:00 UTC.
+// MAVLink 2 message signing: keys, signing outgoing frames, and verifying received ones. A signature is the first 48
+// bits of a SHA-256 over key and frame, with a timestamp that must rise per (link id, system, component). Signer and
+// Verifier have a single owner thread each and take the time as a parameter. Nothing allocates per frame. A SigningKey
+// wipes its memory when destroyed. Source: MAVLink guide, "Message Signing". Timestamps count 10 µs ticks since
+// 2015-01-01 00:00 UTC.
 #pragma once
 
 #include <array>

@@ -76,8 +76,8 @@ public:
     [[nodiscard]] const ParseCounters& counters() const noexcept { return scanner_.counters(); }
 
 private:
-    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead.
-    // If a start byte within it is decided next, that needs as many bytes again.
+    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead. To decide a
+    // start byte within that frame may take as many bytes again.
     static constexpr std::size_t most_kept = max_frame_length + 1;
     static constexpr std::size_t short_chunk = 128;
     // Holds several short chunks, so that the kept bytes are rarely moved.

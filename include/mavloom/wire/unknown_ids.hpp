@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks frames whose message id has no definition, and so no known CRC_EXTRA.
-// Only 256 of the 65,536 possible checksums can result from some CRC_EXTRA, and one source always uses the same one.
+// Checks frames whose message id has no definition, and so no known CRC_EXTRA. For a given frame, only 256 of the
+// 65,536 possible checksums correspond to a CRC_EXTRA, and a source always uses the same CRC_EXTRA for a message id.
 // This class learns that byte per (system, component, id) of one link and then checks frames as if the id were known.
 // One owner thread; at most 256 entries, all allocated at construction.
 #pragma once
@@ -17,7 +17,7 @@ namespace mavloom::wire {
 class UnknownIds {
 public:
     static constexpr std::size_t capacity = 256;
-    // So many agreeing frames confirm a byte, or replace a confirmed one.
+    // This many agreeing frames confirm a byte, or replace a confirmed one.
     static constexpr std::uint8_t confirmations = 3;
 
     enum class Verdict : std::uint8_t {

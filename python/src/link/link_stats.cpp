@@ -17,10 +17,10 @@ std::vector<std::string> hints_of(const dialect::Dialect& dialect, const LinkSta
     for (const auto& [id, errors] : stats.crc_errors) {
         const auto* message = dialect.find(id);
         if (message != nullptr && errors.always && errors.count >= enough)
-            hints.push_back(
-                fmt::format("all {} frames of {} ({}) failed their checksum: their sender has another "
-                            "definition of it; give the link his, dialect=mavloom.Dialect(\"his.xml\")",
-                            errors.count, message->name, id.value));
+            hints.push_back(fmt::format(
+                "all {} frames of {} ({}) failed their checksum: their sender has another "
+                "definition of it; pass that definition to the link: dialect=mavloom.Dialect(\"theirs.xml\")",
+                errors.count, message->name, id.value));
     }
     return hints;
 }
@@ -68,19 +68,21 @@ auto of_source() {
 
 void bind_source_stats(nb::module_& module) {
     using S = wire::SequenceStats;
-    nb::class_<SourceStats>(module, "SourceStats", nb::is_final(),
-                            "What one source lost on one link, by its sequence numbers: late and doubled frames are no "
-                            "loss.")
+    nb::class_<SourceStats>(
+        module, "SourceStats", nb::is_final(),
+        "The loss of one source on one link, derived from sequence numbers. Late and duplicate frames do\n"
+        "not count as lost.")
         .def_prop_ro(
             "link_name", [](const SourceStats& s) { return s.link; },
-            "The link's name; links of one name that went and came are one.")
+            "The link's name. Successive links of the same name share one entry.")
         .def_prop_ro("sys", [](const SourceStats& s) { return s.stats.source.system.value; })
         .def_prop_ro("comp", [](const SourceStats& s) { return s.stats.source.component.value; })
-        .def_prop_ro("received", of_source<&S::received>(), "Frames, late and doubled ones included.")
+        .def_prop_ro("received", of_source<&S::received>(), "All frames received, including late and duplicate ones.")
         .def_prop_ro("lost", of_source<&S::lost>())
         .def_prop_ro("late", of_source<&S::late>())
         .def_prop_ro("duplicate", of_source<&S::duplicate>())
-        .def_prop_ro("resync", of_source<&S::resync>(), "Jumps too long to be loss: a reboot.")
+        .def_prop_ro("resync", of_source<&S::resync>(),
+                     "Sequence jumps that are too large to be loss, such as a reboot.")
         .def("__repr__", &counters_repr);
 }
 
@@ -91,45 +93,56 @@ void bind_link_stats(nb::module_& module) {
     using E = link::EndpointCounters;
     using T = feed::Totals;
     bind_source_stats(module);
-    nb::class_<LinkStats>(module, "LinkStats", nb::is_final(),
-                          "A link's counters, over all its peers, those that went included. Every loss has a name.")
-        .def_ro("peers", &LinkStats::peers, "Peers or clients that are there now.")
+    nb::class_<LinkStats>(
+        module, "LinkStats", nb::is_final(),
+        "The counters of a link, summed over all its peers, including closed ones. Every kind of loss has\n"
+        "a counter.")
+        .def_ro("peers", &LinkStats::peers, "Peers or clients that are connected now.")
         .def_prop_ro("frames_in", of_links<&L::frames_in>())
         .def_prop_ro("bytes_in", of_links<&L::bytes_in>())
         .def_prop_ro("frames_out", of_links<&L::frames_out>())
         .def_prop_ro("bytes_out", of_links<&L::bytes_out>())
         .def_ro("missed", &LinkStats::missed,
-                "Frames that the link's own reader was too slow for: overwritten in the buffer.")
+                "Frames that were overwritten in the buffer because the link's own reader was too slow.")
         .def_ro("not_kept", &LinkStats::not_kept,
-                "Messages that `latest` does not know: it keeps 16,384 of different source, id and instance.")
-        .def_ro("no_peer", &LinkStats::no_peer, "Messages that `send` had nobody for.")
-        .def_ro("answers", &LinkStats::answers, "Frames that programs sent by the inlet of `serve_inlet`.")
-        .def_ro("unheard_answers", &LinkStats::unheard_answers, "Of those, the ones that nobody was there for.")
+                "Messages that `latest` does not keep. It keeps one for each source, id and instance, up to\n"
+                "16,384.")
+        .def_ro("no_peer", &LinkStats::no_peer, "Messages that `send` did not send because there was no peer.")
+        .def_ro("answers", &LinkStats::answers, "Frames that programs sent to the inlet of `serve_inlet`.")
+        .def_ro("unheard_answers", &LinkStats::unheard_answers,
+                "Those of `answers` that were dropped because there was no peer.")
         .def_prop_ro("lost", of_links<&L::lost>(),
-                     "Lost on the way here, by sequence numbers; late and doubled frames are no loss.")
+                     "Frames lost before they arrived, by sequence numbers. Late and duplicate frames do not count as\n"
+                     "lost.")
         .def_prop_ro("late", of_links<&L::late>())
         .def_prop_ro("duplicate", of_links<&L::duplicate>())
-        .def_prop_ro("resync", of_links<&L::resync>(), "Jumps too long to be loss: a reboot.")
-        .def_prop_ro("kernel_drop", of_endpoint<&E::kernel_drop>(), "Datagrams that the kernel had no room for.")
-        .def_prop_ro("crc_error", of_links<&L::crc_error>(), "Damaged, or made with another definition.")
+        .def_prop_ro("resync", of_links<&L::resync>(), "Sequence jumps that are too large to be loss, such as a reboot.")
+        .def_prop_ro("kernel_drop", of_endpoint<&E::kernel_drop>(),
+                     "Datagrams that the kernel dropped because the receive buffer was full.")
+        .def_prop_ro("crc_error", of_links<&L::crc_error>(),
+                     "Frames with a wrong checksum: damaged, or encoded with another definition.")
         .def_prop_ro("crc_error_ids", &crc_error_ids, nb::sig("def crc_error_ids(self) -> dict[int, int]"),
-                     "The same by the message's id.")
-        .def_prop_ro("sources", &source_stats, "What each source lost on each link: a list of SourceStats.")
+                     "`crc_error` by message id.")
+        .def_prop_ro("sources", &source_stats, "The loss of each source on each link, as a list of SourceStats.")
         .def_prop_ro("lapped", of_ring<&T::lapped>(), "Records of a ring that were overwritten before they were read.")
-        .def_prop_ro("bad_records", of_ring<&T::bad_records>(), "Records of a ring that held no whole valid frame.")
-        .def_prop_ro("other_kinds", of_ring<&T::other_kinds>(), "Records of a ring that are no MAVLink by their kind.")
-        .def_prop_ro("echo", of_ring<&T::echo>(), "Records of a ring that hold what was sent from here: left out.")
-        .def_ro("hints", &LinkStats::hints, "What to look at, in words: a message whose checksum never agrees.")
+        .def_prop_ro("bad_records", of_ring<&T::bad_records>(), "Records of a ring that contained no whole valid frame.")
+        .def_prop_ro("other_kinds", of_ring<&T::other_kinds>(), "Records of a ring whose kind is not MAVLink.")
+        .def_prop_ro("echo", of_ring<&T::echo>(),
+                     "Records of a ring that this link itself sent to the inlet; they are not returned as messages.")
+        .def_ro("hints", &LinkStats::hints,
+                "Advice on what to check, as text, for example a message whose checksum is always wrong.")
         .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>())
         .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>())
         .def_prop_ro("unknown_flags", of_links<&L::unknown_flags>())
         .def_prop_ro("bad_signature", of_links<&L::bad_signature>())
         .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>())
         .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>())
-        .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(), "Frames dropped on the way out: the queue was full.")
-        .def_prop_ro("queue_age", of_links<&L::queue_age>(), "Frames dropped on the way out: too old.")
-        .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Frames that the kernel refused.")
-        .def_prop_ro("refused", of_links<&L::refused>(), "Frames sent to a closed port: nobody listens there.")
+        .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(),
+                     "Outgoing frames that were dropped because the queue was full.")
+        .def_prop_ro("queue_age", of_links<&L::queue_age>(),
+                     "Outgoing frames that were dropped because they were too old.")
+        .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Outgoing frames that the kernel rejected.")
+        .def_prop_ro("refused", of_links<&L::refused>(), "Frames sent to a port on which no program listens.")
         .def_prop_ro("reconnects", of_endpoint<&E::reconnects>())
         .def("__repr__", &counters_repr);
 }

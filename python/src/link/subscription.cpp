@@ -179,36 +179,35 @@ static constexpr const char* match_signature =
     "Message | None";
 
 void bind_subscription(nb::module_& module) {
-    nb::class_<Subscription>(module, "Subscription", nb::type_slots(iterator_slots<Subscription>), nb::is_final(),
-                             "Messages of a link from the moment it was made, for one reader: iterate, `async for` "
-                             "(one at a time), or `recv`. A reader that is slower than the\n"
-                             "link's buffer allows misses the oldest ones and is told how many. Any thread. Iteration "
-                             "ends when the link is closed.")
+    nb::class_<Subscription>(
+        module, "Subscription", nb::type_slots(iterator_slots<Subscription>), nb::is_final(),
+        "One reader of a link's messages, from the moment it was created. Use iteration, `async for` (one\n"
+        "task at a time), or `recv`.\n\n"
+        "A reader that is slower than the link's buffer allows misses the oldest messages; `missed`\n"
+        "counts them. Safe from any thread. Iteration ends when the link is closed.")
         .def("recv", &Subscription::recv, nb::arg("timeout") = nb::none(),
              nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
-             "The next message; None after `timeout` seconds (0 polls, None waits for ever). ClosedError when the link "
-             "is closed.")
+             "Returns the next message, or None after `timeout` seconds (0 polls, None waits indefinitely).\n"
+             "Raises ClosedError when the link is closed.")
         .def("recv_match", &Subscription::recv_match, nb::arg("condition") = nb::none(), nb::arg("type") = nb::none(),
              nb::arg("blocking") = false, nb::arg("timeout") = nb::none(), nb::arg("system") = nb::none(),
              nb::arg("component") = nb::none(), nb::sig(match_signature),
-             "The next message of these types for which `condition(message)` is true; what comes before it is passed "
-             "over. None when there is none: at once,\n"
-             "or with `blocking` after `timeout` seconds.")
+             "Returns the next message of these types for which `condition(message)` is true, and skips those\n"
+             "before it. Returns None if there is none: at once, or with `blocking` after `timeout` seconds.")
         .def("check_target", &Subscription::check_target, nb::arg("ring"),
-             "UsageError for the name of the ring that is read: `pump` would fill it with itself.")
-        .def(
-            "pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
-            nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
-            "Writes the frames that arrive into a ring, in C++ and without the GIL, for `timeout` seconds (None: "
-            "until the "
-            "link is closed). Returns how many. Each record is a\n"
-            "whole frame of kind 1 with its receive time and link; `verdict` is 0 unsigned, 16 signed and not checked, "
-            "32 signed and verified, as docs/formats/ring.md has it. What a full ring has no room for stays with\n"
-            "the reader.")
+             "Raises UsageError if this link reads the ring: `pump` would write the ring's own records into it\n"
+             "again.")
+        .def("pump", &Subscription::pump, nb::arg("writer"), nb::arg("timeout") = nb::none(),
+             nb::sig("def pump(self, writer: RingWriter, timeout: float | None = None) -> int"),
+             "Writes the frames that arrive to a ring, for `timeout` seconds (None: until the link is closed).\n"
+             "Works in C++ without the GIL. Returns the number of frames written.\n\n"
+             "Each record is a whole frame of kind 1 with its receive time and link. `verdict` is 0 for\n"
+             "unsigned, 16 for signed but not checked, 32 for signed and verified (docs/formats/ring.md).\n"
+             "Frames for which a full ring has no room stay with this reader.")
         .def("event_fd", &Subscription::event_fd)
-        .def_prop_ro("missed", &Subscription::missed,
-                     "Frames of the link that were overwritten before this reader came to them.")
-        .def("close", &Subscription::close, "Wakes who waits; may be called again.")
+        .def_prop_ro("missed", &Subscription::missed, "Frames that were overwritten before this reader read them.")
+        .def("close", &Subscription::close,
+             "Closes the reader and wakes the threads that wait on it. May be called again.")
         .def(
             "__aiter__", [](nb::handle self) { return nb::module_::import_("mavloom._async").attr("messages")(self); },
             nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Message, None]"));

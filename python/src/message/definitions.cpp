@@ -52,24 +52,27 @@ void bind_infos(nb::module_& module) {
             "type", [](const FieldInfo& f) { return type_name(f.field->type); },
             "\"uint16_t\", \"float\", \"char\", ...")
         .def_prop_ro(
-            "array_length", [](const FieldInfo& f) { return f.field->array_length; }, "0: a scalar.")
+            "array_length", [](const FieldInfo& f) { return f.field->array_length; },
+            "The number of elements; 0 for a scalar.")
         .def_prop_ro(
-            "units", [](const FieldInfo& f) { return f.field->units; }, "\"rad/s\"; empty for none.")
+            "units", [](const FieldInfo& f) { return f.field->units; },
+            "For example \"rad/s\"; empty if the field has no unit.")
         .def_prop_ro(
             "enum",
             [](const FieldInfo& f) {
                 return f.field->enumeration == nullptr ? std::string_view() : f.field->enumeration->name;
             },
-            "The enum's name; empty for a plain number.")
+            "The name of the enum; empty if the field has none.")
         .def_prop_ro("bitmask", [](const FieldInfo& f) { return f.field->bitmask; })
         .def_prop_ro(
             "invalid", [](const FieldInfo& f) { return f.field->invalid; },
-            "The definition's text for \"no value\"; empty for none.")
+            "The definition's text for \"no value\"; empty if there is none.")
         .def_prop_ro(
-            "extension", [](const FieldInfo& f) { return f.field->extension; }, "Absent in MAVLink 1.")
+            "extension", [](const FieldInfo& f) { return f.field->extension; },
+            "Whether it is an extension field, which MAVLink 1 cannot carry.")
         .def_prop_ro(
             "instance", [](const FieldInfo& f) { return f.field->instance; },
-            "Tells apart several sensors of one message.")
+            "Whether this field distinguishes several sensors in one message.")
         .def("__repr__", [](const FieldInfo& f) {
             return f.field->is_array()
                        ? fmt::format("<{} {}[{}]>", type_name(f.field->type), f.field->name, f.field->array_length)
@@ -81,7 +84,7 @@ void bind_infos(nb::module_& module) {
         .def_prop_ro("crc_extra", [](const MessageInfo& m) { return m.message->wire.crc_extra; })
         .def_prop_ro(
             "max_length", [](const MessageInfo& m) { return m.message->wire.max_length; },
-            "Bytes of payload with all fields.")
+            "The length of the payload with all fields, in bytes.")
         .def_prop_ro(
             "fields",
             [](const MessageInfo& m) {
@@ -89,7 +92,7 @@ void bind_infos(nb::module_& module) {
                 for (const auto& field : m.message->fields) fields.push_back({m.owner, &field});
                 return fields;
             },
-            "In the order of the definition.")
+            "The fields in the order of the definition.")
         .def("__repr__", [](const MessageInfo& m) {
             return fmt::format("<message {} {}>", m.message->name, m.message->id().value);
         });
@@ -246,9 +249,10 @@ void bind_dialect(nb::module_& module) {
     bind_infos(module);
     nb::class_<PyDialect>(
         module, "Dialect", nb::is_final(),
-        "Message definitions: the built-in ones, with those of an XML file (and of what it includes) added or in their "
-        "place. A process may\n"
-        "hold several; immutable, any thread. InputError names file and line of what is wrong in the XML.")
+        "Message definitions: the built-in ones. If `path` is given, the definitions of that XML file and\n"
+        "its includes are added, or replace built-in ones.\n\n"
+        "A process may hold several. Immutable and safe from any thread. InputError names file and line\n"
+        "of an error in the XML.")
         .def(
             "__init__",
             [](PyDialect* self, const nb::object& path) {
@@ -264,7 +268,8 @@ void bind_dialect(nb::module_& module) {
             nb::sig("def __init__(self, path: str | os.PathLike[str] | None = None) -> None"))
         .def_prop_ro("path", &path_or_none, nb::sig("def path(self) -> str | None"),
                      "The XML file; None for the built-in definitions.")
-        .def_prop_ro("message_names", &message_names, nb::sig("def message_names(self) -> list[str]"), "By rising id.")
+        .def_prop_ro("message_names", &message_names, nb::sig("def message_names(self) -> list[str]"),
+                     "The message names, by ascending id.")
         .def_prop_ro("enum_names", &enum_names, nb::sig("def enum_names(self) -> list[str]"))
         .def("enum_entries", &enum_entries,
              nb::sig("def enum_entries(self, name: str, /) -> tuple[bool, dict[str, int]]"))
@@ -274,14 +279,16 @@ void bind_dialect(nb::module_& module) {
                 return nb::module_::import_("mavloom._enums").attr("make")(self, name);
             },
             nb::arg("name"), nb::sig("def enum(self, name: str) -> type[IntEnum] | type[IntFlag]"),
-            "The enum as a class: an IntFlag for flags, else an IntEnum. UsageError names the nearest.")
+            "Returns the enum as a class: an IntFlag for flags, else an IntEnum. UsageError suggests the\n"
+            "nearest name.")
         .def_prop_ro(
             "enums", [](nb::handle self) { return nb::module_::import_("mavloom._enums").attr("Enums")(self); },
             nb::sig("def enums(self) -> collections.abc.Mapping[str, collections.abc.Mapping[int, IntEnum | "
                     "IntFlag]]"),
-            "pymavlink's form: dialect.enums[\"MAV_CMD\"][16].name.")
+            "The enums in pymavlink's form: dialect.enums[\"MAV_CMD\"][16].name.")
         .def("__getitem__", &find, nb::sig("def __getitem__(self, name_or_id: str | int, /) -> MessageInfo"),
-             "The definition of a message; UsageError (a ValueError) with the nearest name where there is none.")
+             "Returns the definition of a message. For an unknown name, raises UsageError (a ValueError) that\n"
+             "suggests the nearest one.")
         .def("__contains__", &contains, nb::sig("def __contains__(self, name_or_id: str | int, /) -> bool"))
         .def(
             "__len__", [](const PyDialect& d) { return d.definitions->dialect().messages().size(); },
@@ -293,21 +300,23 @@ void bind_dialect(nb::module_& module) {
                  "def encode(self, message: str | Message, /, *, source_system: int | None = None, source_component: "
                  "int | None = None, "
                  "frame_seq: int | None = None, frame_version: int | None = None, **fields: typing.Any) -> bytes"),
-             "One whole frame. `message` is a name, whose header defaults to 255/193, sequence 0, MAVLink 2; or a "
-             "Message, whose header and\n"
-             "fields stand where they are not given (encode(decode(frame)) == frame for unsigned frames).\n\n"
-             "Fields that are left out are 0. Numbers, names of enum entries (\"A|B\" for flags), str (as UTF-8) or "
-             "bytes for char[], any sequence\n"
-             "of the right length for arrays. What does not fit is a UsageError (a ValueError) that names message, "
-             "field and range.")
+             "Returns one whole frame. `message` is a name or a Message.\n\n"
+             "- For a name, the header defaults to 255/193, sequence 0, MAVLink 2, and fields that are not\n"
+             "  given are 0.\n"
+             "- For a Message, header and fields that are not given are those of the Message.\n"
+             "  encode(decode(frame)) == frame for unsigned frames.\n\n"
+             "Values are numbers or names of enum entries (\"A|B\" for flags), str (encoded as UTF-8) or bytes\n"
+             "for char[], and sequences of the right length for arrays. A value that does not fit raises\n"
+             "UsageError (a ValueError) that names message, field and range.")
         .def("message", &make, nb::arg(), nb::arg("fields"),
              nb::sig("def message(self, name: str | Message, /, **fields: typing.Any) -> Message"),
-             "A Message that was not received: header 255/193, time 0. Fields as in `encode`.")
+             "Returns a Message with header 255/193 and time 0. Fields are given as for `encode`.")
         .def("decode", &decode_bytes, nb::arg("frame"), nb::arg("time_ns") = 0,
              nb::sig("def decode(self, frame: Buffer, time_ns: int = 0) -> Message"),
-             "The Message in one whole frame (any bytes-like object, copied). InputError where the bytes are no frame "
-             "or the checksum is wrong.\n"
-             "An id without definition gives a Message without name and fields. A signature is not checked.")
+             "Decodes one whole frame (any bytes-like object, which is copied). Raises InputError if the bytes\n"
+             "are not exactly one frame or the checksum is wrong.\n\n"
+             "A frame whose id has no definition gives a Message without name and fields. Signatures are not\n"
+             "checked.")
         .def(
             "__reduce__",
             [](nb::handle self) {

@@ -275,18 +275,19 @@ PyType_Slot slots[] = {
 
 // Adds the names that pymavlink's messages have.
 void bind_pymavlink_names(nb::class_<Message>& type) {
-    type.def("get_type", &type_of, "The name; \"UNKNOWN_<id>\" for an id without definition.")
-        .def("get_msgId", from_frame<frame_id>(), "As `id`.")
-        .def("get_srcSystem", from_frame<system_of>(), "As `sys`.")
-        .def("get_srcComponent", from_frame<component_of>(), "As `comp`.")
-        .def("get_seq", from_frame<sequence_of>(), "As `seq`.")
+    type.def("get_type", &type_of, "The name, or \"UNKNOWN_<id>\" for an id without definition.")
+        .def("get_msgId", from_frame<frame_id>(), "The same as `id`.")
+        .def("get_srcSystem", from_frame<system_of>(), "The same as `sys`.")
+        .def("get_srcComponent", from_frame<component_of>(), "The same as `comp`.")
+        .def("get_seq", from_frame<sequence_of>(), "The same as `seq`.")
         .def("get_fieldnames", &list_of_fields, nb::sig("def get_fieldnames(self) -> list[str]"),
              "The fields' names in the order of the definition.")
-        .def("get_msgbuf", from_frame<frame_bytes>(), "As `frame`.")
-        .def("get_payload", from_frame<payload_bytes>(), "The payload as it was sent: MAVLink 2 cuts zeros at its end.")
+        .def("get_msgbuf", from_frame<frame_bytes>(), "The same as `frame`.")
+        .def("get_payload", from_frame<payload_bytes>(),
+             "The payload as it was sent. MAVLink 2 senders cut trailing zeros.")
         .def(
             "get_signed", [](const Message& m) { return is_verified(m); },
-            "Whether the signature was verified; `signed` says whether there is one.")
+            "Whether the signature was verified. `signed` is true for any signed frame.")
         .def("get_header", &header_of, "The header's values under pymavlink's names.")
         .def_prop_ro(
             "_timestamp",
@@ -294,15 +295,16 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
                 const auto microseconds = m.time_ns / 1000;
                 return static_cast<double>(microseconds) * 1e-6;
             },
-            "`time_ns` in seconds, of whole microseconds.")
+            "`time_ns` in seconds, truncated to whole microseconds.")
         .def_prop_ro(
-            "_link", [](const Message& m) { return m.link; }, "As `link`.")
+            "_link", [](const Message& m) { return m.link; }, "The same as `link`.")
         .def_prop_ro(
             "fieldunits_by_name", [](const Message& m) { return texts_by_name(m, unit_of); },
-            nb::sig("def fieldunits_by_name(self) -> dict[str, str]"), "{field: unit} where there is one.")
+            nb::sig("def fieldunits_by_name(self) -> dict[str, str]"), "{field: unit} for the fields that have a unit.")
         .def_prop_ro(
             "fieldenums_by_name", [](const Message& m) { return texts_by_name(m, enum_of); },
-            nb::sig("def fieldenums_by_name(self) -> dict[str, str]"), "{field: enum} where there is one.");
+            nb::sig("def fieldenums_by_name(self) -> dict[str, str]"),
+            "{field: enum} for the fields that have an enum.");
 }
 
 }  // namespace
@@ -312,54 +314,58 @@ void bind_message(nb::module_& module) {
         .def_ro("msgId", &Header::msgId)
         .def_ro("incompat_flags", &Header::incompat_flags)
         .def_ro("compat_flags", &Header::compat_flags)
-        .def_ro("mlen", &Header::mlen, "Bytes of payload.")
+        .def_ro("mlen", &Header::mlen, "The length of the payload in bytes.")
         .def_ro("seq", &Header::seq)
         .def_ro("srcSystem", &Header::srcSystem)
         .def_ro("srcComponent", &Header::srcComponent);
 
     nb::class_<Message> type(
         module, "Message", nb::type_slots(slots), nb::is_final(),
-        "One message: a frame with its time and link. Fields are attributes (`msg.roll`) and items (`msg[\"roll\"]`), "
-        "decoded when they are read:\n"
-        "numbers as int and float, char[] as str without the NULs at its end (what is no UTF-8 becomes U+FFFD; `raw()` "
-        "has the bytes), arrays as\n"
-        "lists. What the sender cut off is 0. Where a field has the name of an attribute listed here (name, id, seq, "
-        "version, frame), the attribute\n"
-        "stands and the field is an item.\n\n"
-        "Immutable, safe from any thread, hashable; equal when the frames are. Can be copied and pickled.");
+        "One message: a frame with its time and link.\n\n"
+        "Fields are attributes (`msg.roll`) and items (`msg[\"roll\"]`), decoded when they are read.\n"
+        "Numbers are int or float, and arrays are lists. char[] is str without trailing NULs; bytes that\n"
+        "are not UTF-8 become U+FFFD, and `raw()` returns the original bytes. Trailing zeros that the\n"
+        "sender cut off are restored.\n\n"
+        "If a field has the same name as an attribute listed here (name, id, seq, version, frame), it is\n"
+        "available as an item only.\n\n"
+        "Immutable, safe from any thread, and hashable. Messages are equal if their frames are. Can be\n"
+        "copied and pickled.");
     type.def_prop_ro("name", &name_of, nb::sig("def name(self) -> str | None"),
-                     "\"ATTITUDE\"; None for an id without definition.")
+                     "For example \"ATTITUDE\"; None for an id without definition.")
         .def_prop_ro("id", from_frame<frame_id>(), "The message's id.")
         .def_prop_ro("sys", from_frame<system_of>(), "The sender's system id.")
         .def_prop_ro("comp", from_frame<component_of>(), "The sender's component id.")
         .def_prop_ro("seq", from_frame<sequence_of>(), "The frame's sequence number, 0 to 255.")
         .def_prop_ro(
-            "link", [](const Message& m) { return m.link; }, "The number of the link it arrived on; 0 of a recording.")
+            "link", [](const Message& m) { return m.link; },
+            "The number of the link on which it arrived; 0 for a recording.")
         .def_prop_ro(
             "link_name", [](const Message& m) { return m.origin->link_name(m.link); }, "The link's name.")
         .def_prop_ro(
             "time_ns", [](const Message& m) { return m.time_ns; },
-            "Receive time, Unix time in ns: the kernel's for sockets, the recorded one (whole µs) for recordings.")
+            "Receive time: Unix time in ns. For sockets, the kernel's time; for recordings, the recorded time\n"
+            "in whole µs.")
         .def_prop_ro("version", from_frame<frame_version>(), "MAVLink 1 or 2.")
         .def_prop_ro("signed", from_frame<is_signed>(), "Whether the frame carries a signature.")
-        .def_prop_ro("signature", &signature_verdict,
-                     nb::sig("def signature(self) -> typing.Literal['none', 'good', 'bad', 'unchecked']"),
-                     "\"good\" where the link, or the router whose ring it comes from, has a key and the signature "
-                     "agrees, \"unchecked\" without key, \"none\" "
-                     "without signature.")
+        .def_prop_ro(
+            "signature", &signature_verdict,
+            nb::sig("def signature(self) -> typing.Literal['none', 'good', 'bad', 'unchecked']"),
+            "\"good\" or \"bad\": the signature was checked, by the link or by the router that wrote the ring.\n"
+            "\"unchecked\": there was no key. \"none\": the frame has no signature.")
         .def_prop_ro("verdict", &route_verdict, nb::sig("def verdict(self) -> str | None"),
-                     "What the router whose ring it comes from did with it: \"forwarded\", \"duplicate\", \"echo\", "
-                     "\"filtered\", ...; None of other links, and where nobody said.")
+                     "For a message from a router's ring, what the router did with it: \"forwarded\", \"duplicate\",\n"
+                     "\"echo\", \"filtered\", ... None for other links, and if the writer stored no verdict.")
         .def_prop_ro("frame", from_frame<frame_bytes>(), "The whole frame as it arrived.")
         .def_prop_ro(
             "dialect", [](const Message& m) { return PyDialect{m.origin->definitions()}; },
-            "The definitions it is decoded with.")
+            "The definitions that decode it.")
         .def("raw", &raw, nb::arg("field"), "The bytes of a field in their full length, as on the wire.")
         .def("to_dict", &to_dict, nb::sig("def to_dict(self) -> dict[str, typing.Any]"),
              "{\"mavpackettype\": name, field: value, ...}")
-        .def("to_json", &to_json, "One JSON object, strict: the line that `mavloom listen --json` prints.")
+        .def("to_json", &to_json, "One strict JSON object: the line that `mavloom listen --json` prints.")
         .def("__getitem__", &item, nb::arg("field"), nb::sig("def __getitem__(self, field: str, /) -> typing.Any"),
-             "The value of a field; UsageError (a ValueError) with the nearest name where there is none.")
+             "Returns the value of a field. For an unknown name, raises UsageError (a ValueError) that\n"
+             "suggests the nearest one.")
         .def("__contains__",
              [](const Message& m, std::string_view field) {
                  return m.definition != nullptr && m.definition->find(field) != nullptr;

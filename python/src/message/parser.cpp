@@ -65,23 +65,24 @@ auto counter() {
 void bind_parser(nb::module_& module) {
     using wire::ParseCounters;
     nb::class_<Parser>(module, "Parser", nb::is_final(),
-                       "Finds the messages of a byte stream. How it is cut into chunks does not change what is found. "
-                       "Damage is counted, never raised. Any\n"
-                       "thread, one at a time; the GIL is free while parsing.")
+                       "Finds the messages in a byte stream. The result does not depend on how the stream is cut into\n"
+                       "chunks. Damage is counted and raises nothing. Safe from any thread, one at a time. The GIL is\n"
+                       "free while parsing.")
         .def(nb::init<const nb::object&>(), nb::arg("dialect") = nb::none(),
              nb::sig("def __init__(self, dialect: Dialect | None = None) -> None"))
         .def("feed", &Parser::feed, nb::arg("data"), nb::arg("time_ns") = 0,
              nb::sig("def feed(self, data: Buffer, time_ns: int = 0) -> list[Message]"),
-             "The messages that end in this chunk (any bytes-like object); they get this time.")
+             "Returns the messages that end in this chunk (any bytes-like object), all with this time.")
         .def("finish", &Parser::finish, nb::arg("time_ns") = 0,
              nb::sig("def finish(self, time_ns: int = 0) -> list[Message]"),
-             "The stream has ended: what was held back becomes messages or junk.")
-        .def_prop_ro("frames", counter<&ParseCounters::frames>(), "Good frames.")
-        .def_prop_ro("unknown_ids", counter<&ParseCounters::unknown_ids>(), "Of these, without definition.")
-        .def_prop_ro("crc_error", counter<&ParseCounters::crc_error>(),
-                     "What looked like a frame and had a wrong checksum.")
+             "Ends the stream: returns the messages in the bytes that were held back, and counts the rest as\n"
+             "junk.")
+        .def_prop_ro("frames", counter<&ParseCounters::frames>(), "The number of valid frames.")
+        .def_prop_ro("unknown_ids", counter<&ParseCounters::unknown_ids>(),
+                     "Valid frames whose id has no definition; `frames` includes them.")
+        .def_prop_ro("crc_error", counter<&ParseCounters::crc_error>(), "Apparent frames with a wrong checksum.")
         .def_prop_ro("unknown_flags", counter<&ParseCounters::unknown_flags>(),
-                     "Frames with an undefined incompatibility flag: left out.")
+                     "Frames that were left out because of an undefined incompatibility flag.")
         .def_prop_ro("junk_bytes", counter<&ParseCounters::junk_bytes>(), "Bytes that belong to no frame.")
         .def("__repr__", &counters_repr);
 }

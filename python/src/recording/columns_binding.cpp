@@ -130,14 +130,16 @@ void bind_columns(nb::module_& module) {
             "def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
             "instance: int | str | None, "
             "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
-        "((times, systems, components, {field: values}), bytes of damage): what mavloom.columns() is made of.");
+        "Returns ((times, systems, components, {field: values}), bytes of damage), from which\n"
+        "mavloom.columns() makes its result.");
     module.def("read_tables", &read_tables_of, nb::arg("path"), nb::arg("type").none(), nb::arg("system").none(),
                nb::arg("component").none(), nb::arg("dialect").none(),
                nb::sig("def read_tables(path: str | os.PathLike[str], type: MessageTypes | None, system: int | None, "
                        "component: int | None, "
                        "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
                        "dict[str, typing.Any]]], int]"),
-               "({message: as read_columns}, bytes of damage): what mavloom.tables() is made of.");
+               "Returns ({message: as in read_columns}, bytes of damage), from which mavloom.tables() makes its\n"
+               "result.");
 }
 
 }  // namespace mavloom::python

@@ -89,7 +89,7 @@ private:
     static constexpr std::size_t batch_frames = 512;
     static constexpr std::uint64_t most_damage = 1 << 20;  // bytes to read before signals are handled
 
-    // When a call gives up. A poll (time-out 0) looks at everything that is there: for a file, all of it.
+    // When a call gives up. A poll (time-out 0) looks at everything that is available: for a file, all of it.
     struct Limit {
         Limit() = default;
         explicit Limit(const nb::object& timeout) {
@@ -181,23 +181,25 @@ private:
 }  // namespace
 
 void bind_recording(nb::module_& module) {
-    nb::class_<RecordingStats>(module, "RecordingStats", "What was read so far. Every byte of the file is counted once.")
+    nb::class_<RecordingStats>(module, "RecordingStats", "What was read so far. Every byte of the file counts once.")
         .def_ro("records", &RecordingStats::records)
         .def_ro("record_bytes", &RecordingStats::record_bytes)
-        .def_ro("unknown_ids", &RecordingStats::unknown_ids, "Of the records: without definition.")
+        .def_ro("unknown_ids", &RecordingStats::unknown_ids,
+                "Records whose message id has no definition; `records` includes them.")
         .def_ro("unknown_flags", &RecordingStats::unknown_flags,
-                "Records with an undefined incompatibility flag: left out.")
-        .def_ro("junk_bytes", &RecordingStats::junk_bytes, "Damaged, or cut at the end.")
-        .def_ro("damaged_places", &RecordingStats::damaged_places, "Runs of such bytes.")
+                "Records that were left out because of an undefined incompatibility flag.")
+        .def_ro("junk_bytes", &RecordingStats::junk_bytes,
+                "Bytes that are damaged, or belong to a record cut off at the end.")
+        .def_ro("damaged_places", &RecordingStats::damaged_places, "Contiguous runs of junk bytes.")
         .def("__repr__", &counters_repr);
 
     nb::class_<Recording>(
         module, "Recording", nb::type_slots(iterator_slots<Recording>), nb::is_final(),
-        "The messages of a tlog, in the order of the file: an iterator, once through (`rewind()` starts again). Damage "
-        "is skipped and counted in\n"
-        "`stats`; an error of the system in the middle of the file is raised when all before it was handed out. Any "
-        "thread, one at a time; the GIL\n"
-        "is free while reading. A file that is open is closed by `close()`, `with`, or when the object goes.")
+        "Iterates over the messages of a tlog once, in the order of the file. `rewind()` starts again.\n\n"
+        "Damage is skipped and counted in `stats`. If reading fails in the middle of the file, the\n"
+        "messages before the failure are returned first, then the error is raised. Safe from any thread,\n"
+        "one at a time. The GIL is free while reading. `close()`, the end of `with`, and the destruction\n"
+        "of the object close the file.")
         .def(
             "__init__",
             [](Recording* self, const nb::object& path, const nb::object& type, const OptionalInteger& system,
@@ -218,21 +220,22 @@ void bind_recording(nb::module_& module) {
                      "MessageTypes | None = None, "
                      "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int "
                      "| None = None) -> Message | None"),
-             "The next message of these types for which `condition(message)` is true; None at the end, and after "
-             "`timeout` seconds of looking for one\n"
-             "(0: all of a file, or what a pipe has). A file never makes one wait, a pipe with or without `blocking`.")
+             "Returns the next message of these types for which `condition(message)` is true. Returns None at\n"
+             "the end, or if none was found within `timeout` seconds (0: looks through the whole file, or\n"
+             "through what a pipe holds).\n\n"
+             "`blocking` has no effect: reading a file never waits, and reading a pipe always does.")
         .def(
             "recv",
             [](Recording& r, const nb::object& timeout) {
                 return r.recv_match(nb::none(), nb::none(), false, timeout, {}, {});
             },
             nb::arg("timeout") = nb::none(), nb::sig("def recv(self, timeout: float | None = None) -> Message | None"),
-            "The next message; None at the end, and after `timeout` seconds in which a pipe gave none.")
-        .def("rewind", &Recording::rewind, "Starts again at the beginning. Bytes read again are counted again.")
-        .def_prop_ro("percent", &Recording::percent, "How much of the file was read, 0 to 100.")
-        .def_prop_ro("stats", &Recording::stats, "A snapshot: a RecordingStats.")
+            "Returns the next message, or None at the end, or if a pipe has none for `timeout` seconds.")
+        .def("rewind", &Recording::rewind, "Starts again at the beginning. Bytes that are read again count again.")
+        .def_prop_ro("percent", &Recording::percent, "The percentage of the file that was read, 0 to 100.")
+        .def_prop_ro("stats", &Recording::stats, "A snapshot of the counters, as RecordingStats.")
         .def_prop_ro("path", &Recording::path)
-        .def("close", &Recording::close, "May be called again; reading then raises ClosedError.")
+        .def("close", &Recording::close, "Closes the file. May be called again. Later reads raise ClosedError.")
         .def(
             "__enter__", [](nb::object self) { return self; }, nb::sig("def __enter__(self) -> Recording"))
         .def(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Views of a claim are counted like views of a record (ring_reader_binding.cpp): through objects that live as long as
+// Views of a claim are counted like views of a record (reader_binding.cpp): through objects that live as long as
 // everything that was made of them.
 #include "ring/claim.hpp"
 
@@ -63,7 +63,7 @@ public:
         if (!is_over_) writer_->give_up(*claimed_);
     }
 
-    // Returns the one memoryview of the room. It ends with the claim.
+    // Returns the only memoryview of the room, which ends with the claim.
     [[nodiscard]] nb::object data() {
         fork_.check();
         if (is_over_) PyRingWriter::raise_over();
@@ -137,26 +137,26 @@ nb::object claim_room(const nb::object& writer, const Integer& length, const Opt
 void bind_ring_claim(nb::module_& module) {
     using namespace nb::literals;
     nb::class_<ClaimView>(module, "RingClaimView", nb::type_slots(claim_view_slots), nb::is_final(),
-                          "A claim's bytes, as a buffer.");
-    nb::class_<Claim>(
-        module, "RingClaim", nb::is_final(),
-        "Room for one record in a ring, to be filled without a copy: `with writer.claim(n) as view: view[:] = "
-        "...` commits it at the end of the block, and gives it\n"
-        "up where the block raises. What was made of the view (a slice, an array) must be gone by then: "
-        "BufferError else, and the record is not written. A claim that is\n"
-        "dropped is given up.")
+                          "The bytes of a claim, as a buffer.");
+    nb::class_<Claim>(module, "RingClaim", nb::is_final(),
+                      "Room for one record in a ring, to be filled without a copy.\n\n"
+                      "`with writer.claim(n) as view: view[:] = ...` commits the record at the end of the block, or\n"
+                      "abandons it if the block raises. Delete slices and arrays made of the view before the block\n"
+                      "ends. Otherwise BufferError is raised and the record is not written. A claim that is\n"
+                      "garbage-collected is abandoned.")
         .def_prop_ro("data", &Claim::data, nb::sig("def data(self) -> memoryview"),
-                     "The room: one writable memoryview, which ends with the claim. What it holds before is anything.")
+                     "One writable memoryview of the room, which ends with the claim. Its initial content is\n"
+                     "undefined.")
         .def("commit", &Claim::commit, "length"_a = nb::none(), nb::kw_only(), "time_ns"_a = nb::none(),
              nb::sig("def commit(self, length: int | None = None, *, time_ns: int | None = None) -> bool"),
-             "Publishes the first `length` bytes, all unless given, with the time of now unless one is given here or "
-             "was. False: the ring was full, and the record is dropped and\n"
-             "counted (only with full=\"drop_newest\"; what was filled was memory of no ring). BufferError while a "
-             "slice "
-             "or an array is alive: delete it, and commit again. ClosedError\n"
-             "for a claim that is over.")
+             "Publishes the first `length` bytes, by default all. The record has the time given here, else the\n"
+             "time given to `claim`, else the current time.\n\n"
+             "Returns False if a full ring dropped the record and counted it (only with full=\"drop_newest\").\n"
+             "Raises BufferError while a slice or an array is alive: delete it and commit again. Raises\n"
+             "ClosedError if the claim is over.")
         .def("abandon", &Claim::abandon,
-             "Nothing is written; may be called again. While a slice or an array is alive the room stays taken.")
+             "Ends the claim without writing a record. May be called again. While a slice or an array is\n"
+             "alive, the room stays reserved.")
         .def(
             "__enter__", [](Claim& claim) { return claim.data(); }, nb::sig("def __enter__(self) -> memoryview"))
         .def(

@@ -24,7 +24,7 @@ constexpr std::size_t most_in_batch = 1024;
 constexpr auto look_again = std::chrono::microseconds{100};
 constexpr auto longest_patience = std::chrono::seconds{10};  // how long to wait for such a thread
 
-// ---- what is given out
+// ---- views, records and batches
 
 class View {
 public:
@@ -57,7 +57,7 @@ private:
         if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
     }
     [[noreturn]] static void raise_taken_away() {
-        raise_error("the writer took the record away from this reader (it evicts who is slow)");
+        raise_error("the writer took the record away from this reader (it evicts slow readers)");
     }
 
     std::shared_ptr<Lease> lease_;
@@ -122,8 +122,8 @@ int record_buffer(PyObject* self, Py_buffer* out, int flags) noexcept {
     return guarded([&] { return PyObject_GetBuffer(nb::inst_ptr<Record>(self)->view().ptr(), out, flags); });
 }
 
-// Never called, because the buffer belongs to the View. But only if a type has this slot does numpy.frombuffer keep its
-// buffer; of other types it keeps the object alone.
+// Never called, because the buffer belongs to the View. The slot must exist all the same: numpy.frombuffer keeps the
+// buffer only of types that have it. Of other types it keeps only the object.
 void release_record_buffer(PyObject*, Py_buffer*) noexcept {}
 
 PyType_Slot record_slots[] = {
@@ -314,10 +314,9 @@ private:
     void check(State state) const {
         switch (state) {
             case State::damaged:
-                raise_input(
-                    fmt::format("ring {} is damaged: what stands there is no record; `mavloom shm remove` makes "
-                                "way for a new one",
-                                source_->name()));
+                raise_input(fmt::format(
+                    "ring {} is damaged: it contains an invalid record; remove it with `mavloom shm remove`",
+                    source_->name()));
             case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", source_->name()));
             case State::forked: raise_closed("opened before fork: open it again in this process");
             case State::looked_at:
@@ -393,24 +392,26 @@ void bind_record(nb::module_& module) {
     nb::class_<View>(module, "RecordView", nb::type_slots(view_slots), nb::is_final(), "Bytes of records, as a buffer.");
     nb::class_<Record>(
         module, "Record", nb::type_slots(record_slots), nb::is_final(),
-        "One record of a ring. Of a lossy reader a copy; of a lossless one a view into the ring, which ends "
-        "with the reader's next read: `data` raises from then on, and\n"
-        "a read while a memoryview of it (or a slice, or an array made of it) lives is a BufferError. Has a "
-        "buffer: `memoryview(record)`, `numpy.frombuffer(record)`.")
+        "One record of a ring. A lossy reader returns copies. A lossless reader returns views into the\n"
+        "ring.\n\n"
+        "A view ends with the reader's next read: from then on, `data` raises. While a memoryview of the\n"
+        "record is alive, or a slice or array made of one, the next read raises BufferError. Supports the\n"
+        "buffer protocol: `memoryview(record)`, `numpy.frombuffer(record)`.")
         .def_prop_ro("data", &Record::data, nb::sig("def data(self) -> bytes | memoryview"),
-                     "bytes of a lossy reader; of a lossless one a new read-only memoryview at each access.")
+                     "The bytes: for a lossy reader a copy; for a lossless one a new read-only memoryview at each\n"
+                     "access.")
         .def_prop_ro("time_ns", of_record([](const shm::RingRecord& record) {
                          return record.info.time.time_since_epoch().count();
                      }),
-                     "When it was received, Unix time.")
+                     "Receive time: Unix time in ns.")
         .def_prop_ro("link", of_record([](const shm::RingRecord& record) { return record.info.link.value; }),
-                     "Where from: the writer's number.")
+                     "The link that it came from: a number that the writer assigned.")
         .def_prop_ro("kind", of_record([](const shm::RingRecord& record) { return record.info.kind; }),
-                     "What it is: the writer's number.")
+                     "The kind of content: a number that the writer assigned; 1 is a MAVLink frame.")
         .def_prop_ro("verdict", of_record([](const shm::RingRecord& record) { return record.info.verdict; }),
-                     "What the writer found out about it.")
+                     "The writer's verdict on the record (docs/formats/ring.md).")
         .def_prop_ro("position", of_record([](const shm::RingRecord& record) { return record.position; }),
-                     "Bytes since the ring was made.")
+                     "The record's position in the ring: bytes since the ring was created.")
         .def("__repr__", of_record([](const shm::RingRecord& record) {
                  return fmt::format("<Record of {} bytes, link {}, position {}>", record.data.size(),
                                     record.info.link.value, record.position);
@@ -418,10 +419,9 @@ void bind_record(nb::module_& module) {
 }
 
 void bind_batch(nb::module_& module) {
-    nb::class_<Batch>(
-        module, "RecordBatch", nb::is_final(),
-        "Records that were read together, at least one: index, iterate. Of a lossless reader they are views "
-        "that end together, with the next read or `release()`.")
+    nb::class_<Batch>(module, "RecordBatch", nb::is_final(),
+                      "One or more records that were read together. Supports indexing and iteration. The views of a\n"
+                      "lossless reader end together, with the next read or `release()`.")
         .def("__len__", &Batch::size)
         .def("__getitem__", &Batch::at, nb::arg("index"))
         .def(
@@ -429,11 +429,11 @@ void bind_batch(nb::module_& module) {
             nb::sig("def __iter__(self) -> collections.abc.Iterator[Record]"))
         .def("array", &Batch::array, nb::arg("dtype"),
              nb::sig("def array(self, dtype: typing.Any) -> numpy.typing.NDArray[typing.Any]"),
-             "The records as one read-only numpy array; each has as many bytes as the dtype, else ValueError. Of a "
-             "lossless "
-             "reader it is a view, and counts as one.")
+             "The records as one read-only numpy array. Raises ValueError unless every record has the size of\n"
+             "the dtype. For a lossless reader the array is a view and counts as one.")
         .def("release", &Batch::release,
-             "Ends the views now, and lets the writer pass; BufferError while one is alive. May be called again.");
+             "Ends the views now, so that the writer may overwrite them. Raises BufferError while a view is\n"
+             "alive. May be called again.");
     nb::class_<Batches>(module, "RecordBatches", nb::type_slots(batches_slots), nb::is_final(), "Iterator over batches.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RecordBatches"))
         .def("__next__", &Batches::next, nb::sig("def __next__(self) -> RecordBatch"))
@@ -441,8 +441,9 @@ void bind_batch(nb::module_& module) {
             "__aiter__",
             [](nb::handle self) { return asynchronous().attr("batches")(self, nb::inst_ptr<Batches>(self)->timeout()); },
             nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[RecordBatch, None]"),
-            "As iteration, but nobody's writing does not end it: the time-out does, the ring's removal, and closing.")
-        .def("poll", &Batches::poll, nb::sig("def poll(self) -> RecordBatch | None"), "As RingReader.poll.")
+            "Like iteration, but continues if the ring has no writer. Ends after the time-out, when the ring\n"
+            "is removed, and on close().")
+        .def("poll", &Batches::poll, nb::sig("def poll(self) -> RecordBatch | None"), "Like RingReader.poll.")
         .def("event_fd", &Batches::event_fd);
 }
 
@@ -452,51 +453,51 @@ void bind_ring_reader(nb::module_& module) {
     using namespace nb::literals;
     bind_record(module);
     bind_batch(module);
-    nb::class_<PyRingReader>(module, "RingReader", nb::is_final(),
-                             "A reader of the ring NAME in shared memory. Lossy: never holds the writer, gets copies, "
-                             "and `missed` counts what it "
-                             "was too slow for. Lossless: gets views, and\n"
-                             "the writer may not pass them. `start`: `newest` reads what comes from now on, `oldest` "
-                             "what the ring holds, too. "
-                             "Iterate over records until nobody writes any more.\n"
-                             "Any thread: those that share it take turns, each record is one's, and a read of one does "
-                             "not end what another got.")
+    nb::class_<PyRingReader>(
+        module, "RingReader", nb::is_final(),
+        "A reader of the ring NAME in shared memory.\n\n"
+        "- Lossy: never delays the writer and gets copies. `missed` counts the records that it was too\n"
+        "  slow for.\n"
+        "- Lossless: gets views. The writer waits for this reader, or evicts it (full=\"evict\").\n\n"
+        "`start`: `newest` reads records from now on, `oldest` also those that the ring holds. Iteration\n"
+        "ends when everything is read and no process writes the ring.\n\n"
+        "Safe from any thread. Threads that share a reader take turns, and each record goes to one of\n"
+        "them. A read by one thread does not end the records of another.")
         .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
              "start"_a = "newest",
              nb::sig(
                  "def __init__(self, name: str, *, lossless: bool = False, start: typing.Literal['newest', 'oldest'] = "
                  "'newest') -> None"),
-             "NotFoundError names the rings that there are; InputError for a file that is no ring of this version; "
-             "SystemFailure for a 65th lossless reader.")
+             "NotFoundError lists the existing rings. Raises InputError if the file is not a ring of this\n"
+             "version, and SystemFailure for a 65th lossless reader.")
         .def(
             "read", [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def read(self, timeout: float | None = None) -> Record | None"),
-            "The next record; None after `timeout` seconds (0 polls, None waits), and as soon as all is read and no "
-            "writer "
-            "is alive or the ring was removed. Releases the one\n"
-            "before: BufferError while a view of it is alive. InputError where the ring is damaged.")
+            "Returns the next record, or None after `timeout` seconds (0 polls, None waits). Also returns\n"
+            "None once everything is read and the ring was removed or has no live writer.\n\n"
+            "Releases the previous record, and raises BufferError while a view of it is alive. Raises\n"
+            "InputError if the ring is damaged.")
         .def(
             "batches", [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
-            "Iterates over what there is, up to 1024 records at a time (and 1 MiB, or an eighth of the ring), waiting "
-            "as "
-            "`read` does; ends where `read` gives None.")
+            "Iterates over batches of up to 1024 records and at most 1 MiB or an eighth of the ring. Waits\n"
+            "like `read`, and ends where `read` returns None.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RingReader"))
         .def("__next__", &PyRingReader::next, nb::sig("def __next__(self) -> Record"))
         .def(
             "__aiter__", [](nb::handle self) { return asynchronous().attr("records")(self); },
             nb::sig("def __aiter__(self) -> collections.abc.AsyncGenerator[Record, None]"),
-            "On asyncio, one task at a time: waits on where nobody writes, for the next writer carries on in the ring; "
-            "ends with its removal, and with close().")
+            "For asyncio, one task at a time. If the writer ends, waits for the next one, which continues the\n"
+            "ring. Ends when the ring is removed or the reader is closed.")
         .def("event_fd", &PyRingReader::event_fd,
-             "For loops of your own: a descriptor that becomes readable when `poll()`, which gave None, is worth "
-             "another call. Read its 8 bytes first; the reader closes it.")
+             "For other event loops: a descriptor. After `poll()` has returned None, the descriptor becomes\n"
+             "readable when another call is worthwhile. Read its 8 bytes first. The reader closes it.")
         .def("poll", &PyRingReader::poll_record, nb::sig("def poll(self) -> Record | None"),
-             "The next record, or None where there is none yet. ClosedError when all is read and nothing will come: "
-             "the ring was removed.")
+             "Returns the next record, or None if there is none yet. Raises ClosedError when everything is\n"
+             "read and the ring was removed.")
         .def("close", &PyRingReader::close,
-             "Gives the ring back; BufferError while a view is alive. May be called again, later reads raise "
-             "ClosedError.")
+             "Closes the reader and frees its place in the ring. Raises BufferError while a view is alive. May\n"
+             "be called again. Later reads raise ClosedError.")
         .def("__enter__", itself, nb::sig("def __enter__(self) -> RingReader"))
         .def("__exit__", &PyRingReader::leave, nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__",
@@ -508,15 +509,15 @@ void bind_ring_reader(nb::module_& module) {
         .def_prop_ro("lossless", [](const PyRingReader& reader) { return reader.source().is_lossless(); })
         .def_prop_ro(
             "missed", [](const PyRingReader& reader) { return reader.source().missed(); },
-            "Records that the writer overwrote before this reader came to them, in all.")
+            "The total number of records that the writer overwrote before this reader read them.")
         .def_prop_ro("writer_alive", [](const PyRingReader& reader) { return reader.open().writer_alive(); })
         .def_prop_ro(
             "removed", [](const PyRingReader& reader) { return reader.open().is_removed(); },
-            "Whether the ring was removed or replaced: open the name again once all is read.")
+            "Whether the ring was removed or replaced. Once everything is read, open the name again.")
         .def_prop_ro(
             "holds", [](const PyRingReader& reader) { return reader.open().holds(); },
-            "Whether what was read through the views in hand is what was written: False once a writer with "
-            "full=\"evict\" took them away. Copy, then ask.");
+            "Whether the data read through the current views is valid. Becomes False when a writer with\n"
+            "full=\"evict\" evicts this reader. Copy the data first, then check.");
 }
 
 }  // namespace mavloom::python

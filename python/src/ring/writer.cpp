@@ -297,22 +297,22 @@ void bind_ring_writer(nb::module_& module) {
     static_cast<void>(Py_AtExit(close_what_is_left));  // if Python has no free slot, an exit may look like a kill
     nb::class_<PyRingWriter>(
         module, "RingWriter", nb::is_final(),
-        "The one writer of the ring NAME in shared memory: makes it, or carries on in one whose writer is gone, "
-        "however "
-        "that one ended. Any thread.\n\n"
-        "`capacity` (bytes, a power of two) and `mode` are those of a new ring; a ring of another capacity that nobody "
-        "writes to is replaced. `full` says what\n"
-        "happens while lossless readers hold the ring: `wait` for room, `drop_newest` leaves the new record out, "
-        "`evict` "
-        "takes the hold away from the readers in the\n"
-        "way. Closing leaves the ring for its readers and for the next writer.")
+        "The only writer of the ring NAME in shared memory. Creates the ring, or continues one whose\n"
+        "writer has ended in any way. Safe from any thread.\n\n"
+        "`capacity` (bytes, a power of two) and `mode` apply to a new ring. An existing ring of another\n"
+        "capacity is replaced if it has no writer.\n\n"
+        "`full` decides what happens while lossless readers keep the ring full:\n\n"
+        "- `wait` waits for room.\n"
+        "- `drop_newest` drops the new record.\n"
+        "- `evict` evicts the readers that block.\n\n"
+        "Closing the writer keeps the ring for its readers and for the next writer.")
         .def(nb::init<const std::string&, const Integer&, const std::string&, const Integer&>(), "name"_a,
              nb::kw_only(), "capacity"_a = shm::default_capacity, "full"_a = "wait", "mode"_a = 0600,
              nb::sig("def __init__(self, name: str, *, capacity: int = 8388608, full: typing.Literal['wait', "
                      "'drop_newest', 'evict'] = 'wait', mode: int = 0o600) -> None"),
-             "ValueError for a name or option that is none; SystemFailure (an OSError) where another writer is alive, "
-             "which names its process, or where /dev/shm is\n"
-             "full; InputError for a file that is no ring of this version, which stays as it is.")
+             "Raises ValueError for a wrong name or option. Raises SystemFailure (an OSError) if /dev/shm is\n"
+             "full or another process writes the ring; the text then names that process. Raises InputError if\n"
+             "the file is not a ring of this version, and leaves it unchanged.")
         .def(
             "write",
             [](PyRingWriter& writer, const nb::object& data, const OptionalInteger& time_ns, const Integer& link,
@@ -322,26 +322,25 @@ void bind_ring_writer(nb::module_& module) {
             nb::sig("def write(self, data: Buffer | numpy.typing.NDArray[typing.Any], *, time_ns: int | None = None, "
                     "link: int = 0, kind: int = 0, "
                     "verdict: int = 0) -> bool"),
-            "Copies bytes, or whatever has a contiguous buffer, into the ring as one record, of at most `longest` "
-            "bytes. "
-            "`time_ns` is Unix time, now unless given. Waits\n"
-            "while lossless readers hold the ring. False: the record was left out, and counted in `dropped` (only with "
-            "full=\"drop_newest\"). ClosedError once the ring\n"
-            "was removed.")
+            "Copies any object with a contiguous buffer into the ring as one record of at most `longest`\n"
+            "bytes.\n\n"
+            "`time_ns` is Unix time; the default is now. Waits while lossless readers keep the ring full.\n"
+            "With full=\"drop_newest\" it returns False instead: the record was dropped and counted in\n"
+            "`dropped`. Raises ClosedError once the ring was removed.")
         .def("claim", &claim_room, "length"_a, nb::kw_only(), "time_ns"_a = nb::none(), "link"_a = 0, "kind"_a = 0,
              "verdict"_a = 0,
              nb::sig("def claim(self, length: int, *, time_ns: int | None = None, link: int = 0, kind: int = 0, "
                      "verdict: int "
                      "= 0) -> RingClaim"),
-             "Room for one record of up to `length` bytes, to be filled in place: `with writer.claim(n) as view` "
-             "commits "
-             "it at the end of the block. Waits for room as `write` does. One\n"
-             "claim is open at a time: other threads wait, its own gets BufferError from all that writes.")
-        .def(
-            "close", &PyRingWriter::close, "remove"_a = false,
-            "Ends writing; may be called again. With `remove` the ring goes too: its readers read what is left and are "
-            "told. ClosedError for `remove` after a close that left\n"
-            "the ring, which may be another writer's by now: that is for `remove_ring`.")
+             "Reserves room for one record of up to `length` bytes, to be filled in place: `with\n"
+             "writer.claim(n) as view` commits it at the end of the block. Waits for room like `write`.\n\n"
+             "Only one claim is open at a time. Meanwhile other threads wait, and every write by the claiming\n"
+             "thread raises BufferError.")
+        .def("close", &PyRingWriter::close, "remove"_a = false,
+             "Ends writing. May be called again.\n\n"
+             "With `remove` it also removes the ring; readers are notified and can read what is left. If an\n"
+             "earlier close kept the ring, `remove` raises ClosedError, because another process may write the\n"
+             "ring by now. Use `remove_ring` then.")
         .def(
             "__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> RingWriter"))
         .def(
@@ -349,14 +348,17 @@ void bind_ring_writer(nb::module_& module) {
             nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__", [](const PyRingWriter& writer) { return fmt::format("<RingWriter {}>", writer.name()); })
         .def_prop_ro("name", &PyRingWriter::name)
-        .def_prop_ro("longest", &PyRingWriter::longest, "The longest record that the ring takes, bytes.")
+        .def_prop_ro("longest", &PyRingWriter::longest,
+                     "The size of the longest record that the ring accepts, in bytes.")
         .def_prop_ro("created", &PyRingWriter::created,
-                     "Whether this writer made the ring; False: it carries on in one that was there.")
+                     "Whether this writer created the ring. False: it continues an existing one.")
         .def_prop_ro("removed", &PyRingWriter::is_removed,
-                     "Whether somebody removed or replaced the ring, so that new readers do not find it.")
-        .def_prop_ro("records", &PyRingWriter::records, "Records since the ring was made, by all its writers.")
+                     "Whether the ring was removed or replaced, so that new readers do not find it.")
+        .def_prop_ro("records", &PyRingWriter::records,
+                     "The number of records since the ring was created, from all its writers.")
         .def_prop_ro("dropped", &PyRingWriter::dropped,
-                     "Records that a full ring did not take since it was made; a claim counts when it begins.");
+                     "The number of records dropped since the ring was created, because it was full. A claim counts\n"
+                     "when it begins.");
 
     module.def(
         "remove_ring",
@@ -368,9 +370,9 @@ void bind_ring_writer(nb::module_& module) {
             value_or_raise(std::move(removed));
         },
         "name"_a,
-        "Takes a ring away, with its counter page. Who has it open is told, and nothing waits. NotFoundError names the "
-        "rings that there are.");
-    module.def("rings", &shm::ring_names, "Names of the rings of this machine (of this container), sorted.");
+        "Removes a ring and its counter page. Programs that have it open are notified; the call does not\n"
+        "wait for them. NotFoundError lists the existing rings.");
+    module.def("rings", &shm::ring_names, "The names of the rings on this machine (or in this container), sorted.");
 }
 
 }  // namespace mavloom::python

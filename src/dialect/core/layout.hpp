@@ -14,7 +14,7 @@ namespace mavloom::dialect {
 // The name of the type in XML: "uint8_t".
 [[nodiscard]] std::string_view type_name(FieldType type) noexcept;
 
-// The size of all fields together, in bytes; may exceed what a frame can carry.
+// The size of all fields together, in bytes. It may be more than a frame can carry.
 [[nodiscard]] std::size_t payload_size(std::span<const Field> fields) noexcept;
 
 // Sets each field's offset and returns the wire info of the message. The caller must have checked that the payload fits

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Owns the strings and records of a dialect that was loaded from XML or merged.
-// Their addresses never change. One thread fills it; afterwards it is immutable and shared.
+// Owns the strings and records of a dialect that was loaded from XML or merged. Their addresses never change. One
+// thread fills the object; afterwards it is immutable and can be shared.
 #pragma once
 
 #include <deque>
@@ -21,7 +21,7 @@ struct Records {
     std::deque<std::vector<CommandParam>> params;
     std::vector<Message> messages;                        // by ascending id
     std::vector<Enum> enums;                              // by name
-    std::vector<std::shared_ptr<const void>> kept_alive;  // for a merged dialect: owners of what its views point into
+    std::vector<std::shared_ptr<const void>> kept_alive;  // for a merged dialect: owners of the memory that its views point into
 
     std::string_view intern(std::string_view text) { return *strings.emplace(text).first; }
 

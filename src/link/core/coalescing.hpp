@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Delays turns under heavy load, as network cards coalesce interrupts. If frames arrive faster than a turn takes, a
-// router that handles each one separately spends most of its time waking up. Turns that start at least an interval
-// apart share system calls and datagrams. Private to module link; single owner thread.
+// Delays turns under heavy load, much as network cards coalesce interrupts. When frames arrive in quick succession, one
+// turn for each frame would spend most of the time on waking up. With a minimum interval between turns, several frames
+// share system calls and datagrams. Private to module link; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace mavloom::link::detail {
 
 class Coalescing {
 public:
-    // Without permission every turn may start at once.
+    // With `allowed` false, every turn may start at once.
     void allow(bool allowed) noexcept { allowed_ = allowed; }
 
-    // Coalescing starts after a window with more than one frame every 20 us, and stops after one with fewer. Vehicles
-    // send far less than that, even in bursts.
+    // Coalescing starts after a window with more than one frame every 20 us on average, and stops after a window with
+    // fewer. Vehicles send far less than that, even in bursts.
     static constexpr Nanoseconds window = std::chrono::milliseconds{10};
     static constexpr std::int64_t many_frames = 500;
     static constexpr Nanoseconds turn_interval = std::chrono::microseconds{200};

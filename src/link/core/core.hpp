@@ -24,7 +24,8 @@
 
 namespace mavloom::link::detail {
 
-// A frame that is sent to one link or several. Its class and key are computed again only when the language changes.
+// A frame that is sent to one or more links. Its class and key are computed again only for a link with another
+// language.
 class Departure {
 public:
     explicit Departure(wire::FrameView frame) noexcept : frame_(frame) {}
@@ -69,13 +70,13 @@ public:
     // Number of turns so far.
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
     [[nodiscard]] bool running() const noexcept { return !look_ups.may_wait(); }
-    // This turn's reading left input behind.
+    // Notes that a read of this turn left input unread.
     void note_more_waits() noexcept { more_waits_ = true; }
 
     // `add_link` makes `link.name` unique, and assigns its id and language.
     void add_link(Link& link);
     void remove_link(Link& link, std::string_view why);
-    // Destroys the link at the end of the turn, because an object may end inside its own callback.
+    // Destroys the link at the end of the turn, because the link may still be running a callback.
     void bury(std::unique_ptr<Link> link) { graveyard.push_back(std::move(link)); }
 
     // From now on the owner counts loss, with `count_loss`.
@@ -126,7 +127,7 @@ private:
     MonoTime turn_began_{};
 
 public:
-    // The parts. Endpoints use them, and each part keeps its own rules.
+    // The parts, for the endpoints to use.
     Languages languages;
     LookUps look_ups;
     LinkTable links;
@@ -136,12 +137,12 @@ public:
     Coalescing coalescing;
     KeyStates key_states;
     SigningIds signing_ids;
-    // Used during one call that reads or writes a socket.
+    // Scratch memory of a call that reads or writes a socket.
     net::ReceiveBatch receive_batch;
     net::SendBatch send_batch;
     std::vector<std::uint8_t> stream_buffer;
     std::vector<std::unique_ptr<Link>> graveyard;
-    OpenEndpoints endpoints;  // last, because they use the other parts until they end
+    OpenEndpoints endpoints;  // declared last and so destroyed first, because endpoints use the other parts
 };
 
 }  // namespace mavloom::link::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which frames the links of an endpoint find, and how these frames queue. Private to module link; single owner thread.
+// A language is what the links of an endpoint take from their dialect: the table for finding frames, and the rules for
+// queueing them. Private to module link; single owner thread.
 #pragma once
 
 #include <map>
@@ -18,12 +19,13 @@ struct Language {
     MessageClasses classes;
 };
 
-// The language of each endpoint: its own dialect's, or else the usual one. Dialects must outlive the object.
+// The language of each endpoint: that of its own dialect if it has one, otherwise the usual language. Dialects must
+// outlive the object.
 class Languages {
 public:
     explicit Languages(const dialect::Dialect& usual) : usual_(usual) {}
 
-    // Gives an endpoint its own dialect. Call it before the endpoint is opened; `forget` ends it.
+    // Gives an endpoint its own dialect, until `forget`. Call it before the endpoint is opened.
     void set(EndpointId endpoint, const dialect::Dialect& dialect) { own_.emplace(endpoint, Language{dialect}); }
     void forget(EndpointId endpoint) noexcept { own_.erase(endpoint); }
     [[nodiscard]] const Language& of(EndpointId endpoint) const noexcept {

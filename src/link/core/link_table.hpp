@@ -17,7 +17,7 @@ public:
     LinkTable() : places_(64) {}
     // Assigns the link's id, and appends " (2)" or more to a name that another link has.
     void add(Link& link);
-    // The next id is greater than `last`.
+    // Numbers the next links from `last` + 1.
     void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }
     void remove(LinkId id) noexcept;
     [[nodiscard]] Link* find(LinkId id) const noexcept {

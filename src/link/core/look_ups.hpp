@@ -21,7 +21,7 @@ public:
     // `wake` is called on another thread when an answer has arrived.
     explicit LookUps(std::function<void()> wake) : resolver_(std::move(wake)) {}
 
-    // From now on frames pass, and no look-up may delay them.
+    // Call it when frames begin to flow: from then on, no call may wait for a look-up.
     void stop_waiting() noexcept { may_wait_ = false; }
     [[nodiscard]] bool may_wait() const noexcept { return may_wait_; }
     // Passes the answers that have arrived to their askers.
@@ -34,7 +34,7 @@ private:
     std::vector<std::pair<std::uint64_t, Asker*>> questions_;  // by ticket
 };
 
-// An endpoint that looks names up.
+// An endpoint that looks up host names.
 class Asker {
 public:
     explicit Asker(LookUps& look_ups) : look_ups_(look_ups) {}
@@ -43,10 +43,10 @@ public:
     virtual ~Asker();
     virtual void on_resolved(net::Resolver::Answer&& answer) = 0;
 
-    // Passes the answer to `on_resolved`: that about a numeric host at once, that about a name in a later turn.
+    // Passes the answer to `on_resolved`: at once for a numeric host, in a later turn for a name.
     void look_up(const endpoint::HostPort& host);
-    // Returns the answer about a numeric host at once, and waits up to `limit` for the answer about a name if no frames
-    // pass yet. Empty: the answer goes to `on_resolved` in a later turn.
+    // Returns the answer for a numeric host at once. For a name, waits up to `limit` for the answer if no frames flow
+    // yet. If there is no answer by then, returns empty, and `on_resolved` gets the answer in a later turn.
     [[nodiscard]] std::optional<net::Resolver::Answer> look_up_now(const endpoint::HostPort& host,
                                                                    std::chrono::milliseconds limit);
 
@@ -58,7 +58,7 @@ private:
 [[nodiscard]] constexpr std::chrono::milliseconds look_up_limit(bool required) noexcept {
     return std::chrono::milliseconds(required ? 5000 : 250);
 }
-// The error after a look-up that took 5 s.
+// The error for a look-up that has no answer after 5 s.
 [[nodiscard]] SetupError no_answer(const endpoint::HostPort& host);
 
 }  // namespace mavloom::link::detail

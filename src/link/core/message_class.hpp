@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How important a message is to a full queue, and which newer frame supersedes an older one (docs/guide/queues.md).
+// Which messages a full queue drops first, and which newer frames supersede older ones (docs/guide/queues.md).
 // Immutable after construction; look-ups do not allocate. Private to module link.
 #pragma once
 
@@ -24,7 +24,7 @@ public:
 
     // An id without definition counts as telemetry that is never superseded.
     [[nodiscard]] Rule of(MessageId id) const noexcept { return id.value < direct_size ? direct_[id.value] : find(id); }
-    // Source, id and instance in one word: nonzero for a replaceable message, 0 for the others.
+    // Returns source, id and instance in one word, never 0, for a replaceable message. Returns 0 for all others.
     [[nodiscard]] static std::uint64_t key(const wire::FrameView& frame, Rule rule) noexcept;
 
 private:

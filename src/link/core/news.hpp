@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Notifies the handler of links that come and go, and of events. Private to module link; single owner thread.
+// Notifies the handler of links that come up or go down, and of other events. Private to module link; single owner
+// thread.
 //
-// Inside a turn the handler hears of a change at once. Outside a turn, links that come up and events reach it at the
-// start of the next turn; a link that goes down is not reported.
+// Inside a turn, it notifies the handler at once. Outside a turn, it reports events and links that come up at the start
+// of the next turn. It does not report a link that goes down outside a turn.
 #pragma once
 
 #include <string>
@@ -27,7 +28,7 @@ public:
 
 private:
     LinkHandler* handler_ = nullptr;
-    std::vector<std::pair<EndpointId, std::string>> notices_;  // since the last turn, as `came_up_`
+    std::vector<std::pair<EndpointId, std::string>> notices_;  // since the last turn, as is `came_up_`
     std::vector<LinkId> came_up_;
 };
 

@@ -16,13 +16,13 @@ public:
     virtual void flush() = 0;
     // True while something is queued that the kernel does not accept.
     [[nodiscard]] virtual bool blocked() const = 0;
-    // Drops what became too old while blocked.
+    // Drops frames that became too old while the outlet was blocked.
     virtual void expire(MonoTime now) = 0;
 
-    bool scheduled = false;  // is in the list of Outlets
+    bool scheduled = false;  // true while Outlets lists it
 };
 
-// An outlet may forget itself, or any other, in its own `flush`.
+// An outlet may call `forget` for itself, or any other, in its own `flush`.
 class Outlets {
 public:
     void schedule(Outlet& outlet) {
@@ -30,7 +30,7 @@ public:
         waiting_.push_back(&outlet);
     }
     void forget(Outlet& outlet) noexcept;
-    // Flushes each scheduled outlet once. One that is still blocked stays scheduled.
+    // Flushes each scheduled outlet once. An outlet that is still blocked stays scheduled.
     void flush();
     void expire_blocked(MonoTime now);
     [[nodiscard]] bool empty() const noexcept { return waiting_.empty(); }

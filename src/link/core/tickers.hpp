@@ -17,17 +17,17 @@ public:
     [[nodiscard]] virtual std::optional<MonoTime> tick_due() const = 0;
     virtual void tick(MonoTime now) = 0;
 
-    bool ticking = false;  // is in the list of Tickers
+    bool ticking = false;  // true while Tickers lists it
 };
 
-// A ticker may forget itself in its own `tick`.
+// A ticker may call `forget` for itself in its own `tick`.
 class Tickers {
 public:
     void keep(Ticker& ticker) {
         if (!std::exchange(ticker.ticking, true)) tickers_.push_back(&ticker);
     }
     void forget(Ticker& ticker) noexcept;
-    // Calls `tick` of those that are due, and lets go of those that have no deadline any more.
+    // Calls `tick` of the tickers that are due, and forgets those that no longer have a deadline.
     void run(MonoTime now);
     [[nodiscard]] bool empty() const noexcept { return tickers_.empty(); }
     // The earliest deadline; MonoTime::max() if there is none.

@@ -116,7 +116,7 @@ void Serial::tell_settings() {
     const auto& options = info.endpoint.options;
     const auto got = peer_.stream().baud();
     const auto apart = got > baud() ? got - baud() : baud() - got;
-    // The error that a receiver of ten-bit characters tolerates.
+    // The deviation of the baud rate that a receiver of ten-bit characters tolerates.
     constexpr std::uint32_t tolerance_percent = 3;
     if (apart > std::uint64_t{baud()} * tolerance_percent / 100)
         core_.news.notice(info.id,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Limits how many bytes wait in a serial driver: as many as the line carries in 50 ms. The rest waits in the queue,
-// where frames can age and be dropped. The assumed speed is at least the baud rate. If the driver drains faster, the
-// pacer learns it: USB ignores the baud rate, and pseudo-terminals do not report one. Private to module link; plain
-// values.
+// Limits the bytes that wait in a serial driver to what the line carries in 50 ms. All others wait in the queue, where
+// frames can expire and be dropped. The assumed speed is at least the baud rate. If the driver drains faster, the pacer
+// learns that speed, because USB ignores the baud rate and pseudo-terminals do not report one. Private to module link;
+// plain values.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] std::size_t room(std::size_t unsent) const noexcept {
         return unsent < budget() ? budget() - unsent : 0;
     }
-    // The time in which half of the allowed bytes leave the driver.
+    // The time in which the driver sends half of the allowed bytes.
     [[nodiscard]] static constexpr Nanoseconds interval() noexcept { return depth / 2; }
     // Call it one interval after filling the driver, with the bytes that it still holds.
     void learn(std::size_t unsent) noexcept {

@@ -14,9 +14,10 @@ namespace mavloom::link::detail {
 class SerialOwner {
 public:
     virtual ~SerialOwner() = default;
-    // A frame of a defined message with a good checksum: the baud rate is right. Called before the frame's handler.
+    // Called for a frame of a defined message with a good checksum, before the frame's handler. It proves that the baud
+    // rate is right.
     virtual void on_good_frame() = 0;
-    // The port is gone; the peer is already detached.
+    // Called when the port is gone. The peer is already detached.
     virtual void on_gone(std::string_view why) = 0;
 };
 
@@ -37,7 +38,7 @@ public:
     void flush() override;
     [[nodiscard]] bool blocked() const override { return pace_.valid() || StreamPeer::blocked(); }
 
-    // While the baud rate is searched, the handler gets no frames.
+    // While the endpoint searches for the baud rate, the handler gets no frames.
     [[nodiscard]] bool wants(const wire::ParseEvent& event) {
         const bool is_frame = event.kind == wire::ParseEvent::Kind::frame;
         if (is_frame && event.info != nullptr) owner_.on_good_frame();
@@ -45,7 +46,7 @@ public:
     }
 
 private:
-    // A hang-up shows as a read of no bytes or as an error.
+    // A hang-up appears as a read of 0 bytes or as an error.
     void on_end(net::IoError) override { close("unplugged"); }
 
     SerialOwner& owner_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Separates late frames from replays among signed frames that arrive over several links of a group.
 //
-// A late frame is accepted if its timestamp is newer than the newest timestamp that the group had received some time
-// ago. "Some time ago" is between `least` and `oldest` before now. An earlier copy of such a frame can only have been
-// accepted since then, and the router still recognises that copy by its bytes. Links::longest_late is the bound that
-// the router relies on. Under a flood of other frames the router may forget copies early; its counter
-// `recent_evicted` shows that.
+// The class remembers the newest timestamp that the group had received from the sender at an earlier moment, between
+// `least` and `oldest` ago. A late frame is accepted if its timestamp is newer than that. If the frame is a replay, its
+// first copy was accepted after that moment, so the router still remembers it and recognises the replay by its bytes.
+// The router relies on the bound Links::longest_late. Under a flood of other frames the router may forget copies early;
+// its counter `recent_evicted` shows that.
 //
 // Only arrival times count, because signers' clocks need not match ours. Private to module link; single owner thread;
 // allocates only for a new sender.
@@ -37,7 +37,8 @@ public:
     }
 
 private:
-    // The newest timestamp at two moments: `recent` at `since`, `old` earlier by `least` to `most`.
+    // The newest timestamp at two moments: `recent` at the time `since`, and `old` at a time `least` to `most` before
+    // it.
     struct Marks {
         wire::SigningTime old, recent;
         MonoTime since;

@@ -96,7 +96,7 @@ bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {
     return true;
 }
 
-// The CRC_EXTRA byte of this frame: from the dialect, else derived from the checksum. -1: none fits.
+// Returns the CRC_EXTRA byte of this frame: from the dialect, else derived from the checksum. Returns -1 if none fits.
 static int crc_extra_of(const wire::FrameView& frame, std::uint16_t before_extra,
                         const wire::MessageTable& table) noexcept {
     if (const wire::MessageInfo* info = table.find(frame.id())) return info->crc_extra;

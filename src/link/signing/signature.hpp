@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// sign= and verify= of an endpoint. Private to module link; single owner thread.
+// The options sign= and verify= of an endpoint. Private to module link; single owner thread.
 #pragma once
 
 #include <array>
@@ -31,15 +31,15 @@ public:
 
     // Copies the timestamps used so far into the key files' states.
     void keep_times() const;
-    // True if the key files now hold other keys. False while one of them cannot be read.
+    // True if a key file now holds a different key from the one in use. False while one of the files cannot be read.
     [[nodiscard]] bool has_other_keys() const;
     [[nodiscard]] bool verifies() const noexcept { return judge_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
-    // Like `accepts`, but called before the parser finds the same bytes again. The second check then does not treat
-    // the frame as a replay.
+    // Like `accepts`, for a frame whose bytes the link's parser will find again. `accepts` then does not treat that
+    // second appearance as a replay.
     [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
-    // The buffer with the vouched-for bytes is about to be reused.
+    // Call it before the buffer with the vouched-for bytes is reused.
     void forget_vouched() noexcept { vouched_ = nullptr; }
     // Returns the signed frame, in a buffer that is valid until the next call. Returns the original frame if it
     // cannot be signed: MAVLink 1, or an unknown id whose checksum matches no CRC_EXTRA.
@@ -60,7 +60,7 @@ private:
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
     std::shared_ptr<KeyJudge> judge_;    // null without verify=
-    std::optional<wire::Verifier> own_;  // in a group: per endpoint
+    std::optional<wire::Verifier> own_;  // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
     // Start of the frame that `vouches` has already verified.
     const std::uint8_t* vouched_ = nullptr;

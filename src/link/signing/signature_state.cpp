@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view heading = "mavloom signing times 1";
 constexpr std::uint64_t time_limit = std::uint64_t{1} << 48;
-// Room for max_streams lines and more.
+// Larger than a file of max_streams lines.
 constexpr std::size_t longest_file = 256 * 1024;
 constexpr std::uint64_t clock_tolerance_ticks = 60 * 100'000;
 
@@ -174,8 +174,8 @@ static KeyState with_reserve(KeyState state) {
     return state;
 }
 
-// By how many seconds the latest stored timestamp is ahead of the clock; 0 up to one minute. Ahead means that the
-// clock was wrong then or is wrong now.
+// Returns by how many seconds the latest stored timestamp is ahead of the clock, or 0 if by a minute or less. If it is
+// ahead, the clock was wrong then or is wrong now.
 static std::uint64_t seconds_ahead(const KeyState& state, wire::SigningTime now) {
     std::uint64_t latest = state.last_signed.ticks;
     for (const auto& stream : state.heard) latest = std::max(latest, stream.last.ticks);

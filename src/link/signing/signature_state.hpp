@@ -35,8 +35,8 @@ struct KeyState {
     wire::SigningTime last_signed;
     std::vector<wire::Verifier::Stream> heard;  // sorted by key, at most Verifier::max_streams
 
-    // Assigns the state to the key `now` and returns true if that changes `key`. Clears `heard` if it belonged to
-    // another key: its timestamps say nothing about replays under this one.
+    // Assigns the state to this key and returns true if that changes `key`. If the state belonged to another key,
+    // clears `heard`, because timestamps under one key do not reveal replays under another.
     bool belong_to(const wire::SigningKey& key);
     // Keeps the later timestamp of each stream. Returns true if something changed.
     bool merge_heard(std::span<const wire::Verifier::Stream> streams);
@@ -56,11 +56,11 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     // A missing or empty file is a new state. An unreadable or malformed one is an error.
     [[nodiscard]] SetupResult<void> load();
-    // Merges what another program has written to the file in the meantime.
+    // Writes the state, merged with changes that another program has made to the file in the meantime.
     [[nodiscard]] SetupResult<void> write(KeyState wanted);
 
     KeyState state;
-    bool changed = false;  // since it was last handed to the writer
+    bool changed = false;  // since it was last passed to the writer
 
 private:
     std::filesystem::path path_;
@@ -76,8 +76,8 @@ struct KeyJudge {
 
 class KeyStates {
 public:
-    // The signing time in the file runs ahead of the one in use by this much (10 s). A killed program therefore never
-    // reuses timestamps after a restart.
+    // The signing time in the file is ahead of the one in use by this much (10 s). A program that was killed therefore
+    // never reuses timestamps after a restart.
     static constexpr std::uint64_t reserve_ticks = 10 * 100'000;
     static constexpr std::chrono::seconds save_interval{2};
 
@@ -100,7 +100,7 @@ public:
 
     // When to call `save` next; MonoTime::max() if no key is in use.
     [[nodiscard]] MonoTime due() const noexcept { return due_; }
-    // Hands changes to the writer thread, and collects the errors that it met.
+    // Passes changes to the writer thread, and appends the writer's errors to `notices`.
     void save(MonoTime now, std::vector<std::string>& notices);
 
 private:

@@ -15,22 +15,22 @@ class TcpPeer;
 class TcpOwner {
 public:
     virtual ~TcpOwner() = default;
-    // The stream has ended. The peer is detached and may be buried.
+    // Called when the stream has ended. The peer is detached and may be passed to Core::bury.
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
 };
 
-// A slow far side is never disconnected for being slow.
+// A far side that reads slowly is never disconnected for that reason.
 class TcpPeer final : public StreamPeer<TcpPeer, net::TcpStream> {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
         : StreamPeer(core, endpoint_id, limits), owner_(owner) {}
 
-    // Delivers what the parser still holds back, then closes the stream and calls on_closed.
+    // Delivers the events that the parser still holds back, then closes the stream and calls on_closed.
     void close(std::string_view why) {
         finish_parsing();
         drop(why);
     }
-    // Like `close`, for an owner that calls it between turns: discards what the parser holds back.
+    // Like `close`, but discards the bytes that the parser holds back. For an owner that closes between turns.
     void drop(std::string_view why) {
         detach();
         owner_.on_closed(*this, why);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tcpin: each client is a link of its own.
+// tcpin: listens on a TCP port. Each client is its own link.
 #include <fmt/format.h>
 
 #include "link/listening.hpp"

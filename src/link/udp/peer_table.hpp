@@ -30,7 +30,7 @@ public:
         ++size_;
     }
 
-    // Closes the gap, so that probing from its home slot still finds every address.
+    // Closes the gap, so that probing from an address's home slot still finds the address.
     void remove(const net::Address& address) noexcept {
         std::size_t gap = place_of(address);
         if (slots_[gap].peer == nullptr) return;

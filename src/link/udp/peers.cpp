@@ -15,8 +15,9 @@ bool UdpPeers::close(LinkId link) {
     return true;
 }
 
-// With verify= a good signature vouches for the sender. Without it, a good checksum of a defined message does; an id
-// without definition is not enough. Wrongly signed frames count in the endpoint's `gone` sums.
+// Returns true if the datagram proves that its sender is a MAVLink peer. With verify=, the proof is a good signature.
+// Without it, the proof is a good checksum of a defined message. Wrongly signed frames count in the endpoint's `gone`
+// sums.
 bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
@@ -63,10 +64,10 @@ bool UdpPeers::make_room() {
 void UdpPeers::drop(UdpPeer& peer, std::string_view why) {
     peer.settle();
     peers_.remove(peer, why);
-    peer.port->forget(peer);  // after the handler, which may have sent to the endpoint; the peer is buried, not gone
+    peer.port->forget(peer);  // after the handler, which may still have sent to this peer
 }
 
-// Runs when the longest idle peer may have expired, and then when the next one may.
+// Runs when the peer that has been idle longest may have expired.
 void UdpPeers::on_timer(MonoTime now) {
     const MonoTime next = peers_.expire(now, idle_, [&](UdpPeer& peer) { drop(peer, "idle"); });
     expiry_ = peers_.empty() ? net::TimerId{} : core_.loop().start_timer(next, *this);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The peers of an endpoint that any sender may join. A sender of a valid frame becomes a peer with its own link,
-// until it is silent for `idle`. There are at most max_peers. Private to module link; single owner thread.
+// The peers of an endpoint that accepts any sender. A sender of a valid frame becomes a peer with its own link, and
+// remains one until it has been silent for `idle`. There are at most max_peers. Private to module link; single owner
+// thread.
 #pragma once
 
 #include <string_view>
@@ -15,7 +16,7 @@ public:
     // The endpoint that owns the sockets.
     class Owner : public UdpOwner {
     public:
-        // The first peer is about to be added; its link is not up yet.
+        // Called before the first peer is added; its link is not up yet.
         virtual void on_first_peer(const net::Address&) {}
         virtual void on_last_peer_gone() {}
     };
@@ -31,8 +32,8 @@ public:
           peers_(core, endpoint) {}
     ~UdpPeers() override;
 
-    // The peer that sent the datagram. A new sender of a valid frame becomes a peer. Null for a new sender without a
-    // valid frame, or if there is no room.
+    // Returns the peer that sent the datagram. A new sender of a valid frame becomes a peer. Returns null for a new
+    // sender without a valid frame, or if there is no room for another peer.
     [[nodiscard]] UdpPeer* of(UdpPort& port, const net::Datagram& datagram) {
         if (endpoint_.signature) endpoint_.signature->forget_vouched();
         if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;

@@ -28,24 +28,24 @@ struct UdpPeer final : Link {
     // Both count only datagrams with a good frame. Junk does not keep a peer alive.
     MonoTime last_heard{};
     std::uint64_t datagrams = 0;
-    // The device queue was full; the peer waits for its port's retry.
+    // True if the network device's queue was full. The peer then waits for its port's retry.
     bool held = false;
 
     void note_heard(MonoTime now) noexcept;
-    // The far side's port is closed. ICMP does not report every datagram that meets it, so what is sent in the next
-    // second also counts as refused.
+    // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
+    // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // The far side has a new address. Refusals by the old one no longer apply.
+    // Changes the far side's address. Refusals by the old address no longer apply.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
     void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
-    // Counts what was sent and not refused as sent.
+    // Counts the frames that were not refused as sent.
     void settle() noexcept;
     [[nodiscard]] bool is_settled() const noexcept { return unsettled_frames_ == 0; }
 
 private:
     static constexpr std::chrono::seconds refusal_holds{1};
-    bool listens_ = false;  // heard, and not refused since
+    bool listens_ = false;  // the peer was heard, and has not refused anything since
     MonoTime refuses_until_{};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };
@@ -59,16 +59,17 @@ private:
 class UdpOwner {
 public:
     virtual ~UdpOwner() = default;
-    // The peer that sent the datagram. Null: drop the datagram. The endpoint has counted it, unless it is its own and
-    // looped back.
+    // Returns the peer that sent the datagram, or null if the port should drop the datagram. The endpoint has then
+    // counted it already, unless the datagram is the endpoint's own and was looped back.
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
     // The peer at this address; null if there is none.
     [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
-    // The kernel or the network rejected a datagram.
+    // Called when the kernel or the network has rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;
 };
 
-// One socket. Reads one batch per turn, and sends what its peers queued with sendmmsg at the end of the turn.
+// One socket. Reads one batch per turn. At the end of the turn, sends the frames that its peers have queued, with
+// sendmmsg.
 class UdpPort final : public Outlet, public net::IoHandler, public net::TimerHandler {
 public:
     UdpPort(Core& core, UdpOwner& owner, EndpointCounters& counters, std::uint32_t mtu_bytes)
@@ -83,10 +84,10 @@ public:
         waiting_.push_back(&peer);
         core_.outlets.schedule(*this);
     }
-    // The peer is about to be destroyed.
+    // Call it before a peer is destroyed.
     void forget(UdpPeer& peer) noexcept;
     void refresh_kernel_drops() noexcept;
-    // Reads the refusals that have arrived, then counts what was sent.
+    // Reads the refusals that have arrived, then counts the remaining frames as sent.
     void settle();
 
     void on_io(net::IoEvents events) override;
@@ -119,7 +120,7 @@ private:
     net::WatchId watch_;
     net::TimerId retry_;  // for held peers
     PeerTable<UdpPeer> peers_;
-    std::vector<UdpPeer*> waiting_;  // have something queued
+    std::vector<UdpPeer*> waiting_;  // peers that have frames queued
     std::vector<Part> parts_;
     bool blocked_ = false;  // the socket's send buffer is full
     std::vector<UdpPeer*> unsettled_;

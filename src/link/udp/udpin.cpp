@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// udpin: each peer that sends valid MAVLink is a link of its own.
+// udpin: listens on a UDP port. Each peer that sends valid MAVLink is its own link.
 #include <fmt/format.h>
 
 #include "link/listening.hpp"

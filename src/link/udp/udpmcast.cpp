@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// udpmcast: the whole group is one link, because every member hears all that is sent to it.
+// udpmcast: sends to and receives from a multicast group. The whole group is one link, because every member receives
+// every datagram.
 //
-// The endpoint has two sockets. One hears the group on its port, which other local programs may share. The other
-// sends from a port of its own, so that the endpoint recognises its looped-back datagrams by their source. It also
-// hears members that answer to that source.
+// The endpoint has two sockets. One receives on the group's port, which other local programs may share. The other sends
+// from its own port, so that the endpoint recognises its looped-back datagrams by their source. It also receives
+// answers to that port.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"

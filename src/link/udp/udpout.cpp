@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// udpout: one far side, one link. The socket is not connected, so that datagrams from other addresses can be counted.
-// ICMP reports closed ports.
+// udpout: sends to one address; the endpoint is one link. The socket is not connected, so that datagrams from other
+// addresses can be counted. ICMP reports closed ports.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -12,12 +12,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr MonoTime begin{std::chrono::hours{1}};
+constexpr MonoTime first_time{std::chrono::hours{1}};
 
 // A sender with a frame every 10 ms, one tick apart: its signing clock does not run with ours.
 struct Sender {
     LateFrames late;
-    MonoTime now = begin;
+    MonoTime now = first_time;
     std::uint64_t newest = 1000;
 
     bool takes(std::uint64_t ticks) { return !late.is_too_late(7, {ticks}, {newest}, now); }

@@ -12,9 +12,9 @@
 namespace mavloom::link::detail {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using Stream = wire::Verifier::Stream;
 
 constexpr std::string_view two_senders =
@@ -29,7 +29,7 @@ std::string content(const std::filesystem::path& path) {
 // little-endian number.
 constexpr std::string_view key_line = "key 9383837124702055004\n";
 
-class SigningTimes : public testing::Test {
+class SigningTimes : public ::testing::Test {
 protected:
     test::TempDir dir;
     std::filesystem::path key = dir.path() / "link.key", file = dir.path() / "link.key.state";
@@ -147,7 +147,7 @@ TEST_F(SigningTimes, AnotherKeyInTheFileHasHeardNobody) {
     write(file, fmt::format("mavloom signing times 1\nsigned 123456789\n{}heard 0 1 1 1000\n", key_line));
     KeyStates states;
     const auto times = states.open(key, *wire::SigningKey::load(key), notices);
-    EXPECT_THAT(times->state.heard, testing::SizeIs(1));
+    EXPECT_THAT(times->state.heard, ::testing::SizeIs(1));
     write(key, std::string(64, 'b'));
     const auto again = states.open(key, *wire::SigningKey::load(key), notices);
 
@@ -156,7 +156,7 @@ TEST_F(SigningTimes, AnotherKeyInTheFileHasHeardNobody) {
     EXPECT_EQ(again->state.last_signed.ticks, 123456789u);
     EXPECT_TRUE(again->changed);
     (void)again->write(again->state);
-    EXPECT_THAT(content(file), testing::Not(HasSubstr("heard")));  // neither what the file held
+    EXPECT_THAT(content(file), ::testing::Not(HasSubstr("heard")));  // neither what the file held
 }
 
 TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
@@ -182,9 +182,9 @@ TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
     const auto signature = Signature::load(options(true, true), EndpointId{0}, states, notices);
 
     ASSERT_TRUE(signature);
-    EXPECT_THAT(notices, testing::Contains(HasSubstr("cannot write ")));
+    EXPECT_THAT(notices, ::testing::Contains(HasSubstr("cannot write ")));
     EXPECT_THAT(std::vector<std::filesystem::path>(std::filesystem::directory_iterator(dir.path()), {}),
-                testing::SizeIs(2));
+                ::testing::SizeIs(2));
 }
 
 TEST_F(SigningTimes, WhatIsNewIsWrittenWhileItRuns) {

@@ -17,24 +17,24 @@ namespace mavloom::message {
 namespace {
 
 template <class Write>
-std::string text_of(Write write) {
+std::string number_text(Write write) {
     std::array<char, number_room> room{};
     return {room.data(), write(room.data())};
 }
 std::string f32(float v) {
-    return text_of([&](char* at) { return write_float(at, v); });
+    return number_text([&](char* at) { return write_float(at, v); });
 }
 std::string f64(double v) {
-    return text_of([&](char* at) { return write_float(at, v); });
+    return number_text([&](char* at) { return write_float(at, v); });
 }
 std::string u64(std::uint64_t v) {
-    return text_of([&](char* at) { return write_unsigned(at, v); });
+    return number_text([&](char* at) { return write_unsigned(at, v); });
 }
 std::string i64(std::int64_t v) {
-    return text_of([&](char* at) { return write_integer(at, v); });
+    return number_text([&](char* at) { return write_integer(at, v); });
 }
 std::string scaled(bool negative, std::uint64_t v, unsigned decimals) {
-    return text_of([&](char* at) { return write_scaled(at, negative, v, decimals); });
+    return number_text([&](char* at) { return write_scaled(at, negative, v, decimals); });
 }
 
 TEST(Number, PrintsFloatsWithTheShortestDigitsOfTheirWidth) {
@@ -142,7 +142,7 @@ TEST(Number, PrintsIntegersOfEveryLength) {
 
 TEST(Number, PrintsEveryByte) {
     for (unsigned value = 0; value < 256; ++value)
-        EXPECT_EQ(text_of([&](char* at) { return write_byte(at, static_cast<std::uint8_t>(value)); }),
+        EXPECT_EQ(number_text([&](char* at) { return write_byte(at, static_cast<std::uint8_t>(value)); }),
                   std::to_string(value));
 }
 

@@ -9,12 +9,12 @@
 namespace mavloom::net {
 namespace {
 
-const Address any_port = *Address::parse("127.0.0.1", 0);
+const Address any_udp_port = *Address::parse("127.0.0.1", 0);
 
 std::string text_of(ByteView bytes) { return {bytes.begin(), bytes.end()}; }
 
 struct Udp : ::testing::Test {
-    UdpSocket open(const UdpOptions& options = {}) { return std::move(*UdpSocket::open(any_port, options)); }
+    UdpSocket open(const UdpOptions& options = {}) { return std::move(*UdpSocket::open(any_udp_port, options)); }
     static void await(const UdpSocket& socket) {
         pollfd wanted{socket.fd(), POLLIN, 0};
         ASSERT_EQ(::poll(&wanted, 1, 5000), 1);
@@ -108,7 +108,7 @@ TEST_F(Udp, BothFamiliesReachADualStackSocket) {
     if (!both) GTEST_SKIP() << both.error().text;
     UdpSocket a = open();
     std::vector<std::string> texts{"four"};
-    send(a, any_port.with_port(both->local().port()), texts);
+    send(a, any_udp_port.with_port(both->local().port()), texts);
     await(*both);
     ASSERT_EQ(*both->receive(batch), 1u);
     EXPECT_EQ(batch[0].from->text(), a.local().text());

@@ -13,15 +13,14 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Bytes;
+using test::gcs;
 using test::Id;
 using test::make_frame;
 using test::make_unknown;
 using test::Network;
+using test::vehicle;
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-constexpr Id gcs{255, 190};
-constexpr Id vehicle{1, 1};
 
 // Senders 1/1 and 2/1 on links 1 and 2, receivers 100/1 and 101/1 on 3 and 4 that answer every PING that reaches them.
 class PingNetwork : public Network {

@@ -11,17 +11,16 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::Bytes;
+using test::gcs;
 using test::Id;
 using test::make_frame;
 using test::make_unknown;
 using test::Network;
+using test::vehicle;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
 using testing::UnorderedElementsAre;
-
-constexpr Id gcs{255, 190};
-constexpr Id vehicle{1, 1};
 
 TEST(Engine, TakesEachLinkOnce) {
     Engine sut(dialect::default_dialect().wire_table(), {});

@@ -30,6 +30,8 @@ struct Id {
     std::uint8_t system, component;
     operator Source() const { return {SystemId{system}, ComponentId{component}}; }
 };
+inline constexpr Id gcs{255, 190};
+inline constexpr Id vehicle{1, 1};
 
 // A frame with these fields set and all others 0.
 inline Bytes make_frame(std::string_view name, Id source, const Fields& fields = {}, std::uint8_t sequence = 0,

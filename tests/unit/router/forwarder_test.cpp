@@ -66,8 +66,9 @@ public:
     std::array<std::string_view, 4> names{"four", "one", "two", "three"};
 };
 
-struct Router {
-    explicit Router(config::RouterConfig config = {}) : sut(dialect::default_dialect(), with_timeout(config), links) {}
+struct ForwarderAtWork {
+    explicit ForwarderAtWork(config::RouterConfig config = {})
+        : sut(dialect::default_dialect(), with_timeout(config), links) {}
     static config::RouterConfig with_timeout(config::RouterConfig config) {
         config.route_timeout = 60s;
         return config;
@@ -119,7 +120,7 @@ Bytes command(Id target) {
 }
 
 TEST(Forwarder, SendsWhereTheEngineSaysAndCountsTheTraffic) {
-    Router router;
+    ForwarderAtWork router;
     for (int i = 0; i < 3; ++i) router.link();
 
     EXPECT_EQ(router.hears(1, attitude()), route::Verdict::forwarded);
@@ -133,7 +134,7 @@ TEST(Forwarder, SendsWhereTheEngineSaysAndCountsTheTraffic) {
 }
 
 TEST(Forwarder, ALinkThatWentGetsNothing) {
-    Router router;
+    ForwarderAtWork router;
     for (int i = 0; i < 3; ++i) router.link();
     router.sut.remove_link(LinkId{2});
 
@@ -143,7 +144,7 @@ TEST(Forwarder, ALinkThatWentGetsNothing) {
 }
 
 TEST(Forwarder, VouchesOnlyForVerifiedFrames) {
-    Router router;
+    ForwarderAtWork router;
     router.link("udpin://127.0.0.1:1?verify=key");
     router.link("udpin://127.0.0.1:2");
     router.link("udpin://127.0.0.1:3?sign=key");
@@ -160,7 +161,7 @@ TEST(Forwarder, VouchesOnlyForVerifiedFrames) {
 }
 
 TEST(Forwarder, AnEchoIsNoLoss) {
-    Router router;
+    ForwarderAtWork router;
     router.link();
     router.link();
     const auto frame = attitude();
@@ -174,7 +175,7 @@ TEST(Forwarder, AnEchoIsNoLoss) {
 
 // Whether a restart of the vehicle that shows on link 1 makes the router forget that 1/154 is behind link 2.
 bool restart_forgets_routes(std::string_view url, const route::Filter& in = {}) {
-    Router router;
+    ForwarderAtWork router;
     router.endpoint(url).policy.in = in;
     router.links.there.try_emplace(++router.last);
     EXPECT_TRUE(router.sut.add_link(LinkId{1}, *router.endpoints[0]));
@@ -196,7 +197,7 @@ TEST(Forwarder, WhatTeachesNoRouteForgetsNone) {
 }
 
 TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
-    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
+    ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
     router.link("udpout://127.0.0.1:1");
     router.link("udpin://127.0.0.1:2");
     router.link("udpout://127.0.0.1:3?tap=true");
@@ -211,7 +212,7 @@ TEST(Forwarder, TheOwnHeartbeatGoesToWhomTheRouterCalls) {
 }
 
 TEST(Forwarder, TheOwnHeartbeatThatComesBackIsAnEcho) {
-    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
+    ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{255, 193}});
     router.link("udpout://127.0.0.1:1");
     router.link("udpin://127.0.0.1:2");
     router.sut.send_due(router.links.time);
@@ -222,7 +223,7 @@ TEST(Forwarder, TheOwnHeartbeatThatComesBackIsAnEcho) {
 }
 
 TEST(Forwarder, WhatIsForTheRouterItselfIsConsumed) {
-    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}});
+    ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}});
     router.link();
     router.link();
 
@@ -230,7 +231,7 @@ TEST(Forwarder, WhatIsForTheRouterItselfIsConsumed) {
 }
 
 TEST(Forwarder, AsksAnArduPilotForItsStreamsOnItsLink) {
-    Router router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}, .request_streams_hz = 4});
+    ForwarderAtWork router({.heartbeat = std::pair<std::uint8_t, std::uint8_t>{42, 191}, .request_streams_hz = 4});
     router.link();
     router.link();
 
@@ -241,7 +242,7 @@ TEST(Forwarder, AsksAnArduPilotForItsStreamsOnItsLink) {
 }
 
 TEST(Forwarder, OtherOptionsHoldFromTheNextFrame) {
-    Router router;
+    ForwarderAtWork router;
     router.link();
     router.link();
     EXPECT_EQ(router.hears(1, command({9, 9})), route::Verdict::unknown_target);
@@ -252,7 +253,7 @@ TEST(Forwarder, OtherOptionsHoldFromTheNextFrame) {
 }
 
 TEST(Forwarder, AnExplainedFrameGoesTheSameWay) {
-    Router router;
+    ForwarderAtWork router;
     for (int i = 0; i < 3; ++i) router.link();
     std::vector<route::Explanation> why;
     router.sut.explain([&](const auto&, const auto&, auto explained) { why.assign(explained.begin(), explained.end()); });
@@ -265,7 +266,7 @@ TEST(Forwarder, AnExplainedFrameGoesTheSameWay) {
 }
 
 TEST(Forwarder, RefusesLinksBeyondTheBound) {
-    Router router;
+    ForwarderAtWork router;
     RoutedEndpoint& at = router.endpoint("udpin://127.0.0.1:1");
     for (std::uint32_t id = 1; id <= route::Engine::max_links; ++id) ASSERT_TRUE(router.sut.add_link(LinkId{id}, at));
 
@@ -273,7 +274,7 @@ TEST(Forwarder, RefusesLinksBeyondTheBound) {
 }
 
 TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
-    Router router;
+    ForwarderAtWork router;
     router.link();
     router.link();
     for (std::uint32_t i = 0; i < 8; ++i) router.hears(1 + i % 2, attitude());
@@ -285,7 +286,7 @@ TEST(Forwarder, TwoSendersOfOneIdAreToldOnceByTheNamesOfTheirLinks) {
 }
 
 TEST(Forwarder, ForgetsTheTrafficOfLinksThatWent) {
-    Router router;
+    ForwarderAtWork router;
     router.link();
     router.link();
     router.hears(1, attitude());

@@ -29,8 +29,8 @@ config::RouterConfig config_of(std::pair<std::uint8_t, std::uint8_t> own, std::u
     return {.heartbeat = own, .request_streams_hz = streams_hz};
 }
 
-struct Router {
-    explicit Router(const config::RouterConfig& config)
+struct OwnMessagesAtWork {
+    explicit OwnMessagesAtWork(const config::RouterConfig& config)
         : sut(dialect::default_dialect().wire_table(), config,
               {[this](LinkId link, const wire::FrameView& frame) {
                    sent.push_back(
@@ -61,23 +61,21 @@ struct Router {
     OwnMessages sut;
 };
 
-endpoint::Endpoint endpoint_of(std::string_view url) { return *endpoint::parse_endpoint(url); }
-
 TEST(OwnMessages, GoToWhomTheEndpointCalls) {
     for (const auto* calls : {"udpout://127.0.0.1:1", "udpbcast://10.0.0.255:1", "udpmcast://239.0.0.1:1",
                               "tcpout://127.0.0.1:1", "serial:///dev/ttyS0"}) {
-        EXPECT_TRUE(wants_heartbeat(endpoint_of(calls))) << calls;
-        EXPECT_FALSE(wants_heartbeat(endpoint_of(std::string(calls) + "?heartbeat=false"))) << calls;
+        EXPECT_TRUE(wants_heartbeat(*endpoint::parse_endpoint(calls))) << calls;
+        EXPECT_FALSE(wants_heartbeat(*endpoint::parse_endpoint(std::string(calls) + "?heartbeat=false"))) << calls;
     }
     for (const auto* waits : {"udpin://127.0.0.1:1", "tcpin://127.0.0.1:1"}) {
-        EXPECT_FALSE(wants_heartbeat(endpoint_of(waits))) << waits;
-        EXPECT_TRUE(wants_heartbeat(endpoint_of(std::string(waits) + "?heartbeat=true"))) << waits;
+        EXPECT_FALSE(wants_heartbeat(*endpoint::parse_endpoint(waits))) << waits;
+        EXPECT_TRUE(wants_heartbeat(*endpoint::parse_endpoint(std::string(waits) + "?heartbeat=true"))) << waits;
     }
-    EXPECT_FALSE(wants_heartbeat(endpoint_of("udpout://127.0.0.1:1?tap=true")));
+    EXPECT_FALSE(wants_heartbeat(*endpoint::parse_endpoint("udpout://127.0.0.1:1?tap=true")));
 }
 
 TEST(OwnMessages, TenTimesASecondUntilAnsweredThenOnce) {
-    Router router(config_of({255, 191}));
+    OwnMessagesAtWork router(config_of({255, 191}));
     router.sut.add(first, true, start);
 
     EXPECT_EQ(router.run(start, 2s).size(), 20u);
@@ -88,7 +86,7 @@ TEST(OwnMessages, TenTimesASecondUntilAnsweredThenOnce) {
 }
 
 TEST(OwnMessages, AreNoneOnALinkThatWantsNone) {
-    Router router(config_of({255, 191}));
+    OwnMessagesAtWork router(config_of({255, 191}));
     router.sut.add(first, false, start);
 
     EXPECT_EQ(router.sut.next_due(), MonoTime::max());
@@ -96,7 +94,7 @@ TEST(OwnMessages, AreNoneOnALinkThatWantsNone) {
 }
 
 TEST(OwnMessages, AreNoneWithoutAnId) {
-    Router router(config::RouterConfig{});
+    OwnMessagesAtWork router(config::RouterConfig{});
     router.sut.add(first, true, start);
     router.hears_heartbeat(first, 3);
 
@@ -105,7 +103,7 @@ TEST(OwnMessages, AreNoneWithoutAnId) {
 }
 
 TEST(OwnMessages, AStreamRequestGoesToALinkWithoutHeartbeatsToo) {
-    Router router(config_of({42, 191}, 4));
+    OwnMessagesAtWork router(config_of({42, 191}, 4));
     router.sut.add(first, false, start);
     router.sut.add(second, true, start);
 
@@ -118,7 +116,7 @@ TEST(OwnMessages, AStreamRequestGoesToALinkWithoutHeartbeatsToo) {
 }
 
 TEST(OwnMessages, OneSequenceForAllThatALinkGets) {
-    Router router(config_of({42, 191}, 4));
+    OwnMessagesAtWork router(config_of({42, 191}, 4));
     router.sut.add(first, true, start);
     router.sut.send_due(start);
     router.hears_heartbeat(first, 3);
@@ -128,7 +126,7 @@ TEST(OwnMessages, OneSequenceForAllThatALinkGets) {
 }
 
 TEST(OwnMessages, AnotherIdBeginsAnew) {
-    Router router(config_of({255, 191}));
+    OwnMessagesAtWork router(config_of({255, 191}));
     router.sut.add(first, true, start);
     (void)router.run(start, 1s);
     router.sut.configure(config_of({254, 1}));
@@ -139,7 +137,7 @@ TEST(OwnMessages, AnotherIdBeginsAnew) {
 }
 
 TEST(OwnMessages, ALinkThatWentGetsNone) {
-    Router router(config_of({255, 191}));
+    OwnMessagesAtWork router(config_of({255, 191}));
     router.sut.add(first, true, start);
     router.sut.remove(first);
 

@@ -15,12 +15,10 @@ using endpoint::GroupMode;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-endpoint::Endpoint endpoint_of(std::string_view url) { return *endpoint::parse_endpoint(url); }
-
 TEST(Groups, HaveOneModeEach) {
-    const std::vector endpoints{endpoint_of("udpin://127.0.0.1:1?group=air&group_mode=best"),
-                                endpoint_of("udpin://127.0.0.1:2?group=air"),
-                                endpoint_of("udpin://127.0.0.1:3?group=ground&group_mode=primary")};
+    const std::vector endpoints{*endpoint::parse_endpoint("udpin://127.0.0.1:1?group=air&group_mode=best"),
+                                *endpoint::parse_endpoint("udpin://127.0.0.1:2?group=air"),
+                                *endpoint::parse_endpoint("udpin://127.0.0.1:3?group=ground&group_mode=primary")};
     const auto modes = Groups::modes_of(endpoints);
     ASSERT_TRUE(modes);
     Groups sut;
@@ -28,12 +26,12 @@ TEST(Groups, HaveOneModeEach) {
 
     EXPECT_EQ(sut.mode_of(endpoints[1].options), GroupMode::best);
     EXPECT_EQ(sut.mode_of(endpoints[2].options), GroupMode::primary);
-    EXPECT_EQ(sut.mode_of(endpoint_of("udpin://127.0.0.1:4?group=other").options), GroupMode::all);
+    EXPECT_EQ(sut.mode_of(endpoint::parse_endpoint("udpin://127.0.0.1:4?group=other")->options), GroupMode::all);
 }
 
 TEST(Groups, WithTwoModesAreRefusedByTheSecondName) {
-    const std::vector endpoints{endpoint_of("udpin://127.0.0.1:1?group=air&group_mode=best"),
-                                endpoint_of("udpin://127.0.0.1:2?group=air&group_mode=all&name=spare")};
+    const std::vector endpoints{*endpoint::parse_endpoint("udpin://127.0.0.1:1?group=air&group_mode=best"),
+                                *endpoint::parse_endpoint("udpin://127.0.0.1:2?group=air&group_mode=all&name=spare")};
 
     const auto modes = Groups::modes_of(endpoints);
 
@@ -44,8 +42,8 @@ TEST(Groups, WithTwoModesAreRefusedByTheSecondName) {
 
 TEST(Groups, AnEmptiedGroupMayTakeAnotherMode) {
     Groups sut;
-    sut.note_mode(endpoint_of("udpin://127.0.0.1:1?group=air&group_mode=best").options);
-    const auto member = endpoint_of("udpin://127.0.0.1:2?group=air").options;
+    sut.note_mode(endpoint::parse_endpoint("udpin://127.0.0.1:1?group=air&group_mode=best")->options);
+    const auto member = endpoint::parse_endpoint("udpin://127.0.0.1:2?group=air")->options;
     EXPECT_EQ(sut.mode_of(member), GroupMode::best);
 
     sut.forget_mode("air");

@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 constexpr LinkId link{7};
 constexpr link::EndpointId px4{3};
-constexpr MonoTime start{1000s};
+constexpr MonoTime silence_start{1000s};
 
 struct Silence : testing::Test {
     // How many reports the looks of so many seconds bring.
@@ -31,32 +31,32 @@ struct Silence : testing::Test {
 
 TEST_F(Silence, IsReportedOnceAfterFiveSecondsOfSending) {
     sut.add(link, px4);
-    EXPECT_EQ(reports(start, 60), 0u) << "nothing was sent yet";
+    EXPECT_EQ(reports(silence_start, 60), 0u) << "nothing was sent yet";
     counters.frames_out.add();
 
-    EXPECT_EQ(reports(start + 60s, 5), 0u);
-    EXPECT_EQ(reports(start + 65s, 1), 1u);
-    EXPECT_EQ(reports(start + 66s, 60), 0u);
+    EXPECT_EQ(reports(silence_start + 60s, 5), 0u);
+    EXPECT_EQ(reports(silence_start + 65s, 1), 1u);
+    EXPECT_EQ(reports(silence_start + 66s, 60), 0u);
     sut.add(link, px4);  // it reconnected
-    EXPECT_EQ(reports(start + 200s, 60), 0u);
+    EXPECT_EQ(reports(silence_start + 200s, 60), 0u);
 }
 
 TEST_F(Silence, OfALinkThatWasHeardOnceIsNone) {
     sut.add(link, px4);
     counters.frames_out.add();
-    EXPECT_EQ(reports(start, 3), 0u);
+    EXPECT_EQ(reports(silence_start, 3), 0u);
     counters.frames_in.add();
 
-    EXPECT_EQ(reports(start + 3s, 60), 0u);
+    EXPECT_EQ(reports(silence_start + 3s, 60), 0u);
 }
 
 TEST_F(Silence, EndsWithItsLink) {
     sut.add(link, px4);
     counters.frames_out.add();
-    EXPECT_EQ(reports(start, 3), 0u);
+    EXPECT_EQ(reports(silence_start, 3), 0u);
     sut.remove(link);
 
-    EXPECT_EQ(reports(start + 3s, 60), 0u);
+    EXPECT_EQ(reports(silence_start + 3s, 60), 0u);
 }
 
 TEST(SilenceText, IsExpectedOfWhomTheEndpointCalls) {

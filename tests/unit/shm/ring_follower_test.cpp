@@ -19,20 +19,18 @@ namespace {
 using namespace std::chrono_literals;
 using test::RingName;
 
-MonoTime soon() { return mono_now() + 60s; }
-
-RingWriter open_writer(const RingName& name, std::uint64_t capacity = 64 << 10) {
+RingWriter open_followed(const RingName& name, std::uint64_t capacity = 64 << 10) {
     auto writer = RingWriter::open(name.text(), {.capacity = capacity});
     if (!writer) throw std::runtime_error(writer.error().text);
     return std::move(*writer);
 }
 
-void write(RingWriter& writer, std::string_view text) {
-    ASSERT_TRUE(writer.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {}, soon()));
+void write_followed(RingWriter& writer, std::string_view text) {
+    ASSERT_TRUE(writer.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, {}, mono_now() + 60s));
 }
 
 std::string read(RingFollower& follower) {
-    const auto record = follower.read(soon());
+    const auto record = follower.read(mono_now() + 60s);
     if (!record) return std::string("error: ").append(to_text(record.error()));
     return {reinterpret_cast<const char*>(record->data.data()), record->data.size()};
 }
@@ -49,8 +47,8 @@ TEST_P(RingFollowing, WaitsForARingThatIsNotThereYet) {
     ASSERT_NE(follower_.error(), nullptr);
     EXPECT_EQ(follower_.error()->code, SetupCode::not_found);
     EXPECT_EQ(follower_.read(mono_now() + 1ms).error(), ReadError::no_writer);
-    auto writer = open_writer(name_);
-    write(writer, "first");
+    auto writer = open_followed(name_);
+    write_followed(writer, "first");
     EXPECT_EQ(read(follower_), "first");
     EXPECT_EQ(follower_.error(), nullptr);
     EXPECT_EQ(follower_.read(mono_now()).error(), ReadError::empty);
@@ -58,25 +56,25 @@ TEST_P(RingFollowing, WaitsForARingThatIsNotThereYet) {
 
 TEST_P(RingFollowing, CarriesOnWithTheNextWriterOfTheSameRing) {
     {
-        auto writer = open_writer(name_);
-        write(writer, "one");
+        auto writer = open_followed(name_);
+        write_followed(writer, "one");
     }
     EXPECT_EQ(read(follower_), "one");
     EXPECT_EQ(follower_.read(mono_now() + 1ms).error(), ReadError::no_writer);
-    auto writer = open_writer(name_);
-    write(writer, "two");
+    auto writer = open_followed(name_);
+    write_followed(writer, "two");
     EXPECT_EQ(read(follower_), "two");
     EXPECT_EQ(follower_.opened(), 1u);
 }
 
 TEST_P(RingFollowing, DrainsARemovedRingAndGoesOnWithTheNext) {
-    auto writer = open_writer(name_);
+    auto writer = open_followed(name_);
     ASSERT_TRUE(follower_.try_open());
-    write(writer, "old 1");
-    write(writer, "old 2");
+    write_followed(writer, "old 1");
+    write_followed(writer, "old 2");
     ASSERT_TRUE(writer.close(RingWriter::Leave::nothing));
-    auto next = open_writer(name_);
-    write(next, "new");
+    auto next = open_followed(name_);
+    write_followed(next, "new");
     EXPECT_EQ(read(follower_), "old 1");
     EXPECT_EQ(read(follower_), "old 2");
     EXPECT_EQ(read(follower_), "new");
@@ -85,34 +83,34 @@ TEST_P(RingFollowing, DrainsARemovedRingAndGoesOnWithTheNext) {
 
 TEST_P(RingFollowing, GoesOnWithARingOfAnotherCapacity) {
     {
-        auto writer = open_writer(name_);
-        write(writer, "small");
+        auto writer = open_followed(name_);
+        write_followed(writer, "small");
     }
     EXPECT_EQ(read(follower_), "small");
-    auto writer = open_writer(name_, 128 << 10);
-    write(writer, "large");
+    auto writer = open_followed(name_, 128 << 10);
+    write_followed(writer, "large");
     EXPECT_EQ(read(follower_), "large");
 }
 
 TEST_P(RingFollowing, SurvivesANameTakenAwayByHand) {
     {
-        auto writer = open_writer(name_);
-        write(writer, "one");
+        auto writer = open_followed(name_);
+        write_followed(writer, "one");
     }
     EXPECT_EQ(read(follower_), "one");
     ::unlink(name_.path().c_str());
     EXPECT_EQ(follower_.read(mono_now() + 1ms).error(), ReadError::no_writer);
     EXPECT_FALSE(follower_.is_open());
-    auto writer = open_writer(name_);
-    write(writer, "two");
+    auto writer = open_followed(name_);
+    write_followed(writer, "two");
     EXPECT_EQ(read(follower_), "two");
 }
 
 TEST_P(RingFollowing, ReadsARetiredRingThatKeepsItsNameOnce) {
     {
-        auto writer = open_writer(name_);
-        write(writer, "one");
-        write(writer, "two");
+        auto writer = open_followed(name_);
+        write_followed(writer, "one");
+        write_followed(writer, "two");
     }
     const int fd = ::open(name_.path().c_str(), O_RDWR);
     const std::uint32_t retired = 1;
@@ -122,8 +120,8 @@ TEST_P(RingFollowing, ReadsARetiredRingThatKeepsItsNameOnce) {
     EXPECT_EQ(read(follower_), "two");
     EXPECT_EQ(follower_.read(mono_now() + 50ms).error(), ReadError::no_writer);
     EXPECT_EQ(follower_.opened(), 1u);
-    auto writer = open_writer(name_);
-    write(writer, "three");
+    auto writer = open_followed(name_);
+    write_followed(writer, "three");
     EXPECT_EQ(read(follower_), "three");
     EXPECT_EQ(follower_.opened(), 2u);
 }

@@ -71,7 +71,7 @@ namespace {
 using namespace std::chrono_literals;
 using test::RingName;
 
-constexpr std::uint64_t small = 64 << 10;
+constexpr std::uint64_t small_ring = 64 << 10;
 
 // Names of files that begin with the ring's, whatever they are.
 std::vector<std::string> files_of(const RingName& name) {
@@ -86,7 +86,7 @@ bool make_and_be_killed(const RingName& name, std::uint64_t step) {
     const pid_t child = ::fork();
     if (child == 0) {
         steps_left = step;
-        const auto writer = RingWriter::open(name.text(), {.capacity = small});
+        const auto writer = RingWriter::open(name.text(), {.capacity = small_ring});
         ::_exit(writer ? 0 : 1);
     }
     int status = 0;
@@ -107,7 +107,7 @@ TEST(RingCreation, AMakerKilledAtAnyStepLeavesNothingOrAWholeRing) {
             EXPECT_EQ(reader.error().code, SetupCode::not_found) << reader.error().text;
             EXPECT_EQ(files_of(name), std::vector<std::string>{}) << "step " << step;
         }
-        auto writer = RingWriter::open(name.text(), {.capacity = small});
+        auto writer = RingWriter::open(name.text(), {.capacity = small_ring});
         ASSERT_TRUE(writer) << "step " << step << ": " << writer.error().text;
         ASSERT_TRUE(writer->write(std::vector<std::uint8_t>(5), {}));
         auto first = RingReader::open(name.text(), {.from = ReaderOptions::From::oldest});
@@ -123,7 +123,7 @@ TEST(RingCreation, AMakerKilledAtAnyStepLeavesNothingOrAWholeRing) {
 // A full ring may be written to a million times a second.
 TEST(RingLocks, AFullRingAsksForLocksOnceAMillisecondAtMost) {
     const RingName name;
-    auto writer = RingWriter::open(name.text(), {.capacity = small, .when_full = WhenFull::drop_newest});
+    auto writer = RingWriter::open(name.text(), {.capacity = small_ring, .when_full = WhenFull::drop_newest});
     ASSERT_TRUE(writer);
     const auto reader = RingReader::open(name.text(), {.lossless = true});
     ASSERT_TRUE(reader);
@@ -140,7 +140,7 @@ TEST(RingLocks, AFullRingAsksForLocksOnceAMillisecondAtMost) {
 
 TEST(RingLocks, AFullRingThatDropsTheNewestIsFreeOfADeadReaderSoonAfterItsDeath) {
     const RingName name;
-    auto writer = RingWriter::open(name.text(), {.capacity = small, .when_full = WhenFull::drop_newest});
+    auto writer = RingWriter::open(name.text(), {.capacity = small_ring, .when_full = WhenFull::drop_newest});
     ASSERT_TRUE(writer);
     const pid_t child = ::fork();
     if (child == 0) {

@@ -16,37 +16,37 @@
 namespace mavloom::shm {
 namespace {
 
-using Producer = detail::Producer<SharedWords>;
-using Consumer = detail::Consumer<SharedWords>;
+using ThreadProducer = detail::Producer<SharedWords>;
+using ThreadConsumer = detail::Consumer<SharedWords>;
 
-constexpr std::uint64_t capacity = 4096;
+constexpr std::uint64_t thread_capacity = 4096;
 constexpr std::uint64_t records = 50'000;
 
-struct Ring {
+struct ThreadRing {
     RingControl<SharedWords> control{};
     ReaderSlot<SharedWords> slots[reader_slots]{};
-    SharedWords::Word64 data[capacity / 8]{};
-    [[nodiscard]] RingMemory<SharedWords> memory() { return {&control, slots, data, capacity}; }
+    SharedWords::Word64 data[thread_capacity / 8]{};
+    [[nodiscard]] RingMemory<SharedWords> memory() { return {&control, slots, data, thread_capacity}; }
 };
 
-std::vector<std::uint8_t> content_of(std::uint64_t sequence) {
+std::vector<std::uint8_t> thread_content_of(std::uint64_t sequence) {
     std::vector<std::uint8_t> bytes(sequence * 31 % 200);
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(sequence * 7 + i);
     return bytes;
 }
 
 // Until the last record; gives how many were missed, nothing where a record was wrong.
-std::optional<std::uint64_t> read_to_the_end(Consumer& consumer) {
+std::optional<std::uint64_t> read_to_the_end(ThreadConsumer& consumer) {
     std::uint64_t next = consumer.sequence(), missed = 0;
     RingRecord record;
     while (next < records) {
         const auto found = consumer.next(record);
-        if (found == Consumer::Found::damaged) return std::nullopt;
-        if (found == Consumer::Found::empty) {
+        if (found == ThreadConsumer::Found::damaged) return std::nullopt;
+        if (found == ThreadConsumer::Found::empty) {
             consumer.sleep(std::chrono::milliseconds(1));
             continue;
         }
-        const auto expected = content_of(record.sequence);
+        const auto expected = thread_content_of(record.sequence);
         if (record.sequence != next + record.missed || record.info.link.value != record.sequence) return std::nullopt;
         if (!std::equal(expected.begin(), expected.end(), record.data.begin(), record.data.end())) return std::nullopt;
         missed += record.missed;
@@ -57,10 +57,10 @@ std::optional<std::uint64_t> read_to_the_end(Consumer& consumer) {
     return missed;
 }
 
-void write_all(Producer& producer, bool by_claim) {
+void write_all(ThreadProducer& producer, bool by_claim) {
     for (std::uint64_t n = 0; n < records; ++n) {
-        const auto content = content_of(n);
-        while (producer.claim(content.size()) == Producer::Room::held) {
+        const auto content = thread_content_of(n);
+        while (producer.claim(content.size()) == ThreadProducer::Room::held) {
             producer.wake_readers();
             producer.sleep_for_room(content.size(), std::chrono::milliseconds(10));
         }
@@ -71,11 +71,11 @@ void write_all(Producer& producer, bool by_claim) {
 }
 
 TEST(RingThreads, LossyReadersBesideAWriterThatNeverWaits) {
-    const auto ring = std::make_unique<Ring>();
-    Producer producer(ring->memory());
+    const auto ring = std::make_unique<ThreadRing>();
+    ThreadProducer producer(ring->memory());
     ASSERT_TRUE(producer.recover());
-    Consumer first(ring->memory(), 0, false), second(ring->memory(), std::nullopt, false);
-    ASSERT_TRUE(first.start(Consumer::Start::oldest) && second.start(Consumer::Start::oldest));
+    ThreadConsumer first(ring->memory(), 0, false), second(ring->memory(), std::nullopt, false);
+    ASSERT_TRUE(first.start(ThreadConsumer::Start::oldest) && second.start(ThreadConsumer::Start::oldest));
     std::optional<std::uint64_t> missed;
     std::thread reader([&] { missed = read_to_the_end(second); });
     std::thread writer([&] { write_all(producer, false); });
@@ -87,11 +87,11 @@ TEST(RingThreads, LossyReadersBesideAWriterThatNeverWaits) {
 }
 
 TEST(RingThreads, LosslessReadersOfRecordsThatAreFilledInPlace) {
-    const auto ring = std::make_unique<Ring>();
-    Producer producer(ring->memory());
+    const auto ring = std::make_unique<ThreadRing>();
+    ThreadProducer producer(ring->memory());
     ASSERT_TRUE(producer.recover());
-    Consumer first(ring->memory(), 3, true), second(ring->memory(), 63, true);
-    ASSERT_TRUE(first.start(Consumer::Start::oldest) && second.start(Consumer::Start::oldest));
+    ThreadConsumer first(ring->memory(), 3, true), second(ring->memory(), 63, true);
+    ASSERT_TRUE(first.start(ThreadConsumer::Start::oldest) && second.start(ThreadConsumer::Start::oldest));
     std::optional<std::uint64_t> missed;
     std::thread reader([&] { missed = read_to_the_end(second); });
     std::thread writer([&] { write_all(producer, true); });
@@ -102,18 +102,18 @@ TEST(RingThreads, LosslessReadersOfRecordsThatAreFilledInPlace) {
 }
 
 TEST(RingThreads, LosslessReadersComeAndGo) {
-    const auto ring = std::make_unique<Ring>();
-    Producer producer(ring->memory());
+    const auto ring = std::make_unique<ThreadRing>();
+    ThreadProducer producer(ring->memory());
     ASSERT_TRUE(producer.recover());
     std::atomic<bool> done{false}, good{true};
     std::thread comer([&] {
         while (!done) {
-            Consumer consumer(ring->memory(), 9, true);
+            ThreadConsumer consumer(ring->memory(), 9, true);
             RingRecord record;
-            if (!consumer.start(Consumer::Start::newest)) good = false;
+            if (!consumer.start(ThreadConsumer::Start::newest)) good = false;
             for (int i = 0; i < 20; ++i) {
-                if (consumer.next(record) != Consumer::Found::record) continue;
-                const auto expected = content_of(record.sequence);
+                if (consumer.next(record) != ThreadConsumer::Found::record) continue;
+                const auto expected = thread_content_of(record.sequence);
                 if (record.missed != 0 ||
                     !std::equal(expected.begin(), expected.end(), record.data.begin(), record.data.end()))
                     good = false;

@@ -142,8 +142,8 @@ TEST(SequenceTracker, BoundsItsMemory) {
 namespace {
 
 constexpr MessageInfo system_time{MessageId{2}, 137, 12, 12, 0xff, 0xff, 8},
-    attitude{MessageId{30}, 39, 28, 28, 0xff, 0xff, 0}, position{MessageId{33}, 104, 28, 28, 0xff, 0xff, 0},
-    heartbeat{MessageId{0}, 50, 9, 9};
+    attitude_info{MessageId{30}, 39, 28, 28, 0xff, 0xff, 0}, position{MessageId{33}, 104, 28, 28, 0xff, 0xff, 0},
+    heartbeat_info{MessageId{0}, 50, 9, 9};
 
 // The frames of one vehicle with a sequence of its own.
 struct Vehicle {
@@ -163,7 +163,7 @@ struct Vehicle {
         return tracker.update(frame, &info);
     }
     void fly(std::uint32_t from_ms, int frames) {
-        for (int i = 0; i < frames; ++i) send(attitude, from_ms + static_cast<std::uint32_t>(20 * i));
+        for (int i = 0; i < frames; ++i) send(attitude_info, from_ms + static_cast<std::uint32_t>(20 * i));
     }
 };
 
@@ -176,7 +176,7 @@ TEST(Restart, ShowsBySystemTimeAtOnceAndIsNoLoss) {
     vehicle.send(system_time, 100'400);
     vehicle.sequence = 60;
 
-    EXPECT_EQ(vehicle.send(heartbeat).verdict, Verdict::gap);
+    EXPECT_EQ(vehicle.send(heartbeat_info).verdict, Verdict::gap);
     const auto update = vehicle.send(system_time, 1'200);
 
     EXPECT_EQ(update.verdict, Verdict::reboot);
@@ -192,9 +192,9 @@ TEST(Restart, ShowsByTheSecondFrameOfAnotherMessage) {
     vehicle.fly(100'000, 50);
     vehicle.sequence = 0;
 
-    EXPECT_EQ(vehicle.send(attitude, 300).verdict, Verdict::resync);
-    EXPECT_EQ(vehicle.send(heartbeat).verdict, Verdict::good);
-    const auto update = vehicle.send(attitude, 320);
+    EXPECT_EQ(vehicle.send(attitude_info, 300).verdict, Verdict::resync);
+    EXPECT_EQ(vehicle.send(heartbeat_info).verdict, Verdict::good);
+    const auto update = vehicle.send(attitude_info, 320);
     EXPECT_EQ(update.verdict, Verdict::reboot);
     EXPECT_EQ(update.resync, 0);  // counted already
     vehicle.fly(340, 50);
@@ -208,8 +208,8 @@ TEST(Restart, TakesBackTheFramesThatSeemedLate) {
     Vehicle vehicle{sut};
     vehicle.fly(100'000, 20);
     vehicle.sequence = 25;
-    vehicle.send(attitude, 100'400);  // five lost, truly
-    vehicle.sequence = 0;             // 26 back: late
+    vehicle.send(attitude_info, 100'400);  // five lost, truly
+    vehicle.sequence = 0;                  // 26 back: late
 
     vehicle.fly(100, 10);
 
@@ -223,9 +223,9 @@ TEST(Restart, IsNoneOfOneFrameThatComesLate) {
     Vehicle vehicle{sut};
     vehicle.fly(100'000, 20);
 
-    EXPECT_NE(vehicle.send(attitude, 90'000).verdict, Verdict::reboot);
-    EXPECT_NE(vehicle.send(attitude, 100'420).verdict, Verdict::reboot);
-    EXPECT_NE(vehicle.send(attitude, 90'020).verdict, Verdict::reboot);
+    EXPECT_NE(vehicle.send(attitude_info, 90'000).verdict, Verdict::reboot);
+    EXPECT_NE(vehicle.send(attitude_info, 100'420).verdict, Verdict::reboot);
+    EXPECT_NE(vehicle.send(attitude_info, 90'020).verdict, Verdict::reboot);
     EXPECT_EQ(sut.total().resync, 0u);
 }
 
@@ -234,7 +234,8 @@ TEST(Restart, IsNoneWithinTheTolerance) {
     Vehicle vehicle{sut};
     vehicle.fly(100'000, 2);
 
-    for (const auto back : {99'020u, 98'100u, 97'100u}) EXPECT_EQ(vehicle.send(attitude, back).verdict, Verdict::good);
+    for (const auto back : {99'020u, 98'100u, 97'100u})
+        EXPECT_EQ(vehicle.send(attitude_info, back).verdict, Verdict::good);
     EXPECT_EQ(vehicle.send(system_time, 200'000).verdict, Verdict::good);
     EXPECT_EQ(vehicle.send(system_time, 199'000).verdict, Verdict::good);
 }
@@ -251,7 +252,7 @@ TEST(Restart, IsThatOfAnAutopilot) {
     SequenceTracker sut;
     Vehicle camera{sut, 100};
     camera.fly(100'000, 2);
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(camera.send(attitude, 300).verdict, Verdict::good);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(camera.send(attitude_info, 300).verdict, Verdict::good);
 
     EXPECT_EQ(camera.send(system_time, 100'000).verdict, Verdict::good);
     EXPECT_EQ(camera.send(system_time, 300).verdict, Verdict::reboot);  // any component that sends SYSTEM_TIME
@@ -264,7 +265,7 @@ TEST(Restart, IsNotToldByAClockOfZero) {
     vehicle.send(system_time, 100'100);
 
     for (int i = 0; i < 5; ++i) {
-        EXPECT_EQ(vehicle.send(attitude, 0).verdict, Verdict::good);
+        EXPECT_EQ(vehicle.send(attitude_info, 0).verdict, Verdict::good);
         EXPECT_EQ(vehicle.send(system_time, 0).verdict, Verdict::good);
     }
 }
@@ -272,9 +273,9 @@ TEST(Restart, IsNotToldByAClockOfZero) {
 TEST(Restart, OfOneSourceIsNoneOfAnother) {
     SequenceTracker sut;
     Vehicle vehicle{sut}, radio{sut, 51};
-    radio.send(heartbeat);
+    radio.send(heartbeat_info);
     radio.sequence = 4;
-    radio.send(heartbeat);
+    radio.send(heartbeat_info);
     vehicle.fly(100'000, 2);
     vehicle.fly(300, 2);
 

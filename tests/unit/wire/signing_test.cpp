@@ -14,7 +14,7 @@
 
 namespace mavloom::wire {
 
-using Verdict = Verifier::Verdict;
+using SignatureVerdict = Verifier::Verdict;
 
 namespace {
 
@@ -61,13 +61,13 @@ TEST(SigningTime, CountsTicksOfTenMicrosecondsSince2015) {
 TEST(Verifier, WhatAnEarlierRunTookIsAReplay) {
     Sender sender;
     Verifier before(sender.key);
-    ASSERT_EQ(before.verify(sender.at(noon), noon), Verdict::good);
+    ASSERT_EQ(before.verify(sender.at(noon), noon), SignatureVerdict::good);
 
     Verifier after(sender.key);
     for (const auto& stream : before.streams()) after.restore(stream);
 
-    EXPECT_EQ(after.verify(sender.at(noon), noon), Verdict::replay);
-    EXPECT_EQ(after.verify(sender.at({noon.ticks + 1}), noon), Verdict::good);
+    EXPECT_EQ(after.verify(sender.at(noon), noon), SignatureVerdict::replay);
+    EXPECT_EQ(after.verify(sender.at({noon.ticks + 1}), noon), SignatureVerdict::good);
     EXPECT_EQ(after.newest().ticks, noon.ticks + 1);
 }
 
@@ -86,8 +86,8 @@ TEST(Verifier, RestoringNeverGoesBackAndHasABound) {
 TEST(Verifier, AcceptsPymavlinksSignature) {
     Verifier sut(key_from(0));
 
-    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_1), SigningTime{5}), Verdict::good);
-    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_late), SigningTime{5}), Verdict::good);
+    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_1), SigningTime{5}), SignatureVerdict::good);
+    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_late), SigningTime{5}), SignatureVerdict::good);
 }
 
 TEST(Verifier, RefusesEveryFlippedBitOfASignedFrame) {
@@ -97,55 +97,56 @@ TEST(Verifier, RefusesEveryFlippedBitOfASignedFrame) {
         auto damaged = test::heartbeat_signed_1;
         damaged[byte] = static_cast<std::uint8_t>(damaged[byte] ^ (1u << (bit % 8)));
         Verifier sut(key_from(0));
-        ASSERT_EQ(sut.verify(FrameView::unchecked(damaged), SigningTime{5}), Verdict::bad_signature) << bit;
+        ASSERT_EQ(sut.verify(FrameView::unchecked(damaged), SigningTime{5}), SignatureVerdict::bad_signature) << bit;
     }
 }
 
 TEST(Verifier, RefusesAnotherKeyAndUnsignedFrames) {
     Verifier sut(key_from(1));
 
-    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_1), SigningTime{5}), Verdict::bad_signature);
-    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_v2), SigningTime{5}), Verdict::unsigned_frame);
-    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_v1), SigningTime{5}), Verdict::unsigned_frame);
+    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_signed_1), SigningTime{5}),
+              SignatureVerdict::bad_signature);
+    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_v2), SigningTime{5}), SignatureVerdict::unsigned_frame);
+    EXPECT_EQ(sut.verify(FrameView::unchecked(test::heartbeat_v1), SigningTime{5}), SignatureVerdict::unsigned_frame);
 }
 
 TEST(Verifier, RefusesAReplay) {
     Verifier sut(key_from(0));
     Sender sender;
-    EXPECT_EQ(sut.verify(sender.at(noon), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(sender.at(noon), noon), SignatureVerdict::good);
 
-    EXPECT_EQ(sut.verify(sender.at(noon), noon), Verdict::replay);
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks - 1}), noon), Verdict::replay);
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(sender.at(noon), noon), SignatureVerdict::replay);
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks - 1}), noon), SignatureVerdict::replay);
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}), noon), SignatureVerdict::good);
 }
 
 TEST(Verifier, KeepsStreamsOfLinksAndSourcesApart) {
     Verifier sut(key_from(0));
     Sender one, other_link{key_from(0), 2};
-    EXPECT_EQ(sut.verify(one.at(noon), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(one.at(noon), noon), SignatureVerdict::good);
 
-    EXPECT_EQ(sut.verify(other_link.at(noon), noon), Verdict::good);
-    EXPECT_EQ(sut.verify(one.at(noon, 2), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(other_link.at(noon), noon), SignatureVerdict::good);
+    EXPECT_EQ(sut.verify(one.at(noon, 2), noon), SignatureVerdict::good);
 }
 
 TEST(Verifier, LetsANewStreamBeAMinuteBehindAndNoMore) {
     Verifier sut(key_from(0));
     Sender sender;
 
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute - 1}), noon), Verdict::too_old);
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute}), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute - 1}), noon), SignatureVerdict::too_old);
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute}), noon), SignatureVerdict::good);
 }
 
 // python-users.md row 23: in pymavlink a forged frame with a future time locks the true sender out.
 TEST(Verifier, AForgedFrameFromTheFutureDoesNotLockTheTrueSenderOut) {
     Verifier sut(key_from(0));
     Sender honest, forger{key_from(99)};
-    EXPECT_EQ(sut.verify(honest.at(noon), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(honest.at(noon), noon), SignatureVerdict::good);
 
-    EXPECT_EQ(sut.verify(forger.at({noon.ticks + 1000 * minute}), noon), Verdict::bad_signature);
-    EXPECT_EQ(sut.verify(forger.at({noon.ticks + 1000 * minute}, 9), noon), Verdict::bad_signature);
+    EXPECT_EQ(sut.verify(forger.at({noon.ticks + 1000 * minute}), noon), SignatureVerdict::bad_signature);
+    EXPECT_EQ(sut.verify(forger.at({noon.ticks + 1000 * minute}, 9), noon), SignatureVerdict::bad_signature);
 
-    EXPECT_EQ(sut.verify(honest.at({noon.ticks + 1}), noon), Verdict::good);
+    EXPECT_EQ(sut.verify(honest.at({noon.ticks + 1}), noon), SignatureVerdict::good);
     EXPECT_EQ(sut.newest(), SigningTime{noon.ticks + 1});
 }
 
@@ -156,12 +157,12 @@ TEST(Verifier, BoundsItsStreams) {
     for (unsigned link = 0; link < 8; ++link) {
         sender.link = static_cast<std::uint8_t>(link);
         for (unsigned system = 0; system < 256; ++system)
-            accepted += sut.verify(sender.at(noon, static_cast<std::uint8_t>(system)), noon) == Verdict::good;
+            accepted += sut.verify(sender.at(noon, static_cast<std::uint8_t>(system)), noon) == SignatureVerdict::good;
     }
 
     EXPECT_EQ(accepted, Verifier::max_streams);
     sender.link = 0;
-    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}, 0), noon), Verdict::good);  // known streams continue
+    EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}, 0), noon), SignatureVerdict::good);  // known streams continue
 }
 
 TEST(Signer, NeverRepeatsATimeWhenTheClockStands) {

@@ -8,7 +8,7 @@
 
 namespace mavloom::wire {
 
-using Verdict = UnknownIds::Verdict;
+using IdVerdict = UnknownIds::Verdict;
 
 namespace {
 
@@ -28,7 +28,7 @@ TEST(UnknownIds, RefusesAChecksumThatNoExtraByteGives) {
     auto bytes = test::copy(Stranger{}.with(77).bytes());
     bytes.back() ^= 0x01;
 
-    EXPECT_EQ(sut.judge(FrameView::unchecked(bytes)), Verdict::impossible);
+    EXPECT_EQ(sut.judge(FrameView::unchecked(bytes)), IdVerdict::impossible);
     EXPECT_FALSE(sut.learn(FrameView::unchecked(bytes)));
     EXPECT_EQ(sut.size(), 0u);
 }
@@ -37,13 +37,13 @@ TEST(UnknownIds, LearnsAfterThreeAgreeingFrames) {
     UnknownIds sut;
     Stranger stranger;
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(sut.judge(stranger.with(77)), Verdict::possible);
+        EXPECT_EQ(sut.judge(stranger.with(77)), IdVerdict::possible);
         EXPECT_TRUE(sut.learn(stranger.with(77)));
     }
 
-    EXPECT_EQ(sut.judge(stranger.with(77)), Verdict::confirmed);
-    EXPECT_EQ(sut.judge(stranger.with(78)), Verdict::impossible);
-    EXPECT_EQ(sut.judge(stranger.with(78, 2)), Verdict::possible);  // another sender
+    EXPECT_EQ(sut.judge(stranger.with(77)), IdVerdict::confirmed);
+    EXPECT_EQ(sut.judge(stranger.with(78)), IdVerdict::impossible);
+    EXPECT_EQ(sut.judge(stranger.with(78, 2)), IdVerdict::possible);  // another sender
 }
 
 TEST(UnknownIds, RelearnsAfterAsManyAgreeingOthers) {
@@ -54,7 +54,7 @@ TEST(UnknownIds, RelearnsAfterAsManyAgreeingOthers) {
     EXPECT_FALSE(sut.learn(stranger.with(90)));
     EXPECT_FALSE(sut.learn(stranger.with(90)));
     EXPECT_TRUE(sut.learn(stranger.with(90)));
-    EXPECT_EQ(sut.judge(stranger.with(90)), Verdict::confirmed);
+    EXPECT_EQ(sut.judge(stranger.with(90)), IdVerdict::confirmed);
 }
 
 TEST(UnknownIds, NobodyCanSilenceATrueSenderWithFramesInBetween) {

@@ -33,8 +33,8 @@ public:
           copy_(lossless ? 0 : max_payload(ring.capacity) / sizeof(std::uint64_t) + 1) {}
 
     enum class Start : std::uint8_t { newest, oldest };
-    // Moves to the next record that will be written, or to the oldest one in the ring. A lossless reader holds from
-    // here on. Returns false if the ring is damaged.
+    // Moves to the next record that will be written, or to the oldest one in the ring. A lossless reader sets its hold
+    // at that position. Returns false if the ring is damaged.
     [[nodiscard]] bool start(Start where) noexcept {
         for (int attempt = 0; attempt < most_attempts; ++attempt) {
             const std::uint64_t intent = ring_.control->intent.load(std::memory_order_acquire);
@@ -119,8 +119,8 @@ public:
         return found;
     }
 
-    // Ends the view of the last record. May delay the report to the writer, but reports at the latest when everything
-    // is read.
+    // Ends the view of the last record. Reports the new position to the writer now or later, at the latest when
+    // everything is read.
     void release() noexcept {
         if (!in_hand_) return;
         in_hand_ = false;
@@ -169,8 +169,8 @@ public:
             rest_ = rest_ == Rest::nap ? Rest::asked : Rest::known;
     }
 
-    // Sets this reader's bit, for a sleep on `wakes` elsewhere. The bit stays set until awake(). Returns whether it was
-    // already set.
+    // Sets this reader's bit in `sleepers`, for a caller that sleeps on `wakes` by other means. The bit stays set until
+    // awake(). Returns whether it was already set.
     [[nodiscard]] bool fall_asleep() noexcept {
         asleep_ = true;
         return (ring_.control->sleepers.fetch_or(bit(), std::memory_order_seq_cst) & bit()) != 0;

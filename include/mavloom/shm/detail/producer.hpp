@@ -59,7 +59,7 @@ public:
     }
 
     // Where the caller writes the claimed payload with plain stores. A lossy reader that is lapped at that moment may
-    // copy a mixture. It then discards the copy (see extend()).
+    // copy a mixture of old and new bytes. It then discards the copy (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
         return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }

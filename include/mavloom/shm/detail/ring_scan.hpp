@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Functions that readers and writers use to scan a ring: load record headers, find marks, count records.
 //
-// Another process wrote the data, so everything that is read counts as damage until it has been checked. Any thread;
-// allocates nothing.
+// Another process wrote the data, so nothing that is read is trusted until it has been checked. Any thread; allocates
+// nothing.
 #pragma once
 
 #include <optional>

@@ -16,8 +16,8 @@ namespace mavloom::wire::detail {
 // Whether more bytes may follow those that were passed.
 enum class End : std::uint8_t {
     open,    // more bytes of the stream: an incomplete frame waits
-    idle,    // nothing for now: an incomplete frame still waits, a whole frame of unknown id is complete
-    closed,  // nothing (a datagram's end): an incomplete frame is junk
+    idle,    // none for now: an incomplete frame still waits, but a whole frame of unknown id is accepted
+    closed,  // none (a datagram's end): an incomplete frame is junk
 };
 
 class Scanner {
@@ -27,8 +27,8 @@ public:
     explicit Scanner(const MessageTable& table) : table_(&table) {}
 
     // Consumes the bytes that can be decided, calls sink(const ParseEvent&) for each event, and returns the number of
-    // bytes consumed. `slack` bytes behind `bytes` may be read too, whatever they hold. With `enough_slack` of them,
-    // the last checksums are computed as fast as the others.
+    // bytes consumed. The scanner may also read `slack` bytes behind `bytes`; their values do not matter. With at least
+    // `enough_slack`, it checks frames at the end of `bytes` as fast as all others.
     template <class Sink>
     std::size_t scan(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         std::size_t at = 0;
@@ -40,8 +40,8 @@ public:
         return at;
     }
 
-    // One step of `scan`: a frame, or one byte that begins none. Returns 0 if more bytes are needed. `bytes` is not
-    // empty.
+    // One step of `scan`: consumes a frame, or one byte that begins no frame. Returns 0 if more bytes are needed.
+    // `bytes` is not empty.
     template <class Sink>
     std::size_t scan_one(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         const Candidate found = examine(bytes.data(), bytes.size(), end, slack);
@@ -65,7 +65,7 @@ public:
         junk_run_ = 0;
     }
 
-    // One byte that begins no frame.
+    // Counts one byte that begins no frame as junk.
     template <class Sink>
     void add_junk(Sink&& sink) {
         counters_.junk_bytes.add();
@@ -105,7 +105,7 @@ private:
         return *p == stx_v1 ? examine_start(p, size, end, slack) : Candidate{};
     }
 
-    // Inlined twice, so that the compiler knows the version in each.
+    // Inlined into both branches of `examine`, so that the compiler knows the MAVLink version in each.
     [[nodiscard, gnu::always_inline]] Candidate examine_start(const std::uint8_t* p, std::size_t size, End end,
                                                               std::size_t slack) noexcept {
         const std::size_t length = frame_length(p, size);
