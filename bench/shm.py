@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench shm: compares the ring with Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to core
-and a bare exchange of a cache line, in turns.
+"""bench shm: compares the ring with Aeron IPC, iceoryx publish/subscribe, UDP on loopback, a bare copy from core to
+core and a bare exchange of a cache line, in turns.
 
 Every program compares each record with what was written. Ratios are within one round. Peers that are not installed are
 left out and listed."""
@@ -27,7 +27,7 @@ class Missing(Exception):
 
 
 def run(command, what=None):
-    """Runs a program and returns its output. `what`: the program is an installer, and if it fails, a peer is missing."""
+    """Runs a program and returns its output. `what`: the program installs a peer, which is missing if this fails."""
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
     if done.returncode == 0:
         return done.stdout
@@ -151,7 +151,7 @@ class Bench:
         self.rounds, self.as_json = options.rounds, options.json
 
     def tell(self, title, peer, ours, theirs, target, at_most=False, unit="M/s"):
-        """Prints one row. A ratio above the target meets it; with `at_most`, a ratio below. Without target, no verdict."""
+        """Prints one row. A ratio above the target meets it, or below it with `at_most`. No target: no verdict."""
         ratios = [a / b for a, b in zip(ours, theirs)]
         us, them, ratio = statistics.median(ours), statistics.median(theirs), statistics.median(ratios)
         met = None if target is None else ratio <= target if at_most else ratio >= target

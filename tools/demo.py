@@ -76,7 +76,7 @@ class Program:
 
 
 def frames_of(tlog):
-    """Returns the frames of a tlog, split by their own length bytes. Uses no code of ours, because it checks our code."""
+    """Returns the frames of a tlog, split by their own length bytes. It checks our code, so it uses none of it."""
     data, frames, at = pathlib.Path(tlog).read_bytes(), [], 0
     while at + 8 + 3 <= len(data):
         start, length, flags = data[at + 8], data[at + 9], data[at + 10]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes tests/golden/dialect_all.tsv: the result of pymavlink's generator for dialects/all.xml, for comparison with our
-reader.
+"""Writes tests/golden/dialect_all.tsv: the result of pymavlink's generator for dialects/all.xml, to compare
+our reader with it.
 
 pymavlink is an independent implementation: it computes the wire order, lengths, CRC_EXTRA, offsets and merged enums in
 the output. Run this script again after tools/import_dialect.py:

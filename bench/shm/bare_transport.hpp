@@ -23,7 +23,8 @@ class BareTransport {
     struct Memory {
         alignas(128) std::atomic<std::uint64_t> tail{0};
         alignas(128) std::atomic<std::uint64_t> head{0};
-        alignas(128) std::uint8_t bytes[capacity + longest + sizeof(Tags)];  // room for a record that starts just before the end
+        // With room for a record that starts just before the end.
+        alignas(128) std::uint8_t bytes[capacity + longest + sizeof(Tags)];
 
         [[nodiscard]] std::uint8_t* at(std::uint64_t position) noexcept { return bytes + position % capacity; }
     };

@@ -42,9 +42,10 @@ private:
     struct Served {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
-        std::optional<link::EndpointId> inlet{};  // for a ring that is read: the endpoint that carries frames to its router
-        std::optional<link::EndpointId>
-            served_inlet{};  // for a ring that this endpoint fills: receives frames from the ring's readers
+        // For a ring that is read: the endpoint that carries frames to its router.
+        std::optional<link::EndpointId> inlet{};
+        // For a ring that this endpoint fills: receives frames from the ring's readers.
+        std::optional<link::EndpointId> served_inlet{};
         std::uint64_t unheard_answers = 0;
     };
 
@@ -65,7 +66,8 @@ private:
 
     // sources_ refers to dialects that the channels in served_ own, so served_ is destroyed after it.
     std::unordered_map<link::EndpointId, Served> served_;
-    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;  // by served inlet: the endpoint that fills the ring
+    // By served inlet: the endpoint that fills the ring.
+    std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
 };
 

@@ -116,7 +116,8 @@ private:
     Limits limits_;
     std::unique_ptr<std::uint8_t[]> memory_;
     std::size_t capacity_ = 0, tail_ = 0;  // bytes
-    std::vector<Entry> entries_;  // oldest first; entries before head_ are finished; later ones with `live` = false were dropped
+    // Oldest first. Entries before head_ are finished; later ones with `live` = false were dropped.
+    std::vector<Entry> entries_;
     std::size_t head_ = 0;
     std::size_t begun_ = 0;  // bytes of entries_[head_] that a stream has already sent
     std::size_t bytes_ = 0, blocks_ = 0;

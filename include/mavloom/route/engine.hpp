@@ -117,7 +117,7 @@ struct EngineCounters {
     Counter unknown_link;
     Counter routes_learned;  // new, or learned again after they were forgotten
     Counter routes_expired;
-    Counter routes_evicted;  // the stalest route of a full link, or, if the table is full, of the link with the most routes
+    Counter routes_evicted;  // the stalest of a full link, or, if the table is full, of the link with most routes
     Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
     Counter reboots;         // restarts of a system, see note_reboot
     Counter duplicate_ids;   // sources heard alternately on links that do not share a group

@@ -21,7 +21,7 @@ struct Records {
     std::deque<std::vector<CommandParam>> params;
     std::vector<Message> messages;                        // by ascending id
     std::vector<Enum> enums;                              // by name
-    std::vector<std::shared_ptr<const void>> kept_alive;  // for a merged dialect: owners of the memory that its views point into
+    std::vector<std::shared_ptr<const void>> kept_alive;  // what the views of a merged dialect point into
 
     std::string_view intern(std::string_view text) { return *strings.emplace(text).first; }
 
