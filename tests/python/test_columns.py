@@ -207,7 +207,7 @@ def test_arrays_outlive_everything(flight):
     assert (roll == expected + 1).all()
 
 
-# ---- tables: example 9
+# ---- tables
 
 def test_example_9_arrow_and_parquet_keep_units_and_enum_names(flight, tmp_path):
     import pyarrow.parquet

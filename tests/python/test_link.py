@@ -527,7 +527,7 @@ def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
         assert link.recv(timeout=0) is None
 
 
-# ---- asyncio: row 19, example 5
+# ---- asyncio: row 19
 
 def test_row_19_example_5_many_tasks_on_one_loop(link, vehicle):
     tasks, count = 200, 50
@@ -615,7 +615,7 @@ def test_row_19_cancel_and_close(link, vehicle):
     asyncio.run(run())
 
 
-# ---- closing, signals, fork, exit: row 26, example 11
+# ---- closing, signals, fork, exit: row 26
 
 def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
     ended = []

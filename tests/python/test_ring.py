@@ -1125,7 +1125,7 @@ def test_removing_by_a_writer_that_left_the_ring_is_refused(writer, ring):
     mavloom.remove_ring(ring)
 
 
-# ---- exits and forks: rows 3.1, 3.22, example 11
+# ---- exits and forks: rows 3.1 and 3.22
 
 EXITS = """
 import multiprocessing

@@ -464,7 +464,7 @@ def faketime_library():
 
 
 def test_a_clock_that_jumps_by_an_hour_changes_nothing(pair, program, tmp_path):
-    """N15. Only the router's own wall clock jumps; the recording's times of TCP frames show that it did."""
+    """Only the router's own wall clock jumps; the recording's times of TCP frames show that it did."""
     library = faketime_library()
     if has_sanitizer(program):
         pytest.skip("libfaketime and sanitizers do not go together")

@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
             "r.toml:3: there is no option 'dedup_ms'; 'dedup_ms' is a key of [router] in a configuration file"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nbaud = 2\n", "does not take the option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"udpn\"\n", "did you mean 'udpin'?"},
-        // routing.md MR26
+        // A missing or malformed host, port or path.
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nport = 14550\n", "udpin needs host"},
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nhost = \"\"\nport = 14550\n",
             "r.toml:3: host: the address to listen on is missing"},

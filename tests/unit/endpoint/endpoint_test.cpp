@@ -42,8 +42,8 @@ TEST_P(GoodAddresses, AreTaken) {
 
 INSTANTIATE_TEST_SUITE_P(
     ParseEndpoint, GoodAddresses,
-    testing::Values(GoodAddress{"udpin://127.0.0.1:14550", Scheme::udpin, "127.0.0.1", 14550},  // routing.md MR26
-                    GoodAddress{"udpin://[::1]:14550", Scheme::udpin, "::1", 14550},            // routing.md MR26
+    testing::Values(GoodAddress{"udpin://127.0.0.1:14550", Scheme::udpin, "127.0.0.1", 14550},
+                    GoodAddress{"udpin://[::1]:14550", Scheme::udpin, "::1", 14550},
                     GoodAddress{"udpin://0.0.0.0:14550", Scheme::udpin, "0.0.0.0", 14550},
                     GoodAddress{"udpin://[::]:14550", Scheme::udpin, "::", 14550},
                     GoodAddress{"udpin://localhost:0", Scheme::udpin, "localhost", 0},
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
     Spelling, BadEndpoints,
     testing::Values(
         Bad{"", "it is empty"},
-        // routing.md MR26
+        // A missing or malformed host or port.
         Bad{"udpin://:14550", "udpin://127.0.0.1:14550 (this machine only) or udpin://0.0.0.0:14550"},
         Bad{"udpin://[127.0.0.1]:14550", "brackets are for IPv6 only; type udpin://127.0.0.1:14550"},
         Bad{"udpin://::1:14550", "needs brackets; type udpin://[::1]:14550"},

@@ -68,7 +68,7 @@ TEST_F(LinksSerial, ADeletedByteCostsOneFrame) {
     EXPECT_EQ(counters.lost.value(), 1u);
 }
 
-// routing.md N12: what such a UART sends back is heard, and nothing else suffers.
+// The link receives the bytes that such a UART sends back, and all other traffic is unaffected.
 TEST_F(LinksSerial, AnEchoingUartLosesNothing) {
     const Pty far;
     const auto port = node.add("serial://" + far.device());

@@ -137,7 +137,7 @@ TEST(Verifier, LetsANewStreamBeAMinuteBehindAndNoMore) {
     EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute}), noon), SignatureVerdict::good);
 }
 
-// python-users.md row 23: in pymavlink a forged frame with a future time locks the true sender out.
+// In pymavlink, a forged frame with a future timestamp locks out the true sender.
 TEST(Verifier, AForgedFrameFromTheFutureDoesNotLockTheTrueSenderOut) {
     Verifier sut(key_from(0));
     Sender honest, forger{key_from(99)};
