@@ -50,7 +50,7 @@ private:
     void on_end(net::IoError) override { close("unplugged"); }
 
     SerialOwner& owner_;
-    net::TimerId pace_;  // runs while the driver holds as much as it may
+    net::TimerId pace_;  // runs while the driver holds as many bytes as it may
     SerialPacer pacer_{0};
 };
 

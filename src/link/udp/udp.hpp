@@ -35,7 +35,7 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Changes the far side's address. Refusals by the old address no longer apply.
+    // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
     void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
