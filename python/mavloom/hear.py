@@ -60,7 +60,7 @@ class Signals:
 
 def ring_name(text: str) -> str:
     if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is no name of a ring: use letters, digits, _ and -, at most 64")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a valid ring name: use letters, digits, _ and -, at most 64")
     return text
 
 

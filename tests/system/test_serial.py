@@ -122,7 +122,7 @@ def test_a_missing_port_is_awaited(spawn, port, tmp_path):
 @pytest.mark.short
 @pytest.mark.parametrize("url, status, said", [
     ("serial:///dev/no-such-port?required=true", 1, "No such file or directory"),
-    ("serial:///dev/null", 2, "/dev/null is no serial port"),
+    ("serial:///dev/null", 2, "/dev/null is not a serial port"),
     ("/dev/ttyACM0,fast", 2, "fast"),
 ])
 def test_what_cannot_work_is_said_at_once(run, url, status, said):

@@ -78,7 +78,8 @@ SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints
     std::set<std::filesystem::path> recordings;
     for (const auto& e : endpoints)
         if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::same_file(e.path)).second)
-            return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
+            return setup_error(SetupCode::usage,
+                               fmt::format("another recording already writes to {}", in_quotes(e.path)));
     return {};
 }
 
@@ -320,7 +321,7 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
-        say(common, fmt::format("metrics at port {}", port));
+        say(common, fmt::format("metrics on port {}", port));
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 

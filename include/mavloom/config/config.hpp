@@ -41,7 +41,7 @@ struct RouterConfig {
 
 // Error text for an endpoint with heartbeat=true, if the router has no id of its own to send heartbeats with.
 inline constexpr std::string_view heartbeat_needs_id =
-    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends by";
+    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends it with";
 
 struct RingConfig {
     std::string name;  // empty: no ring

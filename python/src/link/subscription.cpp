@@ -114,7 +114,7 @@ void Subscription::close() {
 
 void Subscription::check_target(const std::string& ring) const {
     if (ring == ring_name_)
-        raise_usage(fmt::format("ring {} is what is heard here: it would be filled with itself", ring));
+        raise_usage(fmt::format("this link reads ring {}, so the ring would be filled with its own records", ring));
 }
 
 std::uint64_t Subscription::pump(PyRingWriter& writer, const nb::object& timeout) {

@@ -57,7 +57,7 @@ private:
         if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
     }
     [[noreturn]] static void raise_taken_away() {
-        raise_error("the writer took the record away from this reader (it evicts slow readers)");
+        raise_error("the writer evicted this reader and may have overwritten the record");
     }
 
     std::shared_ptr<Lease> lease_;

@@ -218,7 +218,7 @@ TEST_F(KeyFile, RefusesWhatIsNoRegularFileAtOnce) {
     for (const auto* key : {&fifo, &folder}) {
         ASSERT_FALSE(*key);
         EXPECT_EQ(key->error().code, SetupCode::bad_input);
-        EXPECT_NE(key->error().text.find("is no regular file"), std::string::npos) << key->error().text;
+        EXPECT_NE(key->error().text.find("is not a regular file"), std::string::npos) << key->error().text;
     }
 }
 
