@@ -329,7 +329,7 @@ Exit route(const Common& common, const RouteOptions& options) {
 
 Run declare_route(Arguments command, const Common& common) {
     auto options = std::make_shared<RouteOptions>();
-    command.add_option("endpoint", options->endpoints, "an endpoint to route between; any number")
+    command.add_option("endpoint", options->endpoints, "an endpoint to route between; give any number of them")
         .type_name("ENDPOINT");
     command
         .add_option("--config", options->config, "a configuration file (docs/guide/configuration.md); SIGHUP rereads it")
@@ -344,7 +344,7 @@ Run declare_route(Arguments command, const Common& common) {
         .add_option(
             "--ring", options->ring,
             "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and forward "
-            "what they send")
+            "the frames that they send")
         .type_name("NAME");
     command
         .add_option("--name", options->name,
