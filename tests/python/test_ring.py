@@ -2020,7 +2020,7 @@ def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
         elif path_of(ring).exists():
             mavloom.remove_ring(ring)
         process, _ = hear("--ring", ring, "--capacity", "64k", *words)
-        assert ("which was there before" in process.stderr.readline()) == made_before
+        assert ("which already existed" in process.stderr.readline()) == made_before
         process.send_signal(signal.SIGINT)
         assert ended(process)[0] == 130 and path_of(ring).exists() == stays
 
@@ -2031,7 +2031,7 @@ def test_hear_leaves_nothing_when_the_one_before_was_killed(hear, ring):
     killed.kill()
     killed.wait(DEADLINE_S)
     process, _ = hear("--ring", ring)
-    assert "which was there before" in process.stderr.readline()
+    assert "which already existed" in process.stderr.readline()
     process.send_signal(signal.SIGTERM)
     assert ended(process)[0] == 143 and not path_of(ring).exists()
 
