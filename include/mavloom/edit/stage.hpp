@@ -47,7 +47,7 @@ struct Counters {
     Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
     Counter filtered;          // dropped by `only`
     Counter rate_limited;      // dropped by `max_rate`
-    Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition to convert it by
+    Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition for the conversion
     Counter not_signed;  // forwarded unsigned although a key was given, because MAVLink 1 has no signatures
     Counter signature_removed;  // a signed frame was changed and not signed again, in either direction
     Counter backward;           // input frames, backward direction

@@ -63,7 +63,7 @@ struct OptionText {
 // A host from a URL or a `host` key. The result has no brackets. Only error texts use `scheme` and `port`.
 [[nodiscard]] SetupResult<std::string> parse_host(std::string_view text, std::string_view scheme, std::string_view port);
 [[nodiscard]] SetupResult<std::uint16_t> parse_port(std::string_view text);
-// Checks that the scheme can use this address. For example, 0.0.0.0 is no destination, and a multicast group needs
+// Checks that the scheme can use this address. For example, 0.0.0.0 is not a destination, and a multicast group needs
 // udpmcast.
 [[nodiscard]] SetupResult<void> check_address(Scheme scheme, const HostPort& address);
 // Checks that the path, device or ring name fits the scheme.

@@ -41,8 +41,9 @@ public:
     // options, and that a tlog:// file exists and is a recording.
     [[nodiscard]] SetupResult<void> check(const endpoint::Endpoint& endpoint) const;
 
-    // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely.
-    // A recording starts `skip` after its earliest record. `default_speed` applies if the URL has no `speed=`.
+    // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely. A
+    // recording is read from the time of its earliest record plus `skip`. `default_speed` applies if the URL has no
+    // `speed=`.
     [[nodiscard]] SetupResult<link::EndpointId> add(const endpoint::Endpoint& endpoint, MonoTime now,
                                                     double default_speed = record::Pacer::max_speed,
                                                     Nanoseconds skip = {});

@@ -4,7 +4,7 @@
 // limits, copies and echoes. It opens nothing, sends nothing and reads no clock. Rules: docs/guide/routing.md.
 //
 // One thread owns an engine; any thread may read the counters. The engine allocates at construction and when links or
-// options change, never for a frame. Its memory is bounded whatever arrives: see the constants of Engine.
+// options change, never for a frame. Its memory is bounded, no matter what arrives: see the constants of Engine.
 #pragma once
 
 #include <cstddef>
@@ -62,7 +62,7 @@ struct GroupOrder {
 
 enum class Verdict : std::uint8_t {
     forwarded,
-    nowhere,         // no other link qualifies, for example when the target is on the link it came from
+    nowhere,         // no other link qualifies, for example if the target is on the link where the frame arrived
     filtered,        // dropped by the input filter, or by the output filter of every candidate link
     rate_limited,    // dropped by max_rate or max_bytes of every candidate link
     duplicate,       // already received in the group or within `dedup`, or a copy that was already sent everywhere

@@ -21,7 +21,7 @@ public:
     static constexpr std::uint8_t confirmations = 3;
 
     enum class Verdict : std::uint8_t {
-        impossible,  // no CRC_EXTRA gives this checksum, or not the confirmed one: the frame is damaged
+        impossible,  // no CRC_EXTRA fits, or the one that fits is not the confirmed one: the frame is damaged
         possible,    // some CRC_EXTRA fits, but none is confirmed yet: check the surrounding bytes
         confirmed,   // the confirmed byte fits
     };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Limits the bytes that wait in a serial driver to those that the line carries in 50 ms. All other bytes wait in the
-// queue, where frames can expire and be dropped. The assumed speed is at least the baud rate. If the driver drains
-// faster, the pacer learns that speed, because USB ignores the baud rate and pseudo-terminals do not report one.
-// Private to module link; plain values.
+// queue, where frames can expire and be dropped. The assumed speed is at least the baud rate. USB ignores the baud rate
+// and pseudo-terminals do not report one, so a driver may drain faster. The pacer then learns that speed. Private to
+// module link; plain values.
 #pragma once
 
 #include <algorithm>
