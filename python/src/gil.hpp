@@ -54,7 +54,8 @@ private:
             for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
         }
     };
-    // Destroyed in reverse order: pass the turnstile, take the GIL, then stop counting as returning.
+    // Destroyed in reverse order: the thread passes the turnstile, takes the GIL, and then no longer counts as
+    // returning.
     Counted counted_;
     nb::gil_scoped_release release_;
     Turnstile turnstile_;

@@ -21,8 +21,8 @@ struct LinkCounters {
     // Loss on the link itself, from gaps in the sequence numbers received.
     Counter lost, late, duplicate, resync;
     Counter frames_not_sent;  // in datagrams that the kernel rejected
-    // Frames sent to a closed port: those that an ICMP refusal answered, and those sent in the second after a refusal
-    // while the peer is silent.
+    // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
+    // a refusal while the peer is silent.
     Counter refused;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.

@@ -35,8 +35,8 @@ struct ReaderOptions {
     // Busy-waits instead of sleeping. Saves the last microsecond of latency, but needs a CPU core of its own.
     bool spin = false;
     // Maps the ring read-only and leaves no trace in it. Such a reader is lossy and unlisted, and waits by polling
-    // every millisecond. A lossy reader falls back to this if 64 other readers are registered, or if it may not write
-    // to the ring (mode 0640 and another user).
+    // every millisecond. A lossy reader falls back to this if 64 other readers are registered. It also does so if it
+    // may not write to the ring (mode 0640 and another user).
     bool read_only = false;
 };
 
