@@ -195,7 +195,7 @@ private:
     [[nodiscard]] SetupResult<void> check_requests() const {
         if (config_.router.request_streams_hz == 0 || config_.router.heartbeat) return {};
         constexpr std::string_view what =
-            "request_streams needs heartbeat = \"SYS/COMP\": the id that the router asks by";
+            "request_streams needs heartbeat = \"SYS/COMP\": the id that the router sends its requests with";
         for (const Section& section : config_.sections)
             for (const Setting& setting : section.settings)
                 if (setting.key == "request_streams" && setting.origin == Origin::file) return bad(setting.line, what);
@@ -212,8 +212,7 @@ private:
         if (!key.default_text.empty()) (void)key.set(config_, key.default_text);
         if (node != nullptr) {
             const auto text = text_of(*node);
-            if (!text)
-                return bad(line_in_file(*node), fmt::format("{} has a value of a kind that it cannot have", key.name));
+            if (!text) return bad(line_in_file(*node), fmt::format("{} has a value of the wrong type", key.name));
             if (auto done = key.set(config_, *text); !done)
                 return bad(line_in_file(*node), fmt::format("{}: {}", key.name, done.error().text));
             setting = {std::string(key.name), *text, Origin::file, line_in_file(*node), {}};
@@ -232,8 +231,7 @@ private:
         for (const auto& [key, node] : table) {
             auto text = text_of(node);
             if (!text)
-                return bad(line_in_file(node),
-                           fmt::format("{} has a value of a kind that it cannot have", in_quotes(key.str())));
+                return bad(line_in_file(node), fmt::format("{} has a value of the wrong type", in_quotes(key.str())));
             given.push_back({std::string(key.str()), std::move(*text), Origin::file, line_in_file(node), {}});
         }
         auto endpoint = place(given, line_in_file(table));
@@ -246,7 +244,8 @@ private:
         if (auto good = endpoint::check_options(*endpoint); !good) return bad(line_in_file(table), good.error().text);
         if (auto good = check_heartbeat(*endpoint, given); !good) return good;
         if ((endpoint::set_of(endpoint->scheme) & endpoint::address_schemes) != 0 && endpoint->address.port == 0)
-            return bad(line_in_file(table), "port 0 is no port that others could know; choose one from 1 to 65535");
+            return bad(line_in_file(table),
+                       "with port 0, other programs could not know the port; choose one from 1 to 65535");
         return add_endpoint(std::move(*endpoint), given, line_in_file(table));
     }
 
@@ -269,7 +268,7 @@ private:
         if (url == nullptr) return place_of_parts(given, line);
         for (const auto key : {"scheme", "host", "port", "path", "ring"})
             if (const auto* part = find(given, key))
-                return bad(part->line, fmt::format("'{}' stands beside url, which says it already", key));
+                return bad(part->line, fmt::format("'{}' is given beside url, which already contains it", key));
         auto endpoint = endpoint::parse_endpoint(url->value);
         if (!endpoint) return bad(url->line, endpoint.error().text);
         const auto query = endpoint::query_of(url->value);
@@ -279,7 +278,7 @@ private:
         const auto url_line = url->line;
         for (const auto& option : *options) {
             if (const auto* twice = find(given, option.key))
-                return bad(twice->line, fmt::format("'{}' stands in the url already", option.key));
+                return bad(twice->line, fmt::format("'{}' is already set in the url", option.key));
             given.push_back({option.key, option.value, Origin::file, url_line, {}});
         }
         return endpoint;
@@ -293,7 +292,7 @@ private:
                 if (const auto hint = did_you_mean(setting.key, place_keys);
                     !hint.empty() && std::find(known.begin(), known.end(), setting.key) == known.end())
                     return bad(setting.line, fmt::format("[[endpoint]] has no key {}{}", in_quotes(setting.key), hint));
-            return bad(line, "an endpoint needs url = \"...\", or scheme and what belongs to it");
+            return bad(line, "an endpoint needs url = \"...\", or scheme and the keys for that scheme");
         }
         const auto names = endpoint::scheme_names();
         const auto found = std::find(names.begin(), names.end(), scheme->value);
@@ -338,7 +337,7 @@ private:
         Section section{"endpoint", endpoint.label(), {}};
         for (const Section& other : config_.sections)
             if (other.name == "endpoint" && other.label == section.label)
-                return bad(line, fmt::format("{} stands there twice; give one of them another name = \"...\"",
+                return bad(line, fmt::format("two endpoints are named {}; give one of them another name = \"...\"",
                                              in_quotes(section.label)));
         for (const auto key : place_keys)
             if (const auto* setting = find(given, key); setting != nullptr && key != "name")

@@ -66,7 +66,7 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     context.run_for(limit);
     if (!done)
         return setup_error(SetupCode::unreachable,
-                           fmt::format("router '{}' gave no answer within {} ms", name, limit.count()));
+                           fmt::format("router '{}' did not answer within {} ms", name, limit.count()));
     return answer_of(input);
 }
 

@@ -42,7 +42,8 @@ public:
     struct OfRing {
         std::uint64_t records = 0, dropped = 0;
     };
-    // Copies the current counters into the page. `inlet`: which of the endpoints is the ring's inlet.
+    // Copies the current counters into the page. `inlet` is the id of the endpoint that is the ring's inlet, if there
+    // is one.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                  std::optional<link::EndpointId> inlet, const OfRing& ring);
     // Returns whether the page was removed or replaced. Makes two system calls.
