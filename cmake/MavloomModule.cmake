@@ -22,7 +22,7 @@ set(mavloom_occasional $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 add_library(mavloom_warnings INTERFACE)
 set(mavloom_per_file -Wshadow)
 if(CMAKE_UNITY_BUILD)
-  set(mavloom_per_file $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  set(mavloom_per_file $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion ${mavloom_per_file}
                        -Wno-sign-conversion -Wcast-align
