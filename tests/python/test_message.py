@@ -94,7 +94,7 @@ def test_row_12_text_in_and_out(dialect, given, shown):
 def test_row_12_text_that_is_too_long_is_refused(dialect):
     with pytest.raises(ValueError, match=r"STATUSTEXT\.text: a text of 60 bytes is too long; at most 50 fit"):
         dialect.encode("STATUSTEXT", text="x" * 60)
-    with pytest.raises(ValueError, match=r"STATUSTEXT\.text: text of 51 bytes"):
+    with pytest.raises(ValueError, match=r"STATUSTEXT\.text: a text of 51 bytes"):
         dialect.encode("STATUSTEXT", text="x" * 49 + "ö")
 
 

@@ -2074,7 +2074,7 @@ def test_hear_tells_what_it_missed(hear, ring, frames):
 
 def test_hear_says_what_is_wrong(hear, writer, ring):
     for words, status, what in ((["--ring", ring], 1, f"ring {ring} already has a writer, process {os.getpid()}"),
-                                ([], 2, "--ring"), (["--ring", "a/b"], 2, "no name"),
+                                ([], 2, "--ring"), (["--ring", "a/b"], 2, "not a valid ring name"),
                                 (["--ring", ring, "--capacity", "8X"], 2, "expected a size"),
                                 (["--ring", ring, "--capacity", "100k"], 2, "power of two"),
                                 (["--ring", ring, "--mode", "9"], 2, "octal"),

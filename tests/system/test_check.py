@@ -96,8 +96,8 @@ def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
                     'port = 14550\n')
     done = run(*command, path)
     assert done.status == 3 and done.stdout == ""
-    assert (f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has "
-            "already") in done.stderr
+    assert (f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' in line 2 "
+            "already uses") in done.stderr
 
 
 @pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]], ids=["check", "route"])
