@@ -60,6 +60,8 @@ public:
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
+    // More slots than this do not rest; a walk through the remembered frames then clears one.
+    static constexpr std::size_t most_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
     // Within this time, a restart reported by another link of the vehicle counts as the same restart.
@@ -131,6 +133,7 @@ private:
             (*reasons_)[slot] = reason;
     }
 
+    [[nodiscard]] Slot free_slot();
     void index_links();
     void rebuild();
     void empty_groups();
@@ -143,6 +146,8 @@ private:
     std::size_t words_ = 1;
     std::vector<Slot> index_;  // open addressing by link id
     std::vector<LinkId> ids_;  // by slot
+    // When a link left the slot. Until `window_` later, remembered frames may hold the slot's bit, so it rests.
+    std::vector<MonoTime> left_at_;  // by slot
     RouteTable routes_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_;  // sets of links

@@ -49,12 +49,7 @@ void Engine::Impl::grow(std::size_t slots) {
 
 bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
     if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
-    const auto free = std::find(links.begin(), links.end(), nullptr);
-    const auto slot = static_cast<Slot>(free - links.begin());
-    if (free == links.end()) {
-        if (links.size() == words_ * 64) grow(2 * words_ * 64);
-        links.emplace_back();
-    }
+    const Slot slot = free_slot();
     links[slot].reset(new Link{.id = id,
                                .policy = policy,
                                .limiter = EgressLimiter(policy.max_rate, policy.max_bytes_per_s),
@@ -71,12 +66,30 @@ void Engine::Impl::remove_link(LinkId id) {
     const Slot slot = slot_of(id);
     if (slot == no_slot) return;
     routes_.remove_link(slot);
-    recent_.forget(slot);
     links[slot].reset();
+    left_at_[slot] = now_;
     ids_[slot] = LinkId{};
     --link_count;
     index_links();
     rebuild();
+}
+
+// Prefers a slot that has rested, then a new one. If many rest, it takes the one that has rested longest and removes its
+// bit from all remembered frames.
+Slot Engine::Impl::free_slot() {
+    Slot longest_free = no_slot;
+    for (Slot slot = 0; slot < links.size(); ++slot)
+        if (links[slot] == nullptr && (longest_free == no_slot || left_at_[slot] < left_at_[longest_free]))
+            longest_free = slot;
+    if (longest_free != no_slot && now_ - left_at_[longest_free] >= window_) return longest_free;
+    if (longest_free != no_slot && links.size() >= std::min(link_count + most_resting, max_links)) {
+        recent_.forget(longest_free);
+        return longest_free;
+    }
+    if (links.size() == words_ * 64) grow(2 * words_ * 64);
+    links.emplace_back();
+    left_at_.emplace_back();
+    return static_cast<Slot>(links.size() - 1);
 }
 
 void Engine::Impl::set_options(const Options& given) {
@@ -85,6 +98,7 @@ void Engine::Impl::set_options(const Options& given) {
     options.seed = seed;
     options.recent_frames = recent_frames;
     window_ = std::max(echo_window, options.dedup);
+    std::ranges::fill(left_at_, now_);  // the window may have grown, so slots rest again
     routes_.set_timeout(options.route_timeout);
     rebuild();
 }

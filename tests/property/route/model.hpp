@@ -74,7 +74,7 @@ public:
         links_.erase(id);
         std::erase_if(heard_, [&](const Heard& h) { return h.link == id; });
         for (Recent& r : recent_) {
-            r.heard.erase(id);
+            if (r.heard.erase(id) != 0) r.heard.insert(gone);
             r.sent.erase(id);
         }
         for (Recent& r : beats_) r.heard.erase(id);
@@ -136,6 +136,7 @@ private:
         std::set<std::uint32_t> heard, sent;
     };
     using Why = std::map<std::uint32_t, Reason>;
+    static constexpr std::uint32_t gone = ~std::uint32_t{0};  // in the place of a removed link
 
     static bool in(const auto& list, const auto& value) {
         return std::find(list.begin(), list.end(), value) != list.end();
@@ -169,7 +170,7 @@ private:
             if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) return Verdict::echo;
             const bool again = r->heard.contains(ingress);
             const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
-                return link.policy.group != 0 && links_[id].policy.group == link.policy.group;
+                return id != gone && link.policy.group != 0 && links_[id].policy.group == link.policy.group;
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
