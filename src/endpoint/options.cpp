@@ -185,6 +185,7 @@ constexpr std::array options_table{
                return set_text<&O::iface>(o, t);
            }},
     Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
+    Option{"trusted", set_of(Scheme::udpin) | set_of(Scheme::udpbcast), "false", set_flag<&O::trusted>},
     Option{"low_latency", address_schemes | serial, "false", set_flag<&O::low_latency>},
     Option{"required", links, "false", set_flag<&O::required>},
     Option{"bind", set_of(Scheme::udpout) | set_of(Scheme::udpbcast) | set_of(Scheme::tcpout), "", set_bind},

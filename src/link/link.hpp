@@ -3,6 +3,8 @@
 // single owner thread.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "mavloom/link/links.hpp"
@@ -22,6 +24,21 @@ struct Link {
     // Notifies the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
+    // A link may have an allowance: the bytes that may be sent to it. A forged sender address must not direct all
+    // traffic to its owner. Links other than UDP peers have none.
+    void give_allowance() noexcept { allowance_bytes_ = 0; }
+    void extend_allowance(std::int64_t bytes) noexcept { allowance_bytes_ += bytes; }
+    void lift_allowance() noexcept { allowance_bytes_ = unlimited; }
+    [[nodiscard]] bool has_allowance() const noexcept { return allowance_bytes_ != unlimited; }
+    // Spends `bytes` of the allowance. Returns false if too little is left.
+    [[nodiscard]] bool spend(std::size_t bytes) noexcept {
+        if (!has_allowance()) [[likely]]
+            return true;
+        if (allowance_bytes_ < static_cast<std::int64_t>(bytes)) return false;
+        allowance_bytes_ -= static_cast<std::int64_t>(bytes);
+        return true;
+    }
+
     LinkId id;  // Core::add_link sets this and `language`
     const Language* language = nullptr;
     EndpointId endpoint;
@@ -36,6 +53,10 @@ struct Link {
     LinkCounters counters;
     net::BlockQueue queue;
     wire::SequenceTracker tracker;
+
+private:
+    static constexpr std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
+    std::int64_t allowance_bytes_ = unlimited;
 };
 
 }  // namespace mavloom::link::detail

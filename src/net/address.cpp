@@ -71,7 +71,8 @@ bool Address::is_any() const noexcept {
 
 bool Address::is_loopback() const noexcept {
     if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 24) == 127;
-    return is_v6() && IN6_IS_ADDR_LOOPBACK(&storage_.v6.sin6_addr);
+    const in6_addr& v6 = storage_.v6.sin6_addr;
+    return is_v6() && (IN6_IS_ADDR_LOOPBACK(&v6) || (IN6_IS_ADDR_V4MAPPED(&v6) && v6.s6_addr[12] == 127));
 }
 
 bool Address::is_multicast() const noexcept {

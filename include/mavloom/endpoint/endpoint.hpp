@@ -69,6 +69,8 @@ struct EndpointOptions {
     std::string iface;
     std::optional<std::uint8_t> ttl;
     bool low_latency = false;
+    // udpin, udpbcast: peers get everything from their first datagram on, although its source address may be forged.
+    bool trusted = false;
     bool required = false;
     std::optional<HostPort> bind;
     bool fixed = false;              // udpbcast

@@ -24,6 +24,8 @@ struct LinkCounters {
     // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
     // a refusal while the peer is silent.
     Counter refused;
+    // Frames not sent to a UDP peer that was heard once only: its address may be forged (docs/design/security.md).
+    Counter unconfirmed;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
     void add(const wire::SequenceTracker::Update& update) noexcept;
@@ -35,7 +37,7 @@ struct LinkCounter {
     Counter LinkCounters::*word;
     bool on_page;  // also on the counter page of a ring (docs/formats/ring.md)
 };
-inline constexpr std::array<LinkCounter, 18> link_counters{{
+inline constexpr std::array<LinkCounter, 19> link_counters{{
     {"frames_in", &LinkCounters::frames_in, true},
     {"bytes_in", &LinkCounters::bytes_in, true},
     {"frames_out", &LinkCounters::frames_out, true},
@@ -54,6 +56,7 @@ inline constexpr std::array<LinkCounter, 18> link_counters{{
     {"queue_age", &LinkCounters::queue_age, true},
     {"frames_not_sent", &LinkCounters::frames_not_sent, true},
     {"refused", &LinkCounters::refused, true},
+    {"unconfirmed", &LinkCounters::unconfirmed, false},
 }};
 static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "each counter needs a row");
 

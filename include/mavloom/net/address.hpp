@@ -36,7 +36,7 @@ public:
     [[nodiscard]] Address with_scope(std::uint32_t interface) const noexcept;
 
     [[nodiscard]] bool is_any() const noexcept;        // 0.0.0.0 or ::
-    [[nodiscard]] bool is_loopback() const noexcept;   // 127.0.0.0/8 or ::1
+    [[nodiscard]] bool is_loopback() const noexcept;   // 127.0.0.0/8, also as ::ffff:127.0.0.1, or ::1
     [[nodiscard]] bool is_multicast() const noexcept;  // 224.0.0.0/4 or ff00::/8
     [[nodiscard]] bool is_broadcast() const noexcept;  // 255.255.255.255
 

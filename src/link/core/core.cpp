@@ -102,6 +102,10 @@ bool Core::queue(Link& link, Departure& departure, const wire::FrameView& frame,
         link.counters.bytes_out.add(frame.size());
         return true;
     }
+    if (!link.spend(frame.size())) [[unlikely]] {
+        link.counters.unconfirmed.add();
+        return false;
+    }
     const Language& language = *link.language;
     const auto pushed = link.queue.push(frame.bytes(), departure.block_class(language), departure.key(language), now);
     if (pushed.dropped != 0) [[unlikely]]

@@ -33,6 +33,10 @@ bool UdpPeers::vouched_for(const net::Datagram& datagram) {
 }
 
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
+    if (!admission_.admits(*datagram.from, core_.now())) {
+        endpoint_.counters.peers_refused.add();
+        return nullptr;
+    }
     if (!vouched_for(datagram)) {
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
@@ -41,15 +45,23 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
     }
+    admission_.note_entry();
     if (peers_.empty()) owner_.on_first_peer(*datagram.from);
     const EndpointInfo& info = endpoint_.info;
     auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
                                           core_.languages.of(info.id).table, port, *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
-    peer->last_heard = core_.now();  // until its first frame is found
+    peer->last_heard = peer->first_heard = core_.now();  // until its first frame is found
+    if (must_confirm(*datagram.from)) peer->give_allowance();
     port.peers().add(*datagram.from, *peer);
     if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle_, *this);
     return &peers_.add(std::move(peer));
+}
+
+// Returns true if the sender's address may be forged: then the peer gets little before it repeats itself.
+bool UdpPeers::must_confirm(const net::Address& sender) const {
+    const auto& options = endpoint_.info.endpoint.options;
+    return !sender.is_loopback() && !options.trusted && !(endpoint_.signature && endpoint_.signature->verifies());
 }
 
 bool UdpPeers::make_room() {

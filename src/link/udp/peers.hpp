@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "link/peer_list.hpp"
+#include "link/udp/admission.hpp"
 #include "link/udp/udp.hpp"
 
 namespace mavloom::link::detail {
@@ -29,6 +30,7 @@ public:
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
           stranger_(core.languages.of(endpoint.info.id).table),
+          admission_(Admission::burst_for(endpoint.info.endpoint.options.max_peers)),
           peers_(core, endpoint) {}
     ~UdpPeers() override;
 
@@ -48,6 +50,7 @@ public:
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
+    [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool make_room();
     void drop(UdpPeer& peer, std::string_view why);
 
@@ -56,6 +59,7 @@ private:
     Owner& owner_;
     Nanoseconds idle_;
     wire::DatagramParser stranger_;
+    Admission admission_;
     PeerList<UdpPeer> peers_;
     net::TimerId expiry_;
 };

@@ -26,12 +26,13 @@ struct UdpPeer final : Link {
     net::Address address;
     wire::DatagramParser parser;
     // Both count only datagrams with a good frame. Junk does not keep a peer alive.
-    MonoTime last_heard{};
+    MonoTime first_heard{}, last_heard{};
     std::uint64_t datagrams = 0;
     // True if the network device's queue was full. The peer then waits for its port's retry.
     bool held = false;
 
-    void note_heard(MonoTime now) noexcept;
+    // A peer that is heard for the second time at least 0.5 s after the first confirms that its address is its own.
+    void note_heard(MonoTime now, std::size_t bytes) noexcept;
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
@@ -45,6 +46,8 @@ struct UdpPeer final : Link {
 
 private:
     static constexpr std::chrono::seconds refusal_holds{1};
+    static constexpr std::chrono::milliseconds confirmed_after{500};
+    static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
     bool listens_ = false;  // the peer was heard, and has not refused anything since
     MonoTime refuses_until_{};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "link/udp/admission.hpp"
+
+#include <gtest/gtest.h>
+
+namespace mavloom::link::detail {
+namespace {
+
+using namespace std::chrono_literals;
+
+net::Address sender(std::uint32_t number) {
+    auto address = *net::Address::parse("10.0.0.1", static_cast<std::uint16_t>(1 + number % 65000));
+    return number < 65000 ? address : *net::Address::parse("10.0.0.2", static_cast<std::uint16_t>(1 + number % 65000));
+}
+
+constexpr MonoTime start{std::chrono::hours{1000}};
+
+Admission used_up(std::size_t burst) {
+    Admission admission(burst);
+    for (std::uint32_t i = 0; i < burst; ++i) {
+        EXPECT_TRUE(admission.admits(sender(1000 + i), start));
+        admission.note_entry();
+    }
+    return admission;
+}
+
+TEST(Admission, LetsABurstInThenFiftyASecond) {
+    Admission sut = used_up(64);
+    EXPECT_FALSE(sut.admits(sender(1), start));
+
+    int entered = 0;
+    for (int ms = 1; ms <= 1000; ++ms) {
+        if (!sut.admits(sender(static_cast<std::uint32_t>(2000 + ms)), start + ms * 1ms)) continue;
+        sut.note_entry();
+        ++entered;
+    }
+
+    EXPECT_EQ(entered, 50);
+}
+
+TEST(Admission, LetsASenderInThatRepeatsWithinTenSeconds) {
+    for (const auto& [wait, enters] : {std::pair{499ms, false}, std::pair{500ms, true}, std::pair{10'000ms, true}}) {
+        Admission sut = used_up(64);
+        ASSERT_FALSE(sut.admits(sender(1), start));
+        // A flood keeps the steady rate used up.
+        for (int i = 0; i < 600; ++i) {
+            const MonoTime now = start + wait * i / 600;
+            if (sut.admits(sender(static_cast<std::uint32_t>(2000 + i)), now)) sut.note_entry();
+        }
+        while (sut.admits(sender(70000), start + wait)) sut.note_entry();
+
+        EXPECT_EQ(sut.admits(sender(1), start + wait), enters) << wait.count();
+    }
+}
+
+TEST(Admission, ASenderThatComesBackAfterALongTimeIsNew) {
+    Admission sut = used_up(64);
+    ASSERT_FALSE(sut.admits(sender(1), start));
+    const MonoTime later = start + 10'001ms;
+    while (sut.admits(sender(70000), later)) sut.note_entry();
+
+    EXPECT_FALSE(sut.admits(sender(1), later));
+    EXPECT_TRUE(sut.admits(sender(1), later + 500ms));
+}
+
+}  // namespace
+}  // namespace mavloom::link::detail
