@@ -63,13 +63,13 @@ public:
         }
         return oldest + idle;
     }
-    // Returns the peer to evict for a newcomer: the longest idle of those heard once, else the longest idle of all.
-    // Returns null if that peer is protected. Requires a `Peer` with `datagrams`.
+    // Returns the peer to evict for a newcomer: the longest silent of those that have not talked yet, else the longest
+    // silent of all. Returns null if that peer is protected. Requires a `Peer` with `has_talked` and `silent_since`.
     [[nodiscard]] Peer* to_evict(MonoTime now) const {
-        const auto rank = [](const auto& peer) { return std::pair(peer->datagrams > 1, peer->last_heard); };
+        const auto rank = [](const auto& peer) { return std::pair(peer->has_talked(), peer->silent_since()); };
         const auto first = std::ranges::min_element(peers_, {}, rank);
         if (first == peers_.end()) return nullptr;
-        const bool is_protected = (*first)->datagrams > 1 && now - (*first)->last_heard < protected_for;
+        const bool is_protected = (*first)->has_talked() && now - (*first)->silent_since() < protected_for;
         return is_protected ? nullptr : first->get();
     }
 
@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    // A peer that was heard at least twice, the last time within this period, is not evicted. A flood of unknown
-    // senders thus cannot displace peers that send heartbeats (1 Hz).
+    // A peer that talks, and did so within this period, is not evicted. A flood of unknown senders thus cannot displace
+    // peers that send heartbeats (1 Hz).
     static constexpr std::chrono::seconds protected_for{2};
 
     Core& core_;

@@ -32,6 +32,9 @@ struct Sender final : Link {
     wire::DatagramParser parser;
     MonoTime last_heard{};  // time of the last good frame
     std::uint64_t datagrams = 0;
+
+    [[nodiscard]] bool has_talked() const noexcept { return datagrams > 1; }
+    [[nodiscard]] MonoTime silent_since() const noexcept { return last_heard; }
 };
 
 struct HashText {

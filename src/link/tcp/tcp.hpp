@@ -36,6 +36,11 @@ public:
         owner_.on_closed(*this, why);
     }
 
+    // A client talks from its first good frame on. Until then it counts as silent since it connected.
+    [[nodiscard]] bool has_talked() const noexcept { return counters.frames_in.value() != 0; }
+    [[nodiscard]] MonoTime silent_since() const noexcept { return has_talked() ? last_heard : connected_at; }
+    MonoTime connected_at{};
+
     [[nodiscard]] static bool wants(const wire::ParseEvent&) noexcept { return true; }
 
 private:

@@ -6,6 +6,7 @@
 #include "link/peer_list.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/tcp.hpp"
+#include "link/admission.hpp"
 #include "mavloom/endpoint/checks.hpp"
 
 namespace mavloom::link::detail {
@@ -65,12 +66,14 @@ public:
 
 private:
     void admit(net::TcpStream stream);
+    [[nodiscard]] bool make_room(const net::Address& newcomer);
     void pause();
     void expire(MonoTime now);
 
     Core& core_;
     std::vector<std::unique_ptr<Listening>> listeners_;
     PeerList<TcpPeer> peers_;
+    Admission admission_{Admission::burst_for(0)};
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
     bool told_full_ = false;
@@ -116,7 +119,7 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 }
 
 void TcpIn::admit(net::TcpStream stream) {
-    if (peers_.is_full()) {
+    if (peers_.is_full() && !make_room(stream.remote())) {
         counters.peers_refused.add();
         if (!std::exchange(told_full_, true)) {
             core_.news.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
@@ -126,7 +129,19 @@ void TcpIn::admit(net::TcpStream stream) {
     }
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
+    peer->connected_at = core_.now();
     if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
+}
+
+// Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate.
+bool TcpIn::make_room(const net::Address& newcomer) {
+    if (!admission_.admits(newcomer, core_.now())) return false;
+    TcpPeer* const first = peers_.to_evict(core_.now());
+    if (first == nullptr) return false;
+    admission_.note_entry();
+    counters.peers_evicted.add();
+    first->close("max_peers is reached, and this client was silent longest");
+    return true;
 }
 
 void TcpIn::pause() {

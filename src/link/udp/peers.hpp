@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "link/peer_list.hpp"
-#include "link/udp/admission.hpp"
+#include "link/admission.hpp"
 #include "link/udp/udp.hpp"
 
 namespace mavloom::link::detail {

@@ -33,6 +33,9 @@ struct UdpPeer final : Link {
 
     // A peer that is heard for the second time at least 0.5 s after the first confirms that its address is its own.
     void note_heard(MonoTime now, std::size_t bytes) noexcept;
+    // One datagram may be forged; a peer talks from the second on.
+    [[nodiscard]] bool has_talked() const noexcept { return datagrams > 1; }
+    [[nodiscard]] MonoTime silent_since() const noexcept { return last_heard; }
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "link/udp/admission.hpp"
+#include "link/admission.hpp"
 
 #include <gtest/gtest.h>
 

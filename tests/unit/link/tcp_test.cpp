@@ -172,14 +172,39 @@ TEST_F(LinksTcp, EveryFrameForAClientThatIsGoneStaysCounted) {
     EXPECT_EQ(gone.frames_out.value() + dropped, count);
 }
 
-TEST_F(LinksTcp, ClientsOverMaxPeersAreTurnedAwayAndCounted) {
+TEST_F(LinksTcp, ClientsOverMaxPeersAreTurnedAwayWhileAllOthersTalk) {
     Node other;
     in = other.add("tcpin://127.0.0.1:0?max_peers=2");
     std::vector<PlainSocket> clients;
-    for (int i = 0; i < 3; ++i) clients.push_back(PlainSocket::connected_tcp(other.port(in)));
+    for (int i = 0; i < 2; ++i) {
+        clients.push_back(PlainSocket::connected_tcp(other.port(in)));
+        clients.back().write(heartbeat(0));
+    }
+    ASSERT_TRUE(until([&] { return other.recorder.frames.size() == 2; }, other));
+    clients.push_back(PlainSocket::connected_tcp(other.port(in)));
     ASSERT_TRUE(until([&] { return other.info(in).counters->peers_refused.value() == 1; }, other));
     EXPECT_THAT(other.links->links(), SizeIs(2));
     EXPECT_THAT(other.recorder.notices, ::testing::Contains(HasSubstr("max_peers")));
+}
+
+TEST_F(LinksTcp, SilentClientsMakeRoomForNewcomersOldestFirst) {
+    Node other;
+    in = other.add("tcpin://127.0.0.1:0?max_peers=3");
+    std::vector<PlainSocket> clients;
+    for (int i = 0; i < 3; ++i) {
+        clients.push_back(PlainSocket::connected_tcp(other.port(in)));
+        ASSERT_TRUE(until([&] { return other.links->links().size() == clients.size(); }, other));
+    }
+    clients[0].write(heartbeat(0));
+    clients[1].write(Bytes{1, 2, 3});  // junk is no talk
+    ASSERT_TRUE(until([&] { return other.recorder.frames.size() == 1; }, other));
+
+    clients.push_back(PlainSocket::connected_tcp(other.port(in)));
+    ASSERT_TRUE(until([&] { return other.info(in).counters->peers_evicted.value() == 1; }, other));
+
+    ASSERT_THAT(other.recorder.downs, SizeIs(1));
+    EXPECT_EQ(other.recorder.downs[0].first, other.recorder.ups[1].first);
+    EXPECT_EQ(other.info(in).counters->peers_refused.value(), 0u);
 }
 
 TEST(LinksTcpOut, WaitsForAListenerThatComesLater) {
