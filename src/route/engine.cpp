@@ -9,6 +9,7 @@
 namespace mavloom::route {
 
 static constexpr MessageId heartbeat_id{0};
+static constexpr ComponentId autopilot_component{1};  // MAV_COMP_ID_AUTOPILOT1
 
 Engine::Engine(const wire::MessageTable& table, const Options& options)
     : impl_(std::make_unique<Impl>(table, options)) {}
@@ -39,6 +40,7 @@ void Engine::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) 
 void Engine::note_reboot(LinkId link, Source source, MonoTime now) noexcept { impl_->note_reboot(link, source, now); }
 std::vector<RouteInfo> Engine::routes(MonoTime now) const { return impl_->routes(now); }
 std::span<const DuplicateId> Engine::duplicate_ids() const noexcept { return impl_->duplicates; }
+std::span<const RouteConflict> Engine::route_conflicts() const noexcept { return impl_->conflicts; }
 std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(); }
 const EngineCounters& Engine::counters() const noexcept { return impl_->counters; }
 const LinkCounters* Engine::counters(LinkId link) const noexcept {
@@ -112,6 +114,7 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
     if (chooses_members_) apply_groups(p);
     if (p.is_copy) [[unlikely]] {
         leave_out(recent_.sent(p.recent), Reason::already_sent);
+        leave_out(recent_.heard(p.recent), Reason::source_here);
         if (!any(candidates_.data(), words_)) return Verdict::duplicate;
     }
     if (!has_limits_) return Verdict::forwarded;
@@ -128,7 +131,7 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
 bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (!recent_.active()) return false;
     const bool found = recent_.find(p.hash, p.recent);
-    if (found) {
+    if (found && counts_as_heard(p)) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
             verdict = Verdict::echo;
@@ -150,6 +153,14 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     }
     remember(p, found);
     return false;
+}
+
+// On a verified link, what unverified links brought does not count: somebody without a key may have repeated the frame
+// before it arrived here. A frame that no link brought was sent by the program itself.
+bool Engine::Impl::counts_as_heard(const Passage& p) noexcept {
+    if (!p.link.policy.is_verified) return true;
+    const Words heard = recent_.heard(p.recent);
+    return !any(heard, words_) || intersect(heard, verified_.data(), words_);
 }
 
 void Engine::Impl::remember(Passage& p, bool found) noexcept {
@@ -198,11 +209,70 @@ void Engine::Impl::learn(Passage& p) noexcept {
     if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);
     p.link.heard = true;
     p.link.last_heard = p.now;
-    if (p.info == nullptr || p.frame.system().value == 0) return;
+    if (p.info == nullptr || p.frame.system().value == 0 || !may_learn(p)) return;
     RouteTable::Change change;
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
     watch_for_duplicate_ids(p);
+}
+
+// Nobody can prove who he is without a key, so the rules favour the link on which a vehicle was heard first, and links
+// whose frames are verified.
+bool Engine::Impl::may_learn(const Passage& p) noexcept {
+    const SystemId system = p.frame.system();
+    const ConstWords where = routes_.links_of(system);
+    const bool is_grouped = p.link.group != no_group;
+    std::uint64_t others = 0, verified = 0;
+    each_word(words_, [&](std::size_t w) {
+        const std::uint64_t own = w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0;
+        scratch_[w] = where[w] & ~own & ~(is_grouped ? groups_[p.link.group].members[w] : 0);
+        others |= scratch_[w];
+        verified |= scratch_[w] & verified_[w];
+    });
+    if (others == 0) [[likely]]
+        return true;
+    if (p.link.policy.is_verified) {
+        each(scratch_.data(), words_, [&](Slot slot) {
+            if (!has(verified_.data(), slot)) routes_.forget_system(slot, system);
+        });
+        return true;
+    }
+    if (verified != 0) return false;
+    if (has(where, p.slot)) return true;
+    const Slot first = where_alive(p, scratch_.data());
+    return first == no_slot || is_consistent(p, first);
+}
+
+// Returns the link of `links` on which the system's autopilot is alive; no_slot if there is none.
+Slot Engine::Impl::where_alive(const Passage& p, ConstWords links_of_system) const noexcept {
+    const Pair autopilot = pair_of(Source{p.frame.system(), autopilot_component});
+    Slot alive = no_slot;
+    each(links_of_system, words_, [&](Slot slot) {
+        const Route* const route = routes_.find(slot, autopilot);
+        if (route != nullptr && p.now.time_since_epoch().count() - route->heard_ns < alive_for.count()) alive = slot;
+    });
+    return alive;
+}
+
+// Keeps the claim of this link to the system. Returns true once it is old enough.
+bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
+    const SystemId system = p.frame.system();
+    auto claim = std::ranges::find(p.link.claims, system, &Claim::system);
+    if (claim == p.link.claims.end()) {
+        claim = std::ranges::min_element(p.link.claims, {}, &Claim::last);
+        *claim = {.system = system, .since = p.now, .last = p.now};
+    }
+    if (p.now - claim->last >= alive_for) claim->since = p.now;
+    claim->last = p.now;
+    if (p.link.policy.learns_first || p.now - claim->since < consistent_for) return false;
+    *claim = {};
+    note_conflict(p, first);
+    return true;
+}
+
+void Engine::Impl::note_conflict(const Passage& p, Slot first) noexcept {
+    counters.route_conflicts.add();
+    if (conflicts.size() < max_route_conflicts) conflicts.push_back({p.frame.system(), ids_[first], p.link.id});
 }
 
 // `route` has already learned from the frame that showed the reboot, so that route is learned again.
@@ -211,10 +281,13 @@ void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcep
     if (slot == no_slot || source.system.value == 0) return;
     Reboot& last = last_reboots_[source.system.value];
     const bool is_known = last.link != link && last.when != MonoTime{} && now - last.when < one_reboot;
-    if (is_known) return;  // another link reported it, and new routes have been learned since
-    last = {link, now};
-    counters.reboots.add();
-    routes_.forget_system(source.system);
+    if (!is_known) {
+        last = {link, now};
+        counters.reboots.add();
+    }
+    const bool was_learned = routes_.find(slot, pair_of(source)) != nullptr;
+    routes_.forget_system(slot, source.system);
+    if (!was_learned) return;
     RouteTable::Change change;
     Route& route = routes_.learn(slot, pair_of(source), now, change);
     --route.frames;  // `route` already counted this frame
@@ -263,9 +336,14 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
     const Source target = target_of(p.frame, p.info);
     if (target.system.value == 0) return to_everybody();
     if (options.own == target) return Verdict::consumed;
+    const bool floods = options.unknown_target == UnknownTarget::flood;
+    // What unverified links claim to know does not keep a frame from verified links.
+    if (floods && p.link.policy.is_verified &&
+        !intersect(routes_.links_of(target.system), verified_.data(), words_))
+        return to_everybody();
     if (!choose_links_of(target)) {
         const bool is_known_system = any(routes_.links_of(target.system), words_);
-        if (!is_known_system && options.unknown_target == UnknownTarget::flood) return to_everybody();
+        if (!is_known_system && floods) return to_everybody();
         ++unknown_[pair_of(target)];
         return Verdict::unknown_target;
     }
@@ -312,7 +390,24 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
     erase(candidates_.data(), p.slot);
     note(p.slot, Reason::ingress);
     if (p.link.group != no_group) leave_out(groups_[p.link.group].members.data(), Reason::same_group);
-    leave_out(routes_.links_of(p.source), Reason::source_here);
+    // Mostly the source is known on its own link only.
+    const ConstWords where = routes_.links_of(p.source);
+    if (!intersect(where, candidates_.data(), words_)) [[likely]]
+        return;
+    each_word(words_, [&](std::size_t w) {
+        scratch_[w] = 0;
+        each_in_word(where[w] & candidates_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
+            if (is_present(slot, p)) insert(scratch_.data(), slot);
+        });
+    });
+    leave_out(scratch_.data(), Reason::source_here);
+}
+
+// One frame may be forged. A source that is present was heard repeatedly and recently.
+bool Engine::Impl::is_present(Slot slot, const Passage& p) const noexcept {
+    const Route* const route = routes_.find(slot, p.source);
+    return route != nullptr && route->heard_ns - route->since_ns >= repeated_after.count() &&
+           p.now.time_since_epoch().count() - route->heard_ns < present_for.count();
 }
 
 void Engine::Impl::apply_filters(const Passage& p) noexcept {

@@ -35,6 +35,11 @@ public:
 
     [[nodiscard]] Slot slot_of(LinkId id) const noexcept;
 
+    // A system that is alive on another link, and since when it has been heard on this one.
+    struct Claim {
+        SystemId system{};  // 0: none
+        MonoTime since{}, last{};
+    };
     struct Link {
         LinkId id;
         LinkPolicy policy;
@@ -45,6 +50,7 @@ public:
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
+        std::array<Claim, 8> claims{};  // the oldest is replaced
         // A cache of the last long list of links to which frames from this link were sent.
         std::size_t listed = 0;  // length; 0 if there is no list
         std::vector<std::uint64_t> listed_set{};
@@ -57,6 +63,7 @@ public:
     std::vector<std::unique_ptr<Link>> links;  // by slot; null if the slot is free
     std::size_t link_count = 0;
     std::vector<DuplicateId> duplicates;
+    std::vector<RouteConflict> conflicts;
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
@@ -106,6 +113,14 @@ private:
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
+    // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
+    [[nodiscard]] bool may_learn(const Passage& p) noexcept;
+    [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
+    [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
+    void note_conflict(const Passage& p, Slot first) noexcept;
+    [[nodiscard]] bool is_present(Slot slot, const Passage& p) const noexcept;
+    // Whether an earlier copy of the frame may be held against this one.
+    [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;
     // Whether the link already delivered this HEARTBEAT within doubled_within.
     [[nodiscard]] bool is_doubled(const Passage& p) noexcept;
@@ -150,7 +165,7 @@ private:
     std::vector<MonoTime> left_at_;  // by slot
     RouteTable routes_;
     RecentFrames recent_;
-    std::vector<std::uint64_t> ordinary_, taps_, private_, limited_;  // sets of links
+    std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
     std::vector<Group> groups_;
     bool has_taps_ = false, has_limits_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`

@@ -42,7 +42,7 @@ Slot Engine::Impl::slot_of(LinkId id) const noexcept {
 void Engine::Impl::grow(std::size_t slots) {
     words_ = slots / 64;
     routes_.resize(words_);
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &candidates_, &scratch_}) set->resize(words_);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &candidates_, &scratch_}) set->resize(words_);
     out_.resize(slots);
     ids_.resize(slots);
 }
@@ -134,7 +134,7 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
 
 // Recomputes all sets that depend on the links and their policies.
 void Engine::Impl::rebuild() {
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_}) std::fill(set->begin(), set->end(), 0);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_}) std::fill(set->begin(), set->end(), 0);
     empty_groups();
     filters_.clear();
     for (Slot slot = 0; slot < links.size(); ++slot)
@@ -169,6 +169,7 @@ void Engine::Impl::enlist(Slot slot) {
     auto& kind = link.policy.tap ? taps_ : link.policy.is_private ? private_ : ordinary_;
     route::insert(kind.data(), slot);
     if (link.limiter.limits()) route::insert(limited_.data(), slot);
+    if (link.policy.is_verified) route::insert(verified_.data(), slot);
     if (link.policy.tap) return;
     if (!link.policy.out.admits_all()) {
         auto at = std::ranges::find(filters_, link.policy.out, &OutFilter::filter);

@@ -62,6 +62,7 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
     ++route.frames;
     if (!route.known) [[unlikely]] {
         set_known(route);
+        route.since_ns = route.heard_ns;
         ++change.learned;
         next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + timeout_ns_);
     }
@@ -88,7 +89,7 @@ Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& chang
         index = static_cast<std::uint32_t>(used_++);
     }
     routes_[index] = Route{
-        .heard_ns = 0, .frames = 0, .older = none, .newer = none, .slot = slot, .pair = pair, .known = false};
+        .heard_ns = 0, .since_ns = 0, .frames = 0, .older = none, .newer = none, .slot = slot, .pair = pair, .known = false};
     index_[place] = index + 1;
     append(index);
     ++links_[slot].count;
@@ -158,14 +159,9 @@ void RouteTable::erase_place(std::size_t place) noexcept {
     index_[hole] = 0;
 }
 
-void RouteTable::forget_system(SystemId system) noexcept {
-    for (std::size_t component = 0; component < 256; ++component) {
-        const auto pair = static_cast<Pair>(system.value << 8 | component);
-        const Words set = &pair_links_[pair * words_];
-        for (std::size_t w = 0; w < words_; ++w)
-            each_in_word(set[w], static_cast<Slot>(64 * w),
-                         [&](Slot slot) { set_unknown(routes_[index_[place_of(slot, pair)] - 1]); });
-    }
+void RouteTable::forget_system(Slot slot, SystemId system) noexcept {
+    for (std::uint32_t i = links_[slot].oldest; i != none; i = routes_[i].newer)
+        if (routes_[i].known && routes_[i].pair >> 8 == system.value) set_unknown(routes_[i]);
 }
 
 void RouteTable::expire_now(std::int64_t now_ns, Change& change) noexcept {

@@ -28,6 +28,7 @@ using Pair = std::uint16_t;  // system * 256 + component
 
 struct Route {
     std::int64_t heard_ns;  // steady clock
+    std::int64_t since_ns;  // when the route became known
     std::uint64_t frames;
     std::uint32_t older, newer;  // neighbors in the list of the link's routes by age
     Slot slot;
@@ -56,7 +57,13 @@ public:
     }
     // Adds or refreshes the route for a frame of this source. The reference is valid until the next call.
     Route& learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
-    void forget_system(SystemId system) noexcept;
+    // Forgets all routes of the system on one link.
+    void forget_system(Slot slot, SystemId system) noexcept;
+    // Null if the source is not known on the link. Valid until the next call that changes the table.
+    [[nodiscard]] const Route* find(Slot slot, Pair pair) const noexcept {
+        const std::uint32_t index = index_[place_of(slot, pair)] - 1;
+        return index == none || !routes_[index].known ? nullptr : &routes_[index];
+    }
 
     [[nodiscard]] ConstWords links_of(Pair pair) const noexcept { return &pair_links_[pair * words_]; }
     [[nodiscard]] ConstWords links_of(SystemId system) const noexcept { return &system_links_[system.value * words_]; }

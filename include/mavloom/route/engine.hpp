@@ -51,6 +51,10 @@ struct LinkPolicy {
     // Frames from a private link go to taps only. A private link gets only frames whose target system and component
     // were both heard on it.
     bool is_private = false;
+    // Every frame from this link has a verified signature. Its sources outrank those of other links.
+    bool is_verified = false;
+    // A vehicle that is alive on another link is not learned here until it falls silent there.
+    bool learns_first = false;
     dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
 };
@@ -121,6 +125,7 @@ struct EngineCounters {
     Counter routes_evicted;  // the stalest route of a full link; if the table is full, of the link with most routes
     Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
     Counter reboots;         // restarts of a system, see note_reboot
+    Counter route_conflicts;  // vehicles learned on a link while they were alive on another
     Counter duplicate_ids;   // sources heard alternately on links that do not share a group
 };
 
@@ -138,6 +143,13 @@ struct DuplicateId {
     LinkId first, second;
 };
 
+// A vehicle that was learned on a second link while it was alive on the first: redundant links without `group`, or a
+// sender that claims to be the vehicle.
+struct RouteConflict {
+    SystemId system;
+    LinkId first, second;
+};
+
 struct UnknownTargetInfo {
     Source target;
     std::uint64_t frames = 0;
@@ -149,6 +161,15 @@ public:
     static constexpr std::size_t max_routes = 1u << 16;
     static constexpr std::size_t max_routes_per_link = 2048;  // enough for 250 systems of 5 components: 1,250
     static constexpr std::size_t max_duplicate_ids = 256;
+    static constexpr std::size_t max_route_conflicts = 256;
+    // A vehicle is alive on a link for this long after its autopilot was heard there.
+    static constexpr Nanoseconds alive_for = std::chrono::seconds{2};
+    // A vehicle that is alive on one link is learned on another only after it was heard there for this long, without a
+    // gap of `alive_for`.
+    static constexpr Nanoseconds consistent_for = std::chrono::seconds{5};
+    // A source is present on a link if it was heard there at least twice, this far apart, and within `present_for`.
+    static constexpr Nanoseconds repeated_after = std::chrono::milliseconds{500};
+    static constexpr Nanoseconds present_for = std::chrono::seconds{3};
     // How long the engine detects echoes and copies of a frame. It remembers frames longer if `dedup` is longer.
     static constexpr Nanoseconds echo_window = std::chrono::seconds{2};
     // A group's link is silent after this long without a frame. `best` and `primary` then choose another link.
@@ -200,14 +221,16 @@ public:
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
 
     // Call this after `route` when a frame of `source` shows that its system restarted (see wire::SequenceTracker).
-    // Forgets all routes of the system except the one from `source` to `link`. Does nothing if another link reported a
-    // restart of the system in the last 10 s: that was the same restart.
+    // Forgets the system's routes on this link, except the one from `source`. Routes on other links stay, because
+    // anybody can forge a restart. A restart that another link reported in the last 10 s counts once.
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
 
     // The routes that have not timed out, sorted by system, component and link. Allocates.
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
     // The first max_duplicate_ids duplicate ids, in order of detection. `counters().duplicate_ids` counts all.
     [[nodiscard]] std::span<const DuplicateId> duplicate_ids() const noexcept;
+    // The first max_route_conflicts conflicts, in order of detection. `counters().route_conflicts` counts all.
+    [[nodiscard]] std::span<const RouteConflict> route_conflicts() const noexcept;
     // The targets of frames dropped as unknown_target, sorted by system and component. Allocates.
     [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;
 

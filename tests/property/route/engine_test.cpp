@@ -46,6 +46,8 @@ ModelPolicy policy_of(const Step& s) {
     policy.order = s[6] / 3 % 3;
     policy.tap = s[5] / 4 % 8 == 1;
     policy.is_private = s[5] / 4 % 8 == 2;
+    policy.is_verified = s[5] / 32 % 4 == 1;
+    policy.learns_first = s[5] / 32 % 4 == 2;
     if (s[6] / 9 % 4 == 1) policy.attitude_interval = 500ms;
     if (s[6] / 36 % 4 == 1) policy.other_interval = 1s;
     if (s[4] / 6 % 4 == 1) policy.bytes_per_s = s[4] / 24;
@@ -60,6 +62,8 @@ LinkPolicy compiled(const ModelPolicy& policy) {
                     .group_order = policy.order,
                     .tap = policy.tap,
                     .is_private = policy.is_private,
+                    .is_verified = policy.is_verified,
+                    .learns_first = policy.learns_first,
                     .max_bytes_per_s = policy.bytes_per_s};
     std::vector<dialect::RateTerm> rates;
     const auto add = [&](const char* message, std::optional<Nanoseconds> interval) {

@@ -21,7 +21,7 @@ struct ModelPolicy {
     std::uint32_t group = 0;
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
-    bool tap = false, is_private = false;
+    bool tap = false, is_private = false, is_verified = false, learns_first = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
 };
@@ -60,14 +60,9 @@ public:
         };
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
         if (source == heard_.end() || !source->known || now - source->time >= options_.route_timeout) return false;
-        const auto last = reboots_.find(system);  // of one restart two links report
-        const bool is_known = last != reboots_.end() && last->second.link != link &&
-                              now - last->second.time < std::chrono::seconds(10);
-        if (is_known) return true;
-        reboots_[system] = {link, now};
         for (Heard& h : heard_)
-            if (h.system == system) h.known = is_it(h);
-        source->time = now;
+            if (h.link == link && h.system == system) h.known = is_it(h);
+        source->time = source->since = now;
         return true;
     }
     void remove(std::uint32_t id) {
@@ -115,8 +110,12 @@ public:
     }
 
 private:
+    struct Claim {
+        MonoTime since{}, last{};
+    };
     struct Link {
         ModelPolicy policy{};
+        std::map<std::uint8_t, Claim> claims{};  // by system
         std::optional<MonoTime> last_heard{};
         std::uint32_t heartbeats = 0;             // against those of the other links of its group
         std::map<std::uint64_t, MonoTime> due{};  // by source and message
@@ -126,7 +125,7 @@ private:
     struct Heard {
         std::uint32_t link;
         std::uint8_t system, component;
-        MonoTime time;
+        MonoTime time, since;
         std::uint64_t frames = 0;
         bool known = true;
     };
@@ -166,6 +165,10 @@ private:
         if (!admits(link.policy.in_allow, link.policy.in_block, frame)) return Verdict::filtered;
         const auto same = [&](const Recent& r) { return r.bytes == bytes; };
         if (const auto r = std::find_if(recent_.begin(), recent_.end(), same); r != recent_.end()) {
+            if (!may_count(*r, link)) {
+                recent_.erase(r);
+                return remember(ingress, bytes, frame, why, remembered);
+            }
             const auto age = now_ - r->time;
             if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) return Verdict::echo;
             const bool again = r->heard.contains(ingress);
@@ -179,20 +182,31 @@ private:
             }
             if (age < std::chrono::seconds{2} && !again) {
                 remembered = &*r;
-                return decide_unless_private(ingress, frame, why, r->sent);
+                return decide_unless_private(ingress, frame, why, r->sent, r->heard);
             }
             recent_.erase(r);
         }
+        return remember(ingress, bytes, frame, why, remembered);
+    }
+    Verdict remember(std::uint32_t ingress, const Bytes& bytes, const wire::FrameView& frame, Why& why,
+                     Recent*& remembered) {
         recent_.push_back({bytes, now_, {ingress}, {}});
         remembered = &recent_.back();
-        return decide_unless_private(ingress, frame, why, {});
+        return decide_unless_private(ingress, frame, why, {}, {});
+    }
+    // What unverified links brought does not count on a verified one.
+    [[nodiscard]] bool may_count(const Recent& r, const Link& link) const {
+        if (!link.policy.is_verified || r.heard.empty()) return true;
+        return std::ranges::any_of(r.heard, [&](std::uint32_t id) {
+            return id != gone && links_.at(id).policy.is_verified;
+        });
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
-                                  const std::set<std::uint32_t>& have_it) {
+                                  const std::set<std::uint32_t>& have_it, const std::set<std::uint32_t>& sent_it) {
         learn(ingress, frame);
         if (links_[ingress].policy.is_private) return Verdict::private_link;
-        return decide(ingress, frame, why, have_it);
+        return decide(ingress, frame, why, have_it, sent_it);
     }
 
     [[nodiscard]] bool is_silent(const Link& link) const {
@@ -237,15 +251,54 @@ private:
         if (links_[ingress].policy.group != 0) count_heartbeat(links_[ingress], frame, is_doubled(ingress, frame));
         links_[ingress].last_heard = now_;
         const auto system = frame.system().value, component = frame.component().value;
-        if (system == 0 || info(frame) == nullptr) return;
+        if (system == 0 || info(frame) == nullptr || !may_learn(ingress, system)) return;
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;
         };
-        if (std::none_of(heard_.begin(), heard_.end(), same)) heard_.push_back({ingress, system, component, now_});
+        if (std::none_of(heard_.begin(), heard_.end(), same)) heard_.push_back({ingress, system, component, now_, now_});
         Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
+        if (!heard.known) heard.since = now_;
         heard.known = true;
         heard.time = now_;
         ++heard.frames;
+    }
+
+    // A vehicle that is alive elsewhere is learned only after 5 s without a gap of 2 s. Verified links come first.
+    bool may_learn(std::uint32_t ingress, std::uint8_t system) {
+        Link& link = links_[ingress];
+        std::vector<std::uint32_t> others;
+        for (const auto& [id, other] : links_)
+            if (id != ingress && is_fresh(id, system, -1) &&
+                (link.policy.group == 0 || other.policy.group != link.policy.group))
+                others.push_back(id);
+        if (others.empty()) return true;
+        const auto is_verified = [&](std::uint32_t id) { return links_[id].policy.is_verified; };
+        if (link.policy.is_verified) {
+            for (Heard& h : heard_)
+                if (h.system == system && in(others, h.link) && !is_verified(h.link)) h.known = false;
+            return true;
+        }
+        if (std::ranges::any_of(others, is_verified)) return false;
+        if (is_fresh(ingress, system, -1)) return true;
+        const bool is_alive = std::ranges::any_of(heard_, [&](const Heard& h) {
+            return h.known && in(others, h.link) && h.system == system && h.component == 1 &&
+                   now_ - h.time < std::chrono::seconds{2};
+        });
+        if (!is_alive) return true;
+        const auto [claim, is_new] = link.claims.try_emplace(system, Claim{now_, now_});
+        if (now_ - claim->second.last >= std::chrono::seconds{2}) claim->second.since = now_;
+        claim->second.last = now_;
+        if (link.policy.learns_first || now_ - claim->second.since < std::chrono::seconds{5}) return false;
+        link.claims.erase(claim);
+        return true;
+    }
+
+    // Heard twice at least half a second apart, and in the last 3 s.
+    [[nodiscard]] bool is_present(std::uint32_t link, std::uint8_t system, std::uint8_t component) const {
+        return std::ranges::any_of(heard_, [&](const Heard& h) {
+            return h.known && h.link == link && h.system == system && h.component == component &&
+                   h.time - h.since >= std::chrono::milliseconds{500} && now_ - h.time < std::chrono::seconds{3};
+        });
     }
 
     static const wire::MessageInfo* info(const wire::FrameView& frame) {
@@ -259,14 +312,19 @@ private:
     }
 
     Verdict decide(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
-                   const std::set<std::uint32_t>& have_it) {
+                   const std::set<std::uint32_t>& have_it, const std::set<std::uint32_t>& sent_it) {
         const auto system = std::max(target(frame, "target_system"), target(frame, "target"));
         const auto component = target(frame, "target_component");
         const bool exact = component != 0 && is_fresh_anywhere(system, component);
         bool broadcast = system == 0;
         if (!broadcast) {
             if (options_.own == Source{SystemId{system}, ComponentId{component}}) return Verdict::consumed;
-            if (!is_fresh_anywhere(system, -1)) {
+            if (options_.unknown_target == UnknownTarget::flood && links_[ingress].policy.is_verified &&
+                std::ranges::none_of(links_, [&](const auto& l) {
+                    return l.second.policy.is_verified && is_fresh(l.first, system, -1);
+                })) {
+                broadcast = true;
+            } else if (!is_fresh_anywhere(system, -1)) {
                 if (options_.unknown_target == UnknownTarget::drop) return Verdict::unknown_target;
                 broadcast = true;
             } else if (component != 0 && !exact && options_.unknown_component == UnknownComponent::drop) {
@@ -280,18 +338,19 @@ private:
             if (policy.is_private && !(exact && has_target)) why[id] = Reason::private_link;
             else if (!broadcast && !has_target) why[id] = Reason::other_target;
             else if (policy.group != 0 && policy.group == links_[ingress].policy.group) why[id] = Reason::same_group;
-            else if (is_fresh(id, frame.system().value, frame.component().value)) why[id] = Reason::source_here;
+            else if (is_present(id, frame.system().value, frame.component().value)) why[id] = Reason::source_here;
             else why[id] = Reason::sent;
             if (id == ingress) why[id] = Reason::ingress;
         }
-        return narrow(frame, why, have_it);
+        return narrow(frame, why, have_it, sent_it);
     }
 
     static bool any_sent(const Why& why) {
         return std::any_of(why.begin(), why.end(), [](const auto& w) { return w.second == Reason::sent; });
     }
 
-    Verdict narrow(const wire::FrameView& frame, Why& why, const std::set<std::uint32_t>& have_it) {
+    Verdict narrow(const wire::FrameView& frame, Why& why, const std::set<std::uint32_t>& have_it,
+                   const std::set<std::uint32_t>& sent_it) {
         if (!any_sent(why)) return Verdict::nowhere;
         for (auto& [id, reason] : why)
             if (reason == Reason::sent && !admits(links_[id].policy.out_allow, links_[id].policy.out_block, frame))
@@ -302,6 +361,8 @@ private:
                 if (mode != GroupMode::all) choose(group, mode, why);
         for (auto& [id, reason] : why)
             if (reason == Reason::sent && have_it.contains(id)) reason = Reason::already_sent;
+        for (auto& [id, reason] : why)
+            if (reason == Reason::sent && sent_it.contains(id)) reason = Reason::source_here;
         if (!any_sent(why)) return Verdict::duplicate;
         for (auto& [id, reason] : why)
             if (reason == Reason::sent) reason = limit(links_[id], frame, Reason::sent);
@@ -376,11 +437,6 @@ private:
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group
     std::vector<Heard> heard_;
-    struct Reboot {
-        std::uint32_t link;
-        MonoTime time;
-    };
-    std::map<std::uint8_t, Reboot> reboots_;  // the last of each system
     std::vector<Recent> recent_;
     std::vector<Recent> beats_;  // HEARTBEATs of groups
 };

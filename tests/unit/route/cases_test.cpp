@@ -100,7 +100,7 @@ TEST(RoutingCases, MR5UnseenSystemWithoutComponentFieldIsNotSent) {
 TEST(RoutingCases, MR6NothingGoesWhereItsSourceWasHeard) {
     Network sut;
     sut.links(3);
-    sut.hears(2, {12, 1});
+    sut.settles(2, {12, 1});
 
     EXPECT_THAT(sut.send(1, "ATTITUDE", {12, 1}), ElementsAre(3));
 }
@@ -447,8 +447,8 @@ TEST(RoutingCases, N22SystemZeroIsForwardedAndNeverLearnt) {
 TEST(RoutingCases, N23WholeSystemIsReachedOnAllItsLinks) {
     Network sut;
     sut.links(3);
-    sut.hears(1, {1, 1});
     sut.hears(2, {1, 154});
+    sut.hears(1, {1, 1});
 
     EXPECT_THAT(sut.command(3, gcs, {1, 0}), ElementsAre(1, 2));
     EXPECT_THAT(sut.command(3, gcs, {1, 154}), ElementsAre(2));

@@ -82,6 +82,12 @@ public:
     }
     // The link hears a heartbeat of this source.
     Ids hears(std::uint32_t link, Id source) { return send(link, "HEARTBEAT", source, {{"custom_mode", ++count}}); }
+    // The link hears the source often enough for it to be present there.
+    void settles(std::uint32_t link, Id source) {
+        hears(link, source);
+        wait(Engine::repeated_after);
+        hears(link, source);
+    }
     // Where a frame goes that comes in on `link`.
     Ids send(std::uint32_t link, std::string_view name, Id source, const Fields& fields = {}) {
         return pass(link, make_frame(name, source, fields, static_cast<std::uint8_t>(count++)));
