@@ -36,6 +36,7 @@ static SetupResult<void> refuse_routing_options(const Endpoint& endpoint) {
         {"tap", o.tap},
         {"private", o.is_private},
         {"heartbeat", o.heartbeat.has_value()},
+        {"learn", o.learns_first},
     };
     const auto set = std::ranges::find(routed, true, &std::pair<std::string_view, bool>::second);
     if (set == std::end(routed)) return {};

@@ -118,6 +118,13 @@ SetupResult<void> set_group(EndpointOptions& options, std::string_view text) {
     return {};
 }
 
+SetupResult<void> set_learn(EndpointOptions& options, std::string_view text) {
+    if (text != "first" && text != "consistent")
+        return usage(fmt::format("{} is neither first nor consistent", in_quotes(text)));
+    options.learns_first = text == "first";
+    return {};
+}
+
 SetupResult<void> set_heartbeat(EndpointOptions& options, std::string_view text) {
     if (text.find('/') != std::string_view::npos)
         return usage(
@@ -185,6 +192,7 @@ constexpr std::array options_table{
                return set_text<&O::iface>(o, t);
            }},
     Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
+    Option{"learn", links, "consistent", set_learn},
     Option{"trusted", set_of(Scheme::udpin) | set_of(Scheme::udpbcast), "false", set_flag<&O::trusted>},
     Option{"low_latency", address_schemes | serial, "false", set_flag<&O::low_latency>},
     Option{"required", links, "false", set_flag<&O::required>},

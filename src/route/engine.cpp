@@ -216,7 +216,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
     watch_for_duplicate_ids(p);
 }
 
-// Nobody can prove who he is without a key, so the rules favour the link on which a vehicle was heard first, and links
+// Without a key, nobody can prove an identity. So the rules favour the link on which a vehicle was heard first, and links
 // whose frames are verified.
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
@@ -337,7 +337,7 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
     if (target.system.value == 0) return to_everybody();
     if (options.own == target) return Verdict::consumed;
     const bool floods = options.unknown_target == UnknownTarget::flood;
-    // What unverified links claim to know does not keep a frame from verified links.
+    // A route that only unverified links taught does not keep a frame from verified links.
     if (floods && p.link.policy.is_verified &&
         !intersect(routes_.links_of(target.system), verified_.data(), words_))
         return to_everybody();

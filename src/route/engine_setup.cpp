@@ -42,7 +42,8 @@ Slot Engine::Impl::slot_of(LinkId id) const noexcept {
 void Engine::Impl::grow(std::size_t slots) {
     words_ = slots / 64;
     routes_.resize(words_);
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &candidates_, &scratch_}) set->resize(words_);
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &candidates_, &scratch_})
+        set->resize(words_);
     out_.resize(slots);
     ids_.resize(slots);
 }

@@ -98,6 +98,8 @@ SetupResult<route::LinkPolicy> RoutedEndpoints::policy_of(const endpoint::Endpoi
     policy.max_bytes_per_s = o.max_bytes_per_s;
     policy.tap = o.tap;
     policy.is_private = o.is_private;
+    policy.is_verified = !o.verify_key_file.empty();
+    policy.learns_first = o.learns_first;
     policy.group = groups_.id_of(o.group);
     policy.group_mode = groups_.mode_of(o);
     policy.group_order = endpoints_.empty() ? 0 : endpoints_.back()->policy.group_order + 1;

@@ -108,6 +108,11 @@ std::vector<std::string> Forwarder::look_after() {
         warnings.push_back(
             fmt::format("{}/{} is heard on {} and on {}: two senders with one id, or redundant links that need group=",
                         id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
+    const auto conflicts = engine_.route_conflicts();
+    for (const auto& conflict : conflicts.subspan(std::exchange(route_conflicts_told_, conflicts.size())))
+        warnings.push_back(fmt::format("system {} is alive on {} and was learned on {} too: redundant links that need "
+                                       "group=, or somebody who claims to be it; verify= or learn=first prevent that",
+                                       conflict.system.value, name_of(conflict.first), name_of(conflict.second)));
     return warnings;
 }
 

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] MonoTime next_due() const noexcept { return own_messages_.next_due(); }
     void send_due(MonoTime now) { own_messages_.send_due(now); }
     // Call about once a second. Forgets the traffic of links that are gone. Returns one warning for each newly found id
-    // that two senders use.
+    // that two senders use, and for each vehicle that was learned on a second link.
     [[nodiscard]] std::vector<std::string> look_after();
 
     [[nodiscard]] const route::Engine& engine() const noexcept { return engine_; }
@@ -76,7 +76,7 @@ private:
     Explainer explainer_;
     std::vector<route::Explanation> why_;
     Counter not_signed_;
-    std::size_t duplicate_ids_told_ = 0;
+    std::size_t duplicate_ids_told_ = 0, route_conflicts_told_ = 0;
     bool a_link_went_ = false;  // `traffic_` may hold rows of a link that is gone
 };
 

@@ -71,6 +71,8 @@ struct EndpointOptions {
     bool low_latency = false;
     // udpin, udpbcast: peers get everything from their first datagram on, although its source address may be forged.
     bool trusted = false;
+    // A vehicle that is alive on another link is not learned here (learn=first).
+    bool learns_first = false;
     bool required = false;
     std::optional<HostPort> bind;
     bool fixed = false;              // udpbcast

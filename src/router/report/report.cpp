@@ -76,7 +76,8 @@ std::vector<NamedCount> counts_of(Router& router) {
             {"routes_evicted", c.routes_evicted.value()},
             {"recent_evicted", c.recent_evicted.value()},
             {"reboots", c.reboots.value()},
-            {"duplicate_ids", c.duplicate_ids.value()}};
+            {"duplicate_ids", c.duplicate_ids.value()},
+            {"route_conflicts", c.route_conflicts.value()}};
 }
 
 void put(Json& object, const std::vector<NamedCount>& counts) {

@@ -194,7 +194,7 @@ private:
         remembered = &recent_.back();
         return decide_unless_private(ingress, frame, why, {}, {});
     }
-    // What unverified links brought does not count on a verified one.
+    // On a verified link, copies that unverified links brought do not count.
     [[nodiscard]] bool may_count(const Recent& r, const Link& link) const {
         if (!link.policy.is_verified || r.heard.empty()) return true;
         return std::ranges::any_of(r.heard, [&](std::uint32_t id) {

@@ -401,7 +401,7 @@ TEST(SetEndpointOption, TakesTheTextOfAFilesKey) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(34));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(35));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }
