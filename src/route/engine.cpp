@@ -216,7 +216,7 @@ void Engine::Impl::learn(Passage& p) noexcept {
     watch_for_duplicate_ids(p);
 }
 
-// Without a key, nobody can prove an identity. So the rules favour the link on which a vehicle was heard first, and links
+// Without a key, nobody can prove an identity. So the rules favour the link that heard a vehicle first, and links
 // whose frames are verified.
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
     const SystemId system = p.frame.system();

@@ -75,7 +75,7 @@ void Engine::Impl::remove_link(LinkId id) {
     rebuild();
 }
 
-// Prefers a slot that has rested, then a new one. If many rest, it takes the one that has rested longest and removes its
+// Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest, and removes its
 // bit from all remembered frames.
 Slot Engine::Impl::free_slot() {
     Slot longest_free = no_slot;
