@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
+units."""
+import pathlib
+import subprocess
+import time
+
+import harness
+import pytest
+import routers
+from routers import Net, Router, UdpEnd, attitude, command, heartbeat
+
+FLOOD = pathlib.Path(harness.PROGRAM).parent.parent / "tests/bin/flood_tool"
+VEHICLE, STATION = (1, 1), (255, 190)
+
+pytestmark = pytest.mark.skipif(not FLOOD.exists(), reason="needs the test tools beside the program")
+
+
+class Flood:
+    """Heartbeats from invented addresses, while the block runs."""
+
+    def __init__(self, port, rate, seconds, ids=1):
+        self.process = subprocess.Popen([FLOOD, "127.0.0.1", str(port), str(rate), str(seconds), str(ids)],
+                                        stdout=subprocess.PIPE, text=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+    def sent(self):
+        return int(self.process.communicate()[0])
+
+
+@pytest.fixture
+def pair(spawn):
+    """A router with one udpin, and two peers that talk."""
+    port = routers.udp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{port}")
+    with UdpEnd(("127.0.0.1", port)) as vehicle, UdpEnd(("127.0.0.1", port)) as station:
+        for _ in range(2):
+            vehicle.send(heartbeat(VEHICLE))
+            station.send(heartbeat(STATION))
+        router.wait_links(2)
+        yield router, vehicle, station
+
+
+def pass_frames(vehicle, station, count, pause=0.001):
+    """Sends frames from the vehicle to the station; returns how long each was on its way."""
+    ages = []
+    for _ in range(count):
+        sent, frame = time.monotonic(), attitude(VEHICLE)
+        vehicle.send(frame)
+        station.until(frame)
+        ages.append(time.monotonic() - sent)
+        time.sleep(pause)
+    return ages
+
+
+def test_a_flood_of_invented_peers_takes_nothing_from_those_who_talk(pair):
+    router, vehicle, station = pair
+    port = vehicle.target[1]
+    with Flood(port, 20_000, 3) as flood:
+        harness.wait_for(lambda: router.stats("endpoint")[0]["peers_refused"] > 1000, what="refused peers")
+        pass_frames(vehicle, station, 500)  # each arrives, or this fails
+        asked = time.monotonic()
+        router.links()
+        answered = time.monotonic() - asked
+        sent = flood.sent()
+    endpoint = router.stats("endpoint")[0]
+
+    assert endpoint["peers_refused"] > sent // 2
+    assert len(router.links()) <= 256
+    assert endpoint["kernel_drop"] == 0
+    assert answered < 1
+
+
+def test_invented_ids_on_many_links_starve_nobody_afterwards(pair):
+    router, vehicle, station = pair
+    with Flood(vehicle.target[1], 8_000, 1, ids=8_000) as flood:
+        flood.sent()
+
+    pass_frames(vehicle, station, 20)
+    station.send(command(STATION, VEHICLE))
+    vehicle.next()
+
+
+def test_a_forged_restart_takes_no_commands_away(spawn):
+    """SYSTEM_TIME of the vehicle from another link, with a clock that jumps back."""
+    from frames import mavlink
+    with Net(spawn, "udpin", 3) as net:
+        vehicle, attacker, station = net[1], net[2], net[3]
+        station.send(heartbeat(STATION))
+        for boot_ms in (50_000, 50_100):
+            vehicle.send(routers.make(mavlink.MAVLink_system_time_message(0, boot_ms), VEHICLE))
+        for boot_ms in (90_000, 1_000, 80_000, 2_000):
+            attacker.send(routers.make(mavlink.MAVLink_system_time_message(0, boot_ms), VEHICLE))
+        vehicle.send(last := heartbeat(VEHICLE))
+        station.until(last)
+
+        station.send(order := command(STATION, VEHICLE))
+        vehicle.until(order)
+        station.send(end := heartbeat(STATION))
+
+        assert order not in attacker.until(end)
+
+
+def test_one_frame_with_the_vehicles_id_costs_a_station_no_telemetry(spawn):
+    with Net(spawn, "udpin", 2) as net:
+        vehicle, station = net[1], net[2]
+        vehicle.send(heartbeat(VEHICLE))
+        station.send(heartbeat(STATION))
+        station.send(heartbeat(VEHICLE))  # forged: it has the station's address
+
+        vehicle.send(frame := attitude(VEHICLE))
+
+        station.until(frame)
+
+
+def test_silent_clients_turn_nobody_away(spawn):
+    port = routers.tcp_port()
+    router = Router(spawn, f"tcpin://127.0.0.1:{port}?max_peers=4", f"udpout://127.0.0.1:{routers.udp_port()}")
+    silent = [routers.tcp_client(port) for _ in range(4)]
+    router.wait_links(5)
+
+    with routers.tcp_client(port) as newcomer:
+        newcomer.send(heartbeat(STATION))
+        harness.wait_for(lambda: any(r[0] == 255 for r in router.routes()), what="the newcomer's route")
+
+    for client in silent:
+        client.close()
+    assert router.stats("endpoint")[0]["peers_evicted"] == 1
