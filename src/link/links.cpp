@@ -79,15 +79,21 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are named {}; give one of them another name=", label));
     const EndpointId id = core_->endpoints.next_id();
-    const EndpointId signs_as = is_named ? core_->signing_ids.id_for(label, id, core_->endpoints) : id;
-    if (auto opened = open_as(id, signs_as, endpoint, dialect); !opened)
+    const std::string signs_by = is_named ? label : std::string();
+    const auto signs_as = core_->signing_ids.choose(signs_by, id, core_->endpoints);
+    const bool is_signing = !endpoint.options.sign_key_file.empty();
+    if (is_signing && !signs_as)
+        return setup_error(SetupCode::usage, fmt::format("{}: 256 endpoints sign already, and a signature has no more "
+                                                         "link ids; remove sign= from one of them",
+                                                         label));
+    if (auto opened = open_as(id, signs_as.value_or(0), endpoint, dialect); !opened)
         return tl::unexpected(std::move(opened).error());
-    core_->signing_ids.keep(label, signs_as, id);
+    if (is_signing) core_->signing_ids.keep(signs_by, *signs_as, id);
     core_->coalescing.allow(!core_->endpoints.any_low_latency());
     return id;
 }
 
-SetupResult<void> Links::open_as(EndpointId id, EndpointId signs_as, const endpoint::Endpoint& endpoint,
+SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const endpoint::Endpoint& endpoint,
                                  const dialect::Dialect* dialect) {
     std::vector<std::string> notices;
     auto signature = Signature::load(endpoint.options, signs_as, core_->key_states, notices);

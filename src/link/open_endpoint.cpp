@@ -29,15 +29,21 @@ bool OpenEndpoints::any_low_latency() const {
     return std::ranges::any_of(endpoints_, [](const auto& e) { return e && e->info.endpoint.options.low_latency; });
 }
 
-EndpointId SigningIds::id_for(const std::string& label, EndpointId fresh, const OpenEndpoints& endpoints) const {
-    const auto before = by_label_.find(label);
-    return before != by_label_.end() && endpoints.find(before->second.holder) == nullptr ? before->second.id : fresh;
+std::optional<std::uint8_t> SigningIds::choose(const std::string& label, EndpointId fresh,
+                                               const OpenEndpoints& endpoints) const {
+    const Use* best = nullptr;
+    for (const Use& use : uses_) {
+        if (use.number != 0 && endpoints.find(use.holder) != nullptr) continue;
+        if (use.number != 0 && !label.empty() && use.label == label) return static_cast<std::uint8_t>(&use - &uses_[0]);
+        if (best == nullptr || use.number < best->number) best = &use;
+    }
+    if (fresh.value < uses_.size() && uses_[fresh.value].number == 0) return static_cast<std::uint8_t>(fresh.value);
+    if (best == nullptr) return std::nullopt;
+    return static_cast<std::uint8_t>(best - &uses_[0]);
 }
 
-void SigningIds::keep(const std::string& label, EndpointId signs_as, EndpointId holder) {
-    const bool took_over = signs_as != holder;  // the id of an endpoint that was removed
-    const auto at = by_label_.try_emplace(label, Held{signs_as, holder}).first;
-    if (took_over) at->second.holder = holder;
+void SigningIds::keep(const std::string& label, std::uint8_t link_id, EndpointId holder) {
+    uses_[link_id] = {label, holder, ++count_};
 }
 
 }  // namespace mavloom::link::detail

@@ -3,8 +3,9 @@
 // thread.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,20 +77,27 @@ private:
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints_;  // index: id; null: removed
 };
 
-// Decides which link id an endpoint signs with. A reopened endpoint keeps the signing id of its label, so that the far
-// side sees the same link. If several open endpoints have one label, the first one has that id.
+// Decides which link id an endpoint signs with. A signature has 8 bits for it, and two endpoints that are open must not
+// share one: the far side would take the frames of the slower for replays. A reopened endpoint keeps the link id of its
+// label, so that the far side sees the same link.
 class SigningIds {
 public:
-    // `fresh` is the id of the endpoint that is about to be opened.
-    [[nodiscard]] EndpointId id_for(const std::string& label, EndpointId fresh, const OpenEndpoints& endpoints) const;
-    // Notes that the endpoint was opened: `holder` now signs with the id `signs_as`.
-    void keep(const std::string& label, EndpointId signs_as, EndpointId holder);
+    // The link id for the endpoint that is about to be opened, whose id is `fresh`: the one that its label had, else
+    // `fresh` itself, else one that nobody used yet, else the one that was left longest ago. Empty if open endpoints
+    // have all 256. An empty label is never the same.
+    [[nodiscard]] std::optional<std::uint8_t> choose(const std::string& label, EndpointId fresh,
+                                                     const OpenEndpoints& endpoints) const;
+    // Notes that the endpoint was opened: `holder` now signs with `link_id`.
+    void keep(const std::string& label, std::uint8_t link_id, EndpointId holder);
 
 private:
-    struct Held {
-        EndpointId id, holder;
+    struct Use {
+        std::string label;
+        EndpointId holder;
+        std::uint64_t number = 0;  // uses are counted; 0: nobody used it
     };
-    std::map<std::string, Held> by_label_;
+    std::array<Use, 256> uses_;  // by link id
+    std::uint64_t count_ = 0;
 };
 
 [[nodiscard]] net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options);

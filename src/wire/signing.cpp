@@ -112,7 +112,7 @@ SetupResult<SigningKey> SigningKey::load(const std::filesystem::path& file) {
 
 std::size_t Signer::sign(ByteSpan frame, std::size_t size, SigningTime now) noexcept {
     assert(frame.size() >= size + signature_length && (frame[2] & incompat_signed) != 0);
-    last_ = std::max(SigningTime{last_.ticks + 1}, now);
+    last_ = std::min(std::max(SigningTime{last_.ticks + 1}, now), SigningTime{SigningTime::limit - 1});
     std::uint8_t* const signature = frame.data() + size;
     signature[0] = link_id_;
     store_time(signature + 1, last_.ticks & time_mask);
@@ -140,12 +140,23 @@ void Verifier::restore(const Stream& stream) noexcept {
     const auto it = std::ranges::lower_bound(streams_, stream.key, {}, &Stream::key);
     if (it != streams_.end() && it->key == stream.key) {
         it->last = std::max(it->last, stream.last);
-    } else if (streams_.size() < max_streams) {
-        streams_.insert(it, stream);
+    } else if (streams_.size() < max_streams || forget_oldest(stream.last)) {
+        insert(stream);
     } else {
         return;
     }
     newest_ = std::max(newest_, stream.last);
+}
+
+void Verifier::insert(const Stream& stream) noexcept {
+    streams_.insert(std::ranges::lower_bound(streams_, stream.key, {}, &Stream::key), stream);
+}
+
+bool Verifier::forget_oldest(SigningTime before) noexcept {
+    const auto oldest = std::ranges::min_element(streams_, {}, &Stream::last);
+    if (oldest->last >= before) return false;
+    streams_.erase(oldest);
+    return true;
 }
 
 Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noexcept {
@@ -160,9 +171,12 @@ Verifier::Verdict Verifier::verify(const FrameView& frame, SigningTime now) noex
         if (time <= it->last) return Verdict::replay;
         it->last = time;
     } else {
-        if (time.ticks + first_tolerance_ticks < std::max(now, newest_).ticks) return Verdict::too_old;
-        if (streams_.size() == max_streams) return Verdict::too_many_streams;
-        streams_.insert(it, {key, time});
+        const std::uint64_t latest = std::max(now, newest_).ticks;
+        if (time.ticks + first_tolerance_ticks < latest) return Verdict::too_old;
+        // A stream that is forgotten must be so old that its frames are refused as too old from now on.
+        const SigningTime forgettable{latest - std::min(latest, first_tolerance_ticks)};
+        if (streams_.size() == max_streams && !forget_oldest(forgettable)) return Verdict::too_many_streams;
+        insert({key, time});
     }
     newest_ = std::max(newest_, time);
     return Verdict::good;

@@ -204,7 +204,7 @@ public:
 
 private:
     Links(std::unique_ptr<detail::Core> core, endpoint::RoutingOptions routing) noexcept;
-    [[nodiscard]] SetupResult<void> open_as(EndpointId id, EndpointId signs_as, const endpoint::Endpoint& endpoint,
+    [[nodiscard]] SetupResult<void> open_as(EndpointId id, std::uint8_t signs_as, const endpoint::Endpoint& endpoint,
                                             const dialect::Dialect* dialect);
 
     std::unique_ptr<detail::Core> core_;

@@ -24,6 +24,7 @@ namespace mavloom::wire {
 // A signature timestamp: 10 µs ticks since 2015-01-01 00:00 UTC; 48 bits on the wire.
 struct SigningTime {
     std::uint64_t ticks = 0;
+    static constexpr std::uint64_t limit = std::uint64_t{1} << 48;  // ticks on the wire are below this
     friend constexpr auto operator<=>(SigningTime, SigningTime) = default;
 
     [[nodiscard]] static constexpr SigningTime from(WallTime t) noexcept {
@@ -64,7 +65,8 @@ private:
     std::array<std::uint8_t, length> bytes_;
 };
 
-// Signs outgoing frames with one link id. Timestamps follow the time given to `sign` and never repeat or go back.
+// Signs outgoing frames with one link id. Timestamps follow the time given to `sign` and never repeat or go back. At the
+// end of the 48 bits, in 2104, they stand still, and receivers refuse the frames.
 class Signer {
 public:
     Signer(const SigningKey& key, std::uint8_t link_id, SigningTime start = {}) noexcept
@@ -95,7 +97,7 @@ public:
         bad_signature,     // the hash differs: another key, or a damaged frame
         replay,            // not newer than the last accepted frame of this (link id, system, component)
         too_old,           // a new stream whose timestamp is more than a minute behind
-        too_many_streams,  // the table of streams is full
+        too_many_streams,  // the table of streams is full, and each was heard within the last minute
     };
 
     // A sender, and the timestamp of its last accepted frame.
@@ -119,10 +121,15 @@ public:
 
     // All streams, sorted by key. Store them and call `restore` after a restart, so that old frames count as replays.
     [[nodiscard]] std::span<const Stream> streams() const noexcept { return streams_; }
-    // Restores a stream of an earlier run. A timestamp never goes back. If the table is full, the stream is ignored.
+    // Restores a stream of an earlier run. A timestamp never goes back. A full table forgets its oldest stream, or
+    // ignores an older one.
     void restore(const Stream& stream) noexcept;
 
 private:
+    void insert(const Stream& stream) noexcept;
+    // Removes the stream with the oldest timestamp if that is before `before`.
+    bool forget_oldest(SigningTime before) noexcept;
+
     SigningKey key_;
     std::vector<Stream> streams_;  // sorted by key
     SigningTime newest_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // sign= and verify= of an endpoint: drops incoming frames that are unsigned or wrongly signed, and signs outgoing
 // frames.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "link/signing/signature.hpp"
@@ -8,7 +10,7 @@
 
 namespace mavloom::link::detail {
 
-SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::EndpointOptions& options, EndpointId signs_as,
+SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::EndpointOptions& options, std::uint8_t signs_as,
                                                         KeyStates& states, std::vector<std::string>& notices) {
     if (options.sign_key_file.empty() && options.verify_key_file.empty()) return nullptr;
     auto signature = std::make_unique<Signature>(states);
@@ -22,8 +24,13 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
         auto opened = signature->open(options.sign_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
         const auto& [path, key, times] = signature->sign_with_.emplace(std::move(*opened));
+        if (times->state.last_signed.ticks + KeyStates::reserve_ticks >= wire::SigningTime::limit)
+            return setup_error(SetupCode::bad_input,
+                               fmt::format("{}: the signing times of this key are used up; create a new key for both "
+                                           "sides with mavloom key new",
+                                           times->path().string()));
         KeyStates::begin_signing(*times);
-        signature->signer_.emplace(key, static_cast<std::uint8_t>(signs_as.value), times->state.last_signed);
+        signature->signer_.emplace(key, signs_as, times->state.last_signed);
     }
     return signature;
 }

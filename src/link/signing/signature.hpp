@@ -20,9 +20,9 @@ namespace mavloom::link::detail {
 class Signature {
 public:
     // Loads the keys. Timestamps of earlier runs come from `states`, which must outlive the object; problems with
-    // them go to `notices`. `signs_as` supplies the link id of signed frames. Returns null if neither option is set.
+    // them go to `notices`. `signs_as` is the link id of signed frames. Returns null if neither option is set.
     [[nodiscard]] static SetupResult<std::unique_ptr<Signature>> load(const endpoint::EndpointOptions& options,
-                                                                      EndpointId signs_as, KeyStates& states,
+                                                                      std::uint8_t signs_as, KeyStates& states,
                                                                       std::vector<std::string>& notices);
     explicit Signature(KeyStates& states) : states_(states) { states_.add(*this); }
     Signature(const Signature&) = delete;

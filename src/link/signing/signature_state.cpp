@@ -26,7 +26,7 @@ using Stream = wire::Verifier::Stream;
 namespace {
 
 constexpr std::string_view heading = "mavloom signing times 1";
-constexpr std::uint64_t time_limit = std::uint64_t{1} << 48;
+constexpr std::uint64_t time_limit = wire::SigningTime::limit;
 // Larger than a file of max_streams lines.
 constexpr std::size_t longest_file = 256 * 1024;
 constexpr std::uint64_t clock_tolerance_ticks = 60 * 100'000;
@@ -114,13 +114,17 @@ bool KeyState::merge_heard(std::span<const Stream> streams) {
         } else if (heard.size() < wire::Verifier::max_streams) {
             heard.insert(at, stream);
             changed = true;
+        } else if (const auto oldest = std::ranges::min_element(heard, {}, &Stream::last); oldest->last < stream.last) {
+            heard.erase(oldest);
+            heard.insert(std::ranges::lower_bound(heard, stream.key, {}, &Stream::key), stream);
+            changed = true;
         }
     }
     return changed;
 }
 
 std::string text_of(const KeyState& state) {
-    std::string text = fmt::format("{}\nsigned {}\n", heading, state.last_signed.ticks);
+    std::string text = fmt::format("{}\nsigned {}\n", heading, std::min(state.last_signed.ticks, time_limit - 1));
     if (state.key != 0) fmt::format_to(std::back_inserter(text), "key {}\n", state.key);
     for (const auto& [key, last] : state.heard)
         fmt::format_to(std::back_inserter(text), "heard {} {} {} {}\n", key >> 16, key >> 8 & 0xFF, key & 0xFF,

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <fstream>
+#include <set>
 
 #include "mavloom/wire/crc.hpp"
 #include "unit/link/fixture.hpp"
@@ -210,6 +211,47 @@ TEST_F(LinksSigning, AnEndpointThatIsOpenedAnewSignsAsTheSameLink) {
     EXPECT_EQ(signing_id(after, first), was);
     EXPECT_EQ(signing_id(other, second), of_other);
     EXPECT_NE(was, of_other);
+}
+
+// A signature has 8 bits for the link id: endpoints come and go, but no two that are open share one.
+TEST_F(LinksSigning, EndpointsThatAreOpenNeverShareASigningId) {
+    Node node;
+    const auto far = PlainSocket::udp(), stays = PlainSocket::udp();
+    const auto url = [&](const PlainSocket& to, int n) {
+        return fmt::format("udpout://127.0.0.1:{}?sign={}&name=e{}", to.port(), key_file('a'), n);
+    };
+    const auto signing_id = [&](EndpointId id, const PlainSocket& to) {
+        EXPECT_EQ(node.links->send(id, view(heartbeat(0))), 1u);
+        Bytes got;
+        EXPECT_TRUE(until([&] { return !(got = to.read()).empty(); }, node));
+        return int{got.at(heartbeat(0).size())};
+    };
+    const int stays_as = signing_id(node.add(url(stays, 0)), stays);
+    std::set<int> used{stays_as};
+    for (int n = 1; n < 600; ++n) {
+        const auto next = node.add(url(far, n));
+        const int id = signing_id(next, far);
+        EXPECT_NE(id, stays_as) << n;
+        used.insert(id);
+        node.links->remove(next);
+    }
+    EXPECT_EQ(used.size(), 256u) << "the id that was left longest ago is used first";
+}
+
+TEST_F(LinksSigning, The257thEndpointThatSignsIsRefusedWithTheReason) {
+    Node node;
+    const auto far = PlainSocket::udp();
+    const auto url = [&](int n) {
+        return fmt::format("udpout://127.0.0.1:{}?sign={}&name=e{}", far.port(), key_file('a'), n);
+    };
+    for (int n = 0; n < 256; ++n) node.add(url(n));
+
+    const auto refused = node.links->add(*endpoint::parse_endpoint(url(256)));
+
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().text, HasSubstr("256 endpoints sign already"));
+    const auto plain = fmt::format("udpout://127.0.0.1:{}?name=plain", far.port());
+    EXPECT_TRUE(node.links->add(*endpoint::parse_endpoint(plain)));
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ TEST_F(SigningTimes, SigningBeginsBehindTheLastTimeOfTheFile) {
     const auto future = wire::SigningTime::from(wall_now()).ticks + 3600 * 100'000ull;
     write(file, "mavloom signing times 1\nsigned " + std::to_string(future) + "\n");
     KeyStates states;
-    const auto signature = Signature::load(options(true, false), EndpointId{0}, states, notices);
+    const auto signature = Signature::load(options(true, false), 0, states, notices);
 
     ASSERT_TRUE(signature);
     const auto state = parse_key_state(content(file));
@@ -110,12 +110,27 @@ TEST_F(SigningTimes, SigningBeginsBehindTheLastTimeOfTheFile) {
     EXPECT_THAT(notices, ElementsAre(HasSubstr("s ahead of the clock")));
 }
 
+TEST_F(SigningTimes, AKeyWhoseTimesAreUsedUpSignsNoMoreAndKeepsItsFile) {
+    const std::string text = "mavloom signing times 1\nsigned 281474976710655\n";  // 2^48 - 1
+    write(file, text);
+    {
+        KeyStates states;
+        const auto signature = Signature::load(options(true, false), 0, states, notices);
+
+        ASSERT_FALSE(signature);
+        EXPECT_THAT(signature.error().text, HasSubstr("are used up; create a new key"));
+    }
+    const auto state = parse_key_state(content(file));
+    ASSERT_TRUE(state);
+    EXPECT_EQ(state->last_signed.ticks, 281474976710655u);
+}
+
 TEST_F(SigningTimes, AtTheEndTheFileIsExact) {
     const auto future = wire::SigningTime::from(wall_now()).ticks + 3600 * 100'000ull;
     write(file, "mavloom signing times 1\nsigned " + std::to_string(future) + "\n");
     {
         KeyStates states;
-        const auto signature = Signature::load(options(true, true), EndpointId{0}, states, notices);
+        const auto signature = Signature::load(options(true, true), 0, states, notices);
         ASSERT_TRUE(signature);
     }
 
@@ -179,7 +194,7 @@ TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
 TEST_F(SigningTimes, AFileThatCannotBeWrittenIsToldAndNotFatal) {
     std::filesystem::create_directory(file);
     KeyStates states;
-    const auto signature = Signature::load(options(true, true), EndpointId{0}, states, notices);
+    const auto signature = Signature::load(options(true, true), 0, states, notices);
 
     ASSERT_TRUE(signature);
     EXPECT_THAT(notices, ::testing::Contains(HasSubstr("cannot write ")));

@@ -165,6 +165,39 @@ TEST(Verifier, BoundsItsStreams) {
     EXPECT_EQ(sut.verify(sender.at({noon.ticks + 1}, 0), noon), SignatureVerdict::good);  // known streams continue
 }
 
+TEST(Verifier, AFullTableForgetsStreamsThatAreSilentForAMinuteAndTakesNoReplayOfThem) {
+    Verifier sut(key_from(0));
+    Sender sender;
+    for (unsigned link = 0; link < 4; ++link) {
+        sender.link = static_cast<std::uint8_t>(link);
+        for (unsigned system = 0; system < 256; ++system)
+            ASSERT_EQ(sut.verify(sender.at({noon.ticks + link}, static_cast<std::uint8_t>(system)), noon),
+                      SignatureVerdict::good);
+    }
+    const SigningTime within{noon.ticks + minute}, later{noon.ticks + minute + 2};
+    sender.link = 9;
+    EXPECT_EQ(sut.verify(sender.at(within, 1), within), SignatureVerdict::too_many_streams);
+
+    EXPECT_EQ(sut.verify(sender.at(later, 1), later), SignatureVerdict::good);
+
+    EXPECT_EQ(sut.streams().size(), Verifier::max_streams);
+    sender.link = 0;  // one of its streams, the oldest, was forgotten
+    for (unsigned system = 0; system < 256; ++system) {
+        const auto verdict = sut.verify(sender.at(noon, static_cast<std::uint8_t>(system)), later);
+        EXPECT_TRUE(verdict == SignatureVerdict::replay || verdict == SignatureVerdict::too_old);
+    }
+}
+
+TEST(Signer, AtTheLastTimeItStandsStillInsteadOfBeginningAgain) {
+    Signer sut(key_from(0), 1, SigningTime{SigningTime::limit - 2});
+    FrameBuffer frame{};
+    frame[2] = incompat_signed;
+
+    for (int i = 0; i < 3; ++i) (void)sut.sign(frame, 12, noon);
+
+    EXPECT_EQ(sut.last().ticks, SigningTime::limit - 1);
+}
+
 TEST(Signer, NeverRepeatsATimeWhenTheClockStands) {
     Signer sut(key_from(0), 1);
     FrameBuffer frame{};
