@@ -2,8 +2,8 @@
 // An attacker for tests/system/test_hostile.py: sends heartbeats from invented addresses.
 //   flood_tool HOST PORT RATE SECONDS [IDS]
 // Every datagram is a HEARTBEAT from another address of 127.0.0.0/8, RATE a second. IDS is how many system and
-// component ids it uses (default 1). Prints how many it sent. Works on loopback without privileges, because all of 127.0.0.0/8
-// belongs to this machine.
+// component ids it uses (default 1). Prints how many datagrams it sent. Works on loopback without privileges, because
+// all of 127.0.0.0/8 belongs to this machine.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
