@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
 units."""
-import pathlib
 import subprocess
 import time
 
@@ -10,7 +9,7 @@ import pytest
 import routers
 from routers import Net, Router, UdpEnd, attitude, command, heartbeat
 
-FLOOD = pathlib.Path(harness.PROGRAM).parent.parent / "tests/bin/flood_tool"
+FLOOD = harness.program_path().parent.parent / "tests" / "bin" / "flood_tool"
 VEHICLE, STATION = (1, 1), (255, 190)
 
 pytestmark = pytest.mark.skipif(not FLOOD.exists(), reason="needs the test tools beside the program")

@@ -75,16 +75,17 @@ private:
         info.ipi_spec_dst.s_addr = htonl(0x7f010000u + count_ % 0x00fe0000u);
         std::memcpy(CMSG_DATA(reinterpret_cast<cmsghdr*>(datagram.control.data())), &info, sizeof info);
         const unsigned id = count_ % ids_;
-        const msg::Heartbeat beat{.custom_mode = count_, .type = 2, .autopilot = 12, .mavlink_version = 3};
+        msg::Heartbeat beat;
+        beat.custom_mode = count_;
+        beat.mavlink_version = 3;
         std::array<std::uint8_t, msg::Heartbeat::max_length> payload{};
         (void)beat.encode(payload);
         wire::FrameBuffer buffer;
-        const auto frame = wire::write_frame(
-            buffer,
-            {.sequence = static_cast<std::uint8_t>(count_),
-             .source = {SystemId{static_cast<std::uint8_t>(10 + id / 40 % 200)},
-                        ComponentId{static_cast<std::uint8_t>(1 + id % 40)}}},
-            *dialect::default_dialect().wire_table().find(msg::Heartbeat::id), payload);
+        const auto frame = wire::write_frame(buffer,
+                                             {.sequence = static_cast<std::uint8_t>(count_),
+                                              .source = {SystemId{static_cast<std::uint8_t>(10 + id / 40 % 200)},
+                                                         ComponentId{static_cast<std::uint8_t>(1 + id % 40)}}},
+                                             *dialect::default_dialect().wire_table().find(msg::Heartbeat::id), payload);
         std::memcpy(datagram.bytes.data(), frame.bytes().data(), frame.size());
         datagram.part.iov_len = frame.size();
     }
