@@ -4,16 +4,19 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "control/sessions.hpp"
 #include "mavloom/base/thread.hpp"
@@ -23,7 +26,10 @@ namespace mavloom::control {
 
 namespace {
 
-constexpr std::size_t most_sessions = 64;  // of each kind; more are turned away
+constexpr std::size_t most_sessions = 64;  // of each kind; a newcomer takes the place of the longest idle client
+constexpr std::chrono::seconds look_interval{1};
+// Reports take much processor time. On a busy machine they wait for the threads that pass frames on.
+constexpr int niceness = 10;
 constexpr auto socket_mode = S_IRUSR | S_IWUSR;
 
 // Returns 0 if the file does not exist.
@@ -50,8 +56,10 @@ public:
         if (fd_ && is_named(fd_.get())) ::unlink(path_.c_str());
     }
 
+    // Takes the lock, or keeps it. If another program removed the file, takes a new one.
     [[nodiscard]] SetupResult<void> take(const std::filesystem::path& socket) {
         path_ = socket.string() + ".lock";
+        if (fd_ && !is_named(fd_.get())) fd_ = net::Fd();
         while (!fd_) {
             net::Fd fd(::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, socket_mode));
             // The file exists but belongs to another user.
@@ -77,12 +85,12 @@ private:
     net::Fd fd_;
 };
 
-// Accepts clients for as long as it lives. Each session holds a share of `places_`, whose use count limits the number
-// of sessions.
-template <class Protocol, class Session>
+// Accepts clients for as long as it lives.
+// `Source` answers the requests of the sessions.
+template <class Protocol, class Session, class Source>
 class Acceptor {
 public:
-    Acceptor(asio::io_context& context, Served& served) : acceptor_(context), retry_(context), served_(served) {}
+    Acceptor(asio::io_context& context, Source& source) : acceptor_(context), retry_(context), source_(source) {}
 
     void open(const typename Protocol::endpoint& endpoint) {
         acceptor_.open(endpoint.protocol());
@@ -95,15 +103,36 @@ public:
         acceptor_.async_accept([this](error_code error, typename Protocol::socket socket) {
             if (error == asio::error::operation_aborted) return;
             if (error) return accept_later();  // for example, no free descriptors
-            if (static_cast<std::size_t>(places_.use_count()) <= most_sessions)
-                std::make_shared<Session>(std::move(socket), served_, places_)->read();
+            if (make_room()) add(std::make_shared<Session>(std::move(socket), source_));
             else Session::turn_away(socket);
             accept();
         });
     }
+    void close() {
+        error_code error;
+        acceptor_.close(error);
+    }
     [[nodiscard]] auto local() const { return acceptor_.local_endpoint(); }
 
 private:
+    void add(const std::shared_ptr<Session>& session) {
+        sessions_.push_back(session);
+        session->read();
+    }
+    // Disconnects the client that has been idle longest, if there are too many. Returns false if all await an answer.
+    bool make_room() {
+        std::erase_if(sessions_, [](const auto& session) { return session.expired(); });
+        if (sessions_.size() < most_sessions) return true;
+        std::shared_ptr<Session> idlest;
+        for (const auto& weak : sessions_)
+            if (auto session = weak.lock();
+                idlest == nullptr || session->patience().since() < idlest->patience().since())
+                idlest = std::move(session);
+        if (idlest->patience().is_busy()) return false;
+        idlest->hang_up();
+        std::erase_if(sessions_, [&](const auto& session) { return session.lock() == idlest; });
+        return true;
+    }
     void accept_later() {
         retry_.expires_after(std::chrono::seconds(1));
         retry_.async_wait([this](error_code error) {
@@ -113,8 +142,8 @@ private:
 
     typename Protocol::acceptor acceptor_;
     asio::steady_timer retry_;
-    Served& served_;
-    std::shared_ptr<void> places_ = std::make_shared<char>();
+    Source& source_;
+    std::vector<std::weak_ptr<Session>> sessions_;
 };
 
 tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::system_error& error) {
@@ -125,7 +154,12 @@ tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::
 
 class Control::Impl {
 public:
-    explicit Impl(Served& served) : served_(served), control_(context_, served), metrics_(context_, served) {}
+    explicit Impl(Served& served)
+        : served_(served),
+          reports_(served),
+          control_(context_, served),
+          metrics_(context_, reports_),
+          look_timer_(context_) {}
     // Posted work keeps its session alive, and the session's socket needs the context. So drop the work first.
     ~Impl() {
         context_.stop();
@@ -135,6 +169,7 @@ public:
     }
 
     SetupResult<void> open(const ControlOptions& options) {
+        on_notice_ = options.on_notice;
         if (!options.socket.empty())
             if (auto opened = open_socket(options.socket); !opened) return opened;
         return options.metrics ? open_metrics(*options.metrics) : SetupResult<void>{};
@@ -142,8 +177,12 @@ public:
 
     void start() {
         if (!socket_.empty()) control_.accept();
+        if (!socket_.empty()) look_later();
         if (metrics_port() != 0) metrics_.accept();
-        thread_ = thread_without_signals([this] { context_.run(); });
+        thread_ = thread_without_signals([this] {
+            ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);  // of this thread only
+            context_.run();
+        });
     }
 
     [[nodiscard]] std::uint16_t metrics_port() const noexcept { return metrics_port_; }
@@ -160,6 +199,31 @@ private:
             return error_of(fmt::format("control socket {}", path.string()), error);
         }
         return {};
+    }
+
+    void look_later() {
+        look_timer_.expires_after(look_interval);
+        look_timer_.async_wait([this](error_code error) {
+            if (error) return;
+            look_at_socket();
+            look_later();
+        });
+    }
+
+    // Another program may have removed the socket or its folder.
+    void look_at_socket() {
+        if (inode_of(socket_) != 0) return;
+        ::mkdir(socket_.parent_path().c_str(), 0755);
+        control_.close();
+        const auto anew = open_socket(socket_);
+        if (anew) control_.accept();
+        if (anew) tell(fmt::format("control socket {} was removed; it is created again", socket_.string()));
+        else if (!reported_)
+            tell(fmt::format("control socket {} was removed: {}", socket_.string(), anew.error().text));
+        reported_ = !anew;
+    }
+    void tell(std::string text) const {
+        if (on_notice_) served_.post([on_notice = on_notice_, line = std::move(text)] { on_notice(line); });
     }
 
     // Removes a socket that no process serves. The probe does not block: a full backlog (EAGAIN) also means that a
@@ -185,6 +249,7 @@ private:
                                                                  address.host));
             metrics_.open(Tcp::endpoint(host, address.port));
             metrics_port_ = metrics_.local().port();
+            if (host.is_loopback()) reports_.require_local_host();
             return {};
         } catch (const boost::system::system_error& error) {
             return error_of(fmt::format("metrics on {}:{}", address.host, address.port), error);
@@ -193,13 +258,17 @@ private:
 
     Served& served_;
     asio::io_context context_{1};
-    Acceptor<Local, ControlSession> control_;
-    Acceptor<Tcp, MetricsSession> metrics_;
+    MetricsReports reports_;
+    Acceptor<Local, ControlSession, Served> control_;
+    Acceptor<Tcp, MetricsSession, MetricsReports> metrics_;
     std::uint16_t metrics_port_ = 0;
     NameLock name_;  // destroyed after the socket is removed
     std::filesystem::path socket_;
     // Identifies our own socket. Another program may have removed it, and another router created a new one.
     ino_t inode_ = 0;
+    asio::steady_timer look_timer_;
+    std::function<void(std::string_view)> on_notice_;
+    bool reported_ = false;  // that the socket is gone and cannot be created
     std::thread thread_;
 };
 

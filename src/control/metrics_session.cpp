@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <array>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <chrono>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -15,11 +17,12 @@ namespace mavloom::control {
 
 namespace http = boost::beast::http;
 
-constexpr auto http_patience = std::chrono::seconds(10);
+constexpr auto http_patience = std::chrono::seconds(5);
 
 struct MetricsSession::Request {
     http::verb method;
     std::string target;
+    std::string host;  // empty: not given
     unsigned version;  // 10 or 11, for HTTP/1.0 and HTTP/1.1
     bool keep_alive;
 };
@@ -31,7 +34,13 @@ void MetricsSession::turn_away(Tcp::socket& socket) {
                       error);
 }
 
+void MetricsSession::hang_up() {
+    error_code error;
+    socket_.close(error);
+}
+
 void MetricsSession::read() {
+    patience_.wait_for_client();
     hang_up_later();
     asio::async_read_until(socket_, input_, "\r\n\r\n", [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->handle();
@@ -46,7 +55,7 @@ void MetricsSession::hang_up_later() {
     deadline_.async_wait([weak = weak_from_this()](error_code error) {
         const auto self = weak.lock();
         const bool is_over = !error && self && self->deadline_.expiry() <= std::chrono::steady_clock::now();
-        if (is_over) self->socket_.close(error);
+        if (is_over) self->hang_up();
     });
 }
 
@@ -58,30 +67,49 @@ void MetricsSession::handle() {
     input_.consume(parser.put(input_.data(), error));
     if (error || !parser.is_done()) return;
     const auto& head = parser.get();
-    answer({head.method(), std::string(head.target()), head.version(), parser.keep_alive()});
+    answer({head.method(), std::string(head.target()), std::string(head[http::field::host]), head.version(),
+            parser.keep_alive()});
 }
+
+// The host without port is "localhost", or the address that the client is connected to.
+bool MetricsSession::is_host_of_this_machine(std::string_view host) const {
+    const auto bracket = host.find(']');
+    const auto colon = host.find(':', bracket == std::string_view::npos ? 0 : bracket);
+    host = host.substr(0, colon);
+    error_code error;
+    const auto address = socket_.local_endpoint(error).address();
+    return host == "localhost" ||
+           host == (address.is_v6() ? fmt::format("[{}]", address.to_string()) : address.to_string());
+}
+
+static MetricsReports::Text text_of(std::string_view text) { return std::make_shared<const std::string>(text); }
 
 void MetricsSession::answer(const Request& request) {
+    if (reports_.requires_local_host() && !request.host.empty() && !is_host_of_this_machine(request.host))
+        return write(request, "403 Forbidden", text_of("the Host header must be this address or localhost\n"));
     if (request.method != http::verb::get && request.method != http::verb::head)
-        return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", "GET and HEAD only\n");
+        return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", text_of("GET and HEAD only\n"));
     if (std::string_view(request.target).substr(0, request.target.find('?')) != "/metrics")
-        return write(request, "404 Not Found", "metrics are at /metrics\n");
-    ask_served(
-        served_, socket_.get_executor(), [](Served& served) { return served.metrics(); },
-        [self = shared_from_this(), request](const Later<std::string>& text) { self->write(request, "200 OK", text()); });
+        return write(request, "404 Not Found", text_of("metrics are at /metrics\n"));
+    patience_.wait_for_served();
+    reports_.get(socket_.get_executor(), [self = shared_from_this(), request](const MetricsReports::Text& text) {
+        self->write(request, "200 OK", text);
+    });
 }
 
-void MetricsSession::write(const Request& request, std::string_view status, std::string_view body) {
-    output_ = fmt::format(
+void MetricsSession::write(const Request& request, std::string_view status, MetricsReports::Text body) {
+    patience_.wait_for_client();
+    head_ = fmt::format(
         "HTTP/{}.{} {}\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nContent-Length: {}\r\n"
-        "Connection: {}\r\n\r\n{}",
-        request.version / 10, request.version % 10, status, body.size(), request.keep_alive ? "keep-alive" : "close",
-        request.method == http::verb::head ? "" : body);
+        "Connection: {}\r\n\r\n",
+        request.version / 10, request.version % 10, status, body->size(), request.keep_alive ? "keep-alive" : "close");
+    body_ = request.method == http::verb::head ? text_of("") : std::move(body);
     hang_up_later();
     const auto then = [self = shared_from_this(), goes_on = request.keep_alive](error_code error, std::size_t) {
+        self->body_.reset();
         if (!error && goes_on) self->read();
     };
-    asio::async_write(socket_, asio::buffer(output_), then);
+    asio::async_write(socket_, std::array<asio::const_buffer, 2>{asio::buffer(head_), asio::buffer(*body_)}, then);
 }
 
 }  // namespace mavloom::control

@@ -3,45 +3,53 @@
 // All sessions run on the control thread.
 #pragma once
 
-#include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/streambuf.hpp>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "mavloom/control/served.hpp"
+#include "control/ask_served.hpp"
+#include "control/metrics_reports.hpp"
 
 namespace mavloom::control {
 
-namespace asio = boost::asio;
 using Local = asio::local::stream_protocol;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-// Runs `ask` on the served program's thread, then calls `then` with the result on `back`. To keep its session alive
-// meanwhile, the caller stores a shared pointer to it in `then`.
-template <class Ask, class Then>
-void ask_served(Served& served, const asio::any_io_executor& back, Ask ask, Then then) {
-    served.post([&served, ask = std::move(ask), then = std::move(then), back]() mutable {
-        asio::post(back, [result = ask(served), then = std::move(then)]() mutable { then(std::move(result)); });
-    });
-}
+// What the acceptor needs to know about a client in order to choose whom it disconnects for a newcomer.
+class Patience {
+public:
+    // The session now waits for its client: for a request, or for the client to read the answer.
+    void wait_for_client() noexcept { since_ = std::chrono::steady_clock::now(); }
+    // The session now waits for the served program.
+    void wait_for_served() noexcept { since_ = busy; }
+
+    [[nodiscard]] bool is_busy() const noexcept { return since_ == busy; }
+    // When the session began to wait for its client.
+    [[nodiscard]] std::chrono::steady_clock::time_point since() const noexcept { return since_; }
+
+private:
+    static constexpr auto busy = std::chrono::steady_clock::time_point::max();
+    std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
 
 constexpr std::size_t longest_request = 64 * 1024, longest_http_header = 8 * 1024;
 
 // One client of the control socket. The session reads a request, writes the answer, and repeats.
 class ControlSession : public std::enable_shared_from_this<ControlSession> {
 public:
-    ControlSession(Local::socket socket, Served& served, std::shared_ptr<void> place)
-        : socket_(std::move(socket)), served_(served), place_(std::move(place)) {}
+    ControlSession(Local::socket socket, Served& served) : socket_(std::move(socket)), served_(served) {}
 
     void read();
+    void hang_up();
+    [[nodiscard]] const Patience& patience() const noexcept { return patience_; }
     // Sends the client an error (too many clients), if the socket accepts the text at once.
     static void turn_away(Local::socket& socket);
 
@@ -51,18 +59,20 @@ private:
 
     Local::socket socket_;
     Served& served_;
-    std::shared_ptr<void> place_;  // this session's share of the limit most_sessions
+    Patience patience_;
     asio::streambuf input_{longest_request};
     std::string output_;
 };
 
-// One HTTP client. It has 10 s (http_patience) to send its request, and 10 s more to read the answer.
+// One HTTP client. It has 5 s (http_patience) to send its request, and 5 s more to read the answer.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
-    MetricsSession(Tcp::socket socket, Served& served, std::shared_ptr<void> place)
-        : socket_(std::move(socket)), deadline_(socket_.get_executor()), served_(served), place_(std::move(place)) {}
+    MetricsSession(Tcp::socket socket, MetricsReports& reports)
+        : socket_(std::move(socket)), deadline_(socket_.get_executor()), reports_(reports) {}
 
     void read();
+    void hang_up();
+    [[nodiscard]] const Patience& patience() const noexcept { return patience_; }
     static void turn_away(Tcp::socket& socket);
 
 private:
@@ -71,14 +81,16 @@ private:
     void hang_up_later();
     void handle();
     void answer(const Request& request);
-    void write(const Request& request, std::string_view status, std::string_view body);
+    [[nodiscard]] bool is_host_of_this_machine(std::string_view host) const;
+    void write(const Request& request, std::string_view status, MetricsReports::Text body);
 
     Tcp::socket socket_;
     asio::steady_timer deadline_;
-    Served& served_;
-    std::shared_ptr<void> place_;
+    MetricsReports& reports_;
+    Patience patience_;
     asio::streambuf input_{longest_http_header};
-    std::string output_;
+    std::string head_;
+    MetricsReports::Text body_;
 };
 
 }  // namespace mavloom::control

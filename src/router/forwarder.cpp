@@ -110,9 +110,11 @@ std::vector<std::string> Forwarder::look_after() {
                         id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
     const auto conflicts = engine_.route_conflicts();
     for (const auto& conflict : conflicts.subspan(std::exchange(route_conflicts_told_, conflicts.size())))
-        warnings.push_back(fmt::format("system {} is alive on {} and was learned on {} too: redundant links that need "
-                                       "group=, or somebody who claims to be it; verify= or learn=first prevent that",
-                                       conflict.system.value, name_of(conflict.first), name_of(conflict.second)));
+        warnings.push_back(
+            fmt::format("system {} is alive on {} and was learned on {} too: redundant links that need "
+                        "group=, components on several links, or a sender that claims to be it, which "
+                        "verify= or learn=first prevent",
+                        conflict.system.value, name_of(conflict.first), name_of(conflict.second)));
     return warnings;
 }
 

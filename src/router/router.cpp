@@ -120,16 +120,25 @@ void Router::on_notice(link::EndpointId, std::string_view text) { notice_(config
 // ---- turns ----------------------------------------------------------------------------------------------------------
 
 void Router::turn(MonoTime deadline) {
-    const std::size_t frames = links_->turn(*this, posted_->empty() ? std::min(deadline, next_due()) : MonoTime{});
+    const MonoTime work_due = posted_->empty() ? MonoTime::max() : work_due_;
+    const std::size_t frames = links_->turn(*this, std::min({deadline, next_due(), work_due}));
     const MonoTime now = mono_now();
     if (frames != 0) recordings_->publish();
     if (ring_) {
         ring_->note_turn(frames, now);
         if (now >= ring_->page_due()) refresh_page();
     }
-    if (!posted_->empty()) posted_->run_one();  // one a turn, because reports take long and frames go first
+    if (!posted_->empty() && now >= work_due_) run_posted(now);
     forwarder_->send_due(now);
     if (now >= look_due_) look_after(now);
+}
+
+// Runs one item, because reports take long and frames go first. The next item waits four times as long as this one took,
+// so that a flood of requests takes at most a fifth of the time.
+void Router::run_posted(MonoTime now) {
+    posted_->run_one();
+    const MonoTime end = mono_now();
+    work_due_ = end + 4 * (end - now);
 }
 
 MonoTime Router::next_due() const noexcept {

@@ -132,9 +132,11 @@ def test_mr5_an_unseen_system_without_a_component_field_is_not_sent(net):
 
 def test_mr6_nothing_goes_where_its_source_was_heard(net, kind):
     sut = net(kind, 3)
-    sut.hears(2, (12, 1))
 
-    assert sut.send(1, attitude((12, 1))) == [3]
+    def is_present():  # one frame may be forged, so the source must repeat itself
+        sut.hears(2, (12, 1))
+        return sut.send(1, attitude((12, 1))) == [3]
+    harness.wait_for(is_present, what="the source to count as present")
 
 
 @pytest.mark.short
@@ -1025,7 +1027,7 @@ def test_n20_commands_follow_a_station_that_moves(spawn, kind):
     vehicle.send(answer)
     new.until(answer)
     if kind == "peers":
-        assert old.now() == []
+        assert answer not in old.now()
     for end in (old, new, vehicle):
         end.close()
 
@@ -1039,7 +1041,10 @@ def test_n21_two_stations_of_one_id_both_hear_all_and_get_answers(net):
         assert sut.hears(3, VEHICLE) == [1, 2]
         assert sut.command(3, VEHICLE, GCS) == [1, 2]
 
-    assert sut.hears(1, GCS) == [3]
+    def are_present():
+        sut.hears(2, GCS)
+        return sut.hears(1, GCS) == [3]
+    harness.wait_for(are_present, what="both to count as present")
     sut.router.process.wait_output("255/190 is heard on .* and on .*: two senders with one id", stream="err")
     assert sut.router.stats("router")[0]["duplicate_ids"] == 1
 
@@ -1056,10 +1061,12 @@ def test_n22_system_0_is_forwarded_and_never_learnt(net):
 @pytest.mark.short
 def test_n23_a_whole_system_is_reached_on_all_its_links(net):
     sut = net(MIXED, 3)
-    sut.hears(1, (1, 1))
-    sut.hears(2, (1, 154))
 
-    assert sut.command(3, GCS, (1, 0)) == [1, 2]
+    def is_learned():  # 5 s after its first frame, because its autopilot is alive elsewhere
+        sut.hears(1, (1, 1))
+        sut.hears(2, (1, 154))
+        return sut.command(3, GCS, (1, 0)) == [1, 2]
+    harness.wait_for(is_learned, what="the second link of the system")
     assert sut.command(3, GCS, (1, 154)) == [2]
 
 

@@ -295,23 +295,40 @@ def test_two_of_one_name(spawn, run):
     assert len(router.ask("links")) == 0
 
 
-def test_too_many_clients_are_told_so(spawn, run):
+def test_idle_clients_lock_nobody_out(spawn, run):
     port = routers.tcp_port()
     router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", f"127.0.0.1:{port}")
-    router.ask("links")  # with a connection of its own
-    with contextlib.ExitStack() as idle:
-        for _ in range(63):
-            client = idle.enter_context(socket.socket(socket.AF_UNIX))
-            client.connect(control_path(router))
+    with contextlib.ExitStack() as opened:
+        idle = []
         for _ in range(64):
-            idle.enter_context(socket.create_connection(("127.0.0.1", port)))
-        done = run("ctl", router.name, "links", env=router.env)
-        with pytest.raises(urllib.error.HTTPError) as error:
-            fetch(port)
+            idle.append(opened.enter_context(socket.socket(socket.AF_UNIX)))
+            idle[-1].connect(control_path(router))
+        crowd = [opened.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(64)]
+        for client in (*idle, *crowd):
+            client.settimeout(harness.DEFAULT_TIMEOUT_S)
 
-    assert done.status == 1 and "too many clients are connected" in done.stderr
-    assert error.value.code == 503
-    harness.wait_for(lambda: run("ctl", router.name, "links", env=router.env).status == 0, what="room for one more")
+        assert run("ctl", router.name, "links", env=router.env).status == 0
+        assert fetch(port)[1]
+        assert idle[0].recv(1) == b"" and crowd[0].recv(1) == b""  # the longest idle went
+        idle[-1].sendall(b'{"cmd":"links"}\n')
+        assert json.loads(idle[-1].recv(65536)) == {"ok": True}
+
+
+def test_a_control_socket_that_somebody_removes_is_made_anew(spawn, run):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = control_path(router)
+    os.unlink(path)
+    router.process.wait_output(f"control socket {path} was removed; it is created again", stream="err")
+    assert run("ctl", router.name, "links", env=router.env).status == 0
+    assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
+    assert router.links() == []  # connections stay
+    os.unlink(f"{path}.lock")
+    os.unlink(path)
+    harness.wait_for(lambda: os.path.exists(path), what="the socket")
+
+    assert os.path.exists(f"{path}.lock")
+    assert router.process.stop(signal.SIGTERM).status == 143
+    assert not os.path.exists(path) and not os.path.exists(f"{path}.lock")
 
 
 def test_without_a_name_a_second_router_does_without_a_socket(spawn, tmp_path):
@@ -387,10 +404,12 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
 def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
     first = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
     path = control_path(first)
+    first.process.send(signal.SIGSTOP)  # else it creates them again
     os.unlink(path)
     os.unlink(f"{path}.lock")
     second = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", first.name, env=first.env)
     harness.wait_for(lambda: os.path.exists(path), what="the second one's socket")
+    first.process.send(signal.SIGCONT)
     assert first.process.stop(signal.SIGTERM).status == 143
 
     assert sorted(name for name in os.listdir(os.path.dirname(path)) if name.startswith(first.name + ".")) == \
@@ -539,7 +558,7 @@ def test_metrics_answers_what_it_does_not_serve(net):
             fetch(port, path, method)
         assert error.value.code == status
     with socket.create_connection(("127.0.0.1", port)) as client:
-        client.sendall(b"HEAD /metrics HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+        client.sendall(b"HEAD /metrics HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
         head = client.makefile("rb").read()
         assert head.startswith(b"HTTP/1.1 200 OK\r\n") and head.endswith(b"\r\n\r\n") and head.count(b"\r\n\r\n") == 1
     with socket.create_connection(("127.0.0.1", port)) as client:
@@ -549,6 +568,26 @@ def test_metrics_answers_what_it_does_not_serve(net):
 
     assert fetch(port)[1]
     assert sut.router.process.alive
+
+
+@pytest.mark.parametrize("host, status", [("127.0.0.1", 200), ("127.0.0.1:9090", 200), ("localhost:1", 200), (None, 200),
+                                          ("evil.example", 403), ("127.0.0.1.evil.example:9090", 403), ("[::1]", 403)])
+def test_a_web_page_cannot_read_the_metrics_of_this_machine(net, host, status):
+    """A page's own name may lead to 127.0.0.1 (DNS rebinding); its Host header then still has that name."""
+    port = routers.tcp_port()
+    net(("udpout",), extra=["--metrics", f"127.0.0.1:{port}"])
+    with socket.create_connection(("127.0.0.1", port)) as client:
+        name = f"Host: {host}\r\n" if host else ""
+        client.sendall(f"GET /metrics HTTP/1.1\r\n{name}Connection: close\r\n\r\n".encode())
+        assert client.makefile("rb").readline().split()[1] == str(status).encode()
+
+
+def test_an_idle_client_of_the_metrics_is_disconnected(net):
+    port = routers.tcp_port()
+    net(("udpout",), extra=["--metrics", f"127.0.0.1:{port}"])
+    with socket.create_connection(("127.0.0.1", port)) as idle:
+        idle.settimeout(harness.DEFAULT_TIMEOUT_S)
+        assert idle.recv(1) == b""
 
 
 # ---- reload ----------------------------------------------------------------------------------------------------------

@@ -366,10 +366,11 @@ class Narrow:
                                              socket.inet_aton(called[scheme]) + socket.inet_aton(self.there.host))
         else:
             url = f"{scheme}://0.0.0.0:{near}"
+            options += "&trusted=true" if scheme == "udpin" else ""
         self.router = Router(start(here), f"udpin://127.0.0.1:{PORT}", f"{url}?name=far&{options}")
         if scheme == "udpin":
             self.station = machine_end(self.there, (here.host, near))
-            self.station.send(routers.heartbeat(GROUND_STATION))
+            self.station.send(routers.heartbeat(GROUND_STATION))  # only once, so `trusted` is needed
         elif scheme == "tcpin":
             self.station = TcpEnd(in_machine(self.there,
                                              lambda: socket.create_connection((here.host, near), timeout=60)))

@@ -270,6 +270,7 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
 SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const RouteOptions& options,
                                                             const std::string& ring, router::Router& router) {
     control::ControlOptions control;
+    control.on_notice = [&router](std::string_view text) { router.tell(config::LogLevel::warning, text); };
     if (!options.metrics.empty()) {
         const auto address = endpoint::parse_endpoint("tcpin://" + options.metrics);
         if (!address)

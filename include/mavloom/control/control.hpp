@@ -5,8 +5,9 @@
 // address, if there is one, serves metrics to Prometheus.
 //
 // Both run on one thread of their own, the control thread. It posts each request to the router's thread, which runs the
-// request between two turns of its loop and only copies counters. The control thread then formats the answer. A client
-// that stalls or floods therefore cannot slow down routing.
+// request between two turns of its loop and only copies counters. The control thread then formats the answer, at a low
+// priority. 64 clients of each kind can be connected; a further one takes the place of the one that has been idle
+// longest.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.
@@ -31,6 +32,9 @@ namespace mavloom::control {
 struct ControlOptions {
     std::filesystem::path socket;  // empty: no control socket
     std::optional<endpoint::HostPort> metrics;
+    // Reports that another program removed the socket, and whether it could be created again. Called on the thread of
+    // `served`.
+    std::function<void(std::string_view)> on_notice;
 };
 
 class Control {

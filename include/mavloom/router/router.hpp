@@ -127,6 +127,7 @@ private:
     void look_after(MonoTime now);
     void look_after_ring();
     void refresh_page();
+    void run_posted(MonoTime now);
     void tell_silence(MonoTime now);
 
     const dialect::Dialect& dialect_;
@@ -141,7 +142,7 @@ private:
     std::unique_ptr<Recordings> recordings_;
     std::unique_ptr<ring::RingTap> ring_;
     MonoTime started_ = mono_now();
-    MonoTime look_due_{};
+    MonoTime look_due_{}, work_due_{};
 };
 
 }  // namespace mavloom::router

@@ -184,5 +184,21 @@ TEST_F(RouterTest, AReloadEndsRecordingsThatAreNotWantedAndKeepsTheOthers) {
     EXPECT_THAT(open, ElementsAre(kept));
 }
 
+// A flood of requests takes at most a fifth of the time.
+TEST_F(RouterTest, PostedWorkRestsAfterAnItem) {
+    MonoTime end_of_first{}, begin_of_second{};
+    Nanoseconds took{};
+    sut->post([&] {
+        const MonoTime begin = mono_now();
+        while (mono_now() - begin < 5ms) {}
+        end_of_first = mono_now();
+        took = end_of_first - begin;
+    });
+    sut->post([&] { begin_of_second = mono_now(); });
+
+    ASSERT_TRUE(until([&] { return begin_of_second != MonoTime{}; }));
+    EXPECT_GE(begin_of_second - end_of_first, 4 * took);
+}
+
 }  // namespace
 }  // namespace mavloom::router

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The text of the metrics, shared by all HTTP clients. Control thread only.
+//
+// A report is up to `fresh_for` old. So however many clients ask, the served program copies its counters once in that
+// time, and clients that read slowly share a few texts.
+#pragma once
+
+#include <boost/asio/any_io_executor.hpp>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "control/ask_served.hpp"
+
+namespace mavloom::control {
+
+class MetricsReports {
+public:
+    using Text = std::shared_ptr<const std::string>;
+    using Then = std::function<void(const Text&)>;
+    static constexpr std::chrono::seconds fresh_for{1};
+
+    explicit MetricsReports(Served& served) : served_(served) {}
+
+    // Calls `then` with the text, at once or later, on `back`, the executor of the control thread.
+    void get(const asio::any_io_executor& back, Then then) {
+        if (text_ != nullptr && std::chrono::steady_clock::now() - made_ < fresh_for) return then(text_);
+        waiting_.push_back(std::move(then));
+        if (waiting_.size() > 1) return;  // the report is on its way
+        ask_served(
+            served_, back, [](Served& served) { return served.metrics(); },
+            [this](const Later<std::string>& report) { answer(report()); });
+    }
+
+    // Clients must then name this machine in the Host header: web pages that a browser shows may not read the metrics.
+    void require_local_host() noexcept { requires_local_host_ = true; }
+    [[nodiscard]] bool requires_local_host() const noexcept { return requires_local_host_; }
+
+private:
+    void answer(std::string report) {
+        text_ = std::make_shared<const std::string>(std::move(report));
+        made_ = std::chrono::steady_clock::now();
+        for (const auto& then : std::exchange(waiting_, {})) then(text_);
+    }
+
+    Served& served_;
+    Text text_;
+    std::chrono::steady_clock::time_point made_;
+    std::vector<Then> waiting_;
+    bool requires_local_host_ = false;
+};
+
+}  // namespace mavloom::control
