@@ -208,6 +208,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     mavloom::app::Signals::watch();
+    mavloom::app::Signals::survive_lost_rings();
     mavloom::app::keep_standard_descriptors();
     const auto status = mavloom::app::run(argc, argv);
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)

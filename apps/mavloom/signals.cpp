@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <csignal>
 
+#include "mavloom/shm/lost_mapping.hpp"
+
 namespace mavloom::app {
 
 namespace {
@@ -55,6 +57,18 @@ Signals::Signals(OnStop on_stop, void* context, OnHangup on_hangup) {
 }
 
 void Signals::watch() noexcept { install(handle, Ignored::stay); }
+
+// For any other address, the default action takes place when the instruction runs again: the program ends.
+static void on_bus_error(int, siginfo_t* info, void*) {
+    if (!shm::replace_lost_mapping(info->si_addr)) std::signal(SIGBUS, SIG_DFL);
+}
+
+void Signals::survive_lost_rings() noexcept {
+    struct sigaction action {};
+    action.sa_sigaction = on_bus_error;
+    action.sa_flags = SA_SIGINFO;
+    ::sigaction(SIGBUS, &action, nullptr);
+}
 
 Signals::~Signals() { stop_function = nullptr; }
 

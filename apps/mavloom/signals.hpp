@@ -24,6 +24,10 @@ public:
     // were ignored at start (nohup, background jobs of scripts) stay ignored.
     static void watch() noexcept;
 
+    // Installs a handler for SIGBUS. If another process shortens the file of a ring, that ring counts as removed, and
+    // the program continues.
+    static void survive_lost_rings() noexcept;
+
     [[nodiscard]] static bool received() noexcept;
     // Returns true once for each remembered SIGHUP. Several at once count as one.
     [[nodiscard]] static bool take_hangup() noexcept;

@@ -23,7 +23,7 @@ using Local = asio::local::stream_protocol;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-// What the acceptor needs to know about a client in order to choose whom it disconnects for a newcomer.
+// Records since when a session waits for its client, so that the acceptor can disconnect the longest idle client.
 class Patience {
 public:
     // The session now waits for its client: for a request, or for the client to read the answer.

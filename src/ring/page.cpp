@@ -21,6 +21,7 @@ SetupResult<RingPage> RingPage::create(const std::string& ring, unsigned mode) {
     options.counters = of_router + paged_counters.size() * most_rows;
     options.links = route::Engine::max_links;
     options.mode = mode;
+    options.sets_aside = true;
     auto page = shm::CounterPage::create(ring, options);
     if (!page) return tl::unexpected(std::move(page.error()));
     return RingPage(std::move(*page));

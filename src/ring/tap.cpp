@@ -12,8 +12,8 @@
 
 namespace mavloom::ring {
 
-RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, RingPage page,
-                 std::function<void()> ready)
+RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer,
+                 std::optional<RingPage> page, std::function<void()> ready)
     : name_(std::move(name)),
       options_(options),
       ready_(std::move(ready)),
@@ -21,18 +21,23 @@ RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWri
       page_(std::move(page)) {}
 
 // Opens the ring first: the process that holds its writer lock also owns the page.
-SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, const shm::RingOptions& options,
+SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, shm::RingOptions options,
                                                     std::function<void()> ready) {
+    options.sets_aside = true;
     const auto left = shm::read_counters(name);  // read first: opening the writer removes a killed router's page
     auto writer = shm::RingWriter::open(name, options);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(name, options.mode);
-    if (!page) {
+    const bool is_taken = !page && (page.error().code == SetupCode::permission ||
+                                    page.error().code == SetupCode::bad_input);  // look_after() reports it
+    if (!page && !is_taken) {
         (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
     }
+    std::optional<RingPage> owned;
+    if (page) owned.emplace(std::move(*page));
     auto tap = std::unique_ptr<RingTap>(
-        new RingTap(name, options, std::move(*writer), std::move(*page), std::move(ready)));
+        new RingTap(name, options, std::move(*writer), std::move(owned), std::move(ready)));
     tap->carry_on(left ? left->links : std::map<LinkId, std::string>{});
     return tap;
 }
@@ -41,7 +46,7 @@ void RingTap::carry_on(const std::map<LinkId, std::string>& names) {
     last_link_ = writer_.last_link();
     const auto end = names.lower_bound(shm::end_of_link_numbers);
     if (end != names.begin()) last_link_ = std::max(last_link_, std::prev(end)->first);
-    page_->inherit(names);
+    if (page_) page_->inherit(names);
 }
 
 RingTap::~RingTap() {
@@ -58,6 +63,7 @@ void RingTap::refresh_page(const link::Links& links, std::optional<link::Endpoin
 
 std::vector<std::string> RingTap::look_after(const link::Links& links) {
     std::vector<std::string> notices;
+    if (!noted_aside_) note_aside(notices);
     if (!making_.valid() && writer_.is_removed()) make_ring_anew();
     else if (making_.valid() && making_.wait_for(Nanoseconds{}) == std::future_status::ready) take_new_ring(notices);
     if (!page_ || page_->is_removed()) make_page_anew(links, notices);
@@ -88,12 +94,19 @@ void RingTap::make_ring_anew() {
     });
 }
 
+void RingTap::note_aside(std::vector<std::string>& notices) {
+    noted_aside_ = true;
+    if (const auto& why = writer_.set_aside(); !why.empty())
+        notices.push_back(fmt::format("{}; it was renamed to mavloom.{}.aside", why, name_));
+}
+
 void RingTap::take_new_ring(std::vector<std::string>& notices) {
     auto anew = making_.get();
     shm::RingWriter old = std::move(writer_);
     if (anew) {
         writer_ = std::move(*anew);
         notices.push_back(fmt::format("ring {} was removed; it is created again", name_));
+        note_aside(notices);
     } else if (!told_ring_) {
         notices.push_back(
             fmt::format("ring {} was removed: {}; trying again every second, and counting its frames as dropped", name_,

@@ -133,8 +133,8 @@ void Router::turn(MonoTime deadline) {
     if (now >= look_due_) look_after(now);
 }
 
-// Runs one item, because reports take long and frames go first. The next item waits four times as long as this one took,
-// so that a flood of requests takes at most a fifth of the time.
+// Runs one item, because reports take long and frames go first. The next item waits four times as long as this one
+// took, so that a flood of requests takes at most a fifth of the time.
 void Router::run_posted(MonoTime now) {
     posted_->run_one();
     const MonoTime end = mono_now();

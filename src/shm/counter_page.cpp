@@ -155,8 +155,11 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
         if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));
         auto present = Segment::open(path, Segment::Access::read_write, 0);
         if (!present && present.error().code == SetupCode::not_found) continue;
+        if (present)
+            if (auto trusted = check_owner(*present); !trusted) present = tl::unexpected(std::move(trusted.error()));
+        if (!present && options.sets_aside && rename_aside(path)) continue;
         if (!present) return tl::unexpected(std::move(present.error()));
-        if (!present->try_lock(owner_byte)) {
+        if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) {
             const auto header = header_of(*present);
             return setup_error(SetupCode::in_use,
                                fmt::format("{} belongs to process {}, which is alive", path, header ? header->pid : 0));

@@ -74,7 +74,7 @@ void LockFile::unlock(std::size_t byte) noexcept {
 }
 
 bool LockFile::is_locked(std::size_t byte) const noexcept {
-    struct flock range = range_of(byte, F_WRLCK);
+    struct flock range = range_of(byte, F_RDLCK);  // conflicts with locks for writing only
     return ::fcntl(fd_, F_OFD_GETLK, &range) == 0 && range.l_type != F_UNLCK;
 }
 

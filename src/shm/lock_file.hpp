@@ -24,7 +24,7 @@ public:
     [[nodiscard]] const std::atomic<bool>& forked() const noexcept { return forked_; }
     [[nodiscard]] bool try_lock(std::size_t byte) noexcept;
     void unlock(std::size_t byte) noexcept;
-    // Returns whether another open file description holds a lock on the byte.
+    // Returns whether another open file description holds a lock for writing on the byte.
     [[nodiscard]] bool is_locked(std::size_t byte) const noexcept;
 
 private:

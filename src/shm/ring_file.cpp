@@ -15,6 +15,7 @@ namespace mavloom::shm {
 
 namespace {
 
+constexpr std::size_t retired_offset = offsetof(RingControl<SharedWords>, retired);
 constexpr int most_attempts = 100;  // retries when other processes create or remove the ring meanwhile
 
 tl::unexpected<SetupError> wrong(const std::string& path, std::string_view what) {
@@ -71,14 +72,6 @@ SetupResult<void> check_options(const RingOptions& options) {
     return {};
 }
 
-// The owner of the file can shorten it, which would kill any process that writes to it (SIGBUS).
-SetupResult<void> check_owner(const Segment& segment) {
-    const auto owner = segment.status().owner;
-    if (owner == 0 || owner == ::geteuid()) return {};
-    return setup_error(SetupCode::permission, fmt::format("{} belongs to {}; remove it or choose another name",
-                                                          segment.path(), user_name(owner)));
-}
-
 SetupResult<Segment> create_ring(const std::string& path, const RingOptions& options, const Segment* replaced) {
     Identity identity;
     identity.capacity = options.capacity;
@@ -86,8 +79,10 @@ SetupResult<Segment> create_ring(const std::string& path, const RingOptions& opt
     identity.creator_pid = static_cast<std::uint32_t>(::getpid());
     std::array<std::uint8_t, sizeof identity> bytes;
     std::memcpy(bytes.data(), &identity, sizeof identity);
-    return Segment::create(path, static_cast<std::size_t>(data_offset + options.capacity), options.mode, bytes,
-                           replaced);
+    auto segment = Segment::create(path, static_cast<std::size_t>(data_offset + options.capacity), options.mode, bytes,
+                                   replaced);
+    if (segment) segment->set_retired_word(retired_offset);
+    return segment;
 }
 
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
@@ -116,6 +111,7 @@ SetupResult<Segment> open_ring(std::string_view name, Segment::Access access) {
         return segment;
     }
     if (auto good = check_identity(*segment); !good) return tl::unexpected(std::move(good.error()));
+    segment->set_retired_word(retired_offset);
     return segment;
 }
 
@@ -128,24 +124,25 @@ void retire(const Segment& segment) noexcept {
     }
 }
 
-SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options) {
+SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options, std::string* set_aside) {
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         auto present = open_ring(name, Segment::Access::read_write);
-        if (present) {
-            if (auto trusted = check_owner(*present); !trusted) return tl::unexpected(std::move(trusted.error()));
-            if (!present->try_lock(writer_byte)) {
-                if (!present->is_named()) continue;
-                return has_writer(name, *present);
-            }
-            if (!present->is_named()) continue;
-            const bool retired = memory_of(*present).control->retired.load(std::memory_order_acquire) != 0;
-            if (!retired && memory_of(*present).capacity == options.capacity) return present;
-        } else if (present.error().code != SetupCode::not_found) {
-            return present;
+        if (present)
+            if (auto trusted = check_owner(*present); !trusted) present = tl::unexpected(std::move(trusted.error()));
+        if (!present && present.error().code != SetupCode::not_found) {
+            if (!options.sets_aside || !rename_aside(path_of(name))) return present;
+            if (set_aside != nullptr) *set_aside = std::move(present.error().text);
+            continue;
         }
-        // If a ring is there, this process holds its writer lock, so no other writer replaces it. It is retired last,
-        // so that a woken reader cannot find it under its name again.
+        const bool is_ours = present && present->try_lock(writer_byte);
+        if (present && !present->is_named()) continue;
+        if (present && !is_ours && present->is_locked(writer_byte)) return has_writer(name, *present);
+        const bool retired = present && memory_of(*present).control->retired.load(std::memory_order_acquire) != 0;
+        if (is_ours && !retired && memory_of(*present).capacity == options.capacity) return present;
+        // If this process holds the writer lock of the present ring, no other writer replaces it. If a reader's lock is
+        // in the way, the ring is replaced without it. The ring is retired last, so that a woken reader cannot find it
+        // under its name again.
         auto created = create_ring(path_of(name), options, present ? &*present : nullptr);
         if (present && !present->is_named()) retire(*present);
         if (created || created.error().code != SetupCode::in_use) return created;

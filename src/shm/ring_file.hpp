@@ -20,8 +20,10 @@ inline constexpr std::size_t writer_byte = 0;  // the writer holds the lock on t
 // Returns pointers into a ring that open_ring() or writer_segment() returned.
 [[nodiscard]] RingMemory<SharedWords> memory_of(const Segment& segment) noexcept;
 
-// Returns the ring to write to, existing or new, with its writer lock held.
-[[nodiscard]] SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options);
+// Returns the ring to write to, existing or new, with its writer lock held. If `options.sets_aside` made it rename a
+// file, stores the reason in `set_aside`.
+[[nodiscard]] SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options,
+                                                  std::string* set_aside = nullptr);
 
 // Marks a ring as retired and wakes everything that sleeps on it. Readers then drain the ring and reopen its name, so
 // remove the name first.

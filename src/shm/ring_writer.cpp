@@ -35,6 +35,7 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
     if (this == &other) return *this;
     end();
     name_ = std::move(other.name_);
+    set_aside_ = std::move(other.set_aside_);
     options_ = other.options_;
     segment_ = std::move(other.segment_);
     forked_ = other.forked_;
@@ -45,14 +46,22 @@ RingWriter& RingWriter::operator=(RingWriter&& other) noexcept {
 }
 
 SetupResult<RingWriter> RingWriter::open(std::string_view name, const RingOptions& options) {
-    auto segment = writer_segment(name, options);
-    if (!segment) return tl::unexpected(std::move(segment.error()));
-    RingWriter writer(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
-    if (auto begun = writer.begin(); !begun) {
-        writer.segment_.reset();  // leaves the ring unchanged
-        return tl::unexpected(std::move(begun.error()));
+    std::string set_aside;
+    for (;;) {
+        auto segment = writer_segment(name, options, &set_aside);
+        if (!segment) return tl::unexpected(std::move(segment.error()));
+        RingWriter writer(std::string(name), options, std::make_unique<Segment>(std::move(*segment)));
+        auto begun = writer.begin();
+        if (begun) {
+            writer.set_aside_ = std::move(set_aside);
+            return writer;
+        }
+        // Leaves the ring unchanged.
+        const bool is_aside = options.sets_aside && writer.segment_->is_named() && rename_aside(path_of(name));
+        writer.segment_.reset();
+        if (!is_aside) return tl::unexpected(std::move(begun.error()));
+        set_aside = std::move(begun.error().text);
     }
-    return writer;
 }
 
 SetupResult<void> RingWriter::begin() {
@@ -139,7 +148,8 @@ WriteResult<void> RingWriter::wait_for_room(std::size_t length, MonoTime deadlin
 void RingWriter::drop_dead(std::uint64_t slots) noexcept {
     for (; slots != 0; slots &= slots - 1) {
         const auto slot = static_cast<unsigned>(std::countr_zero(slots));
-        if (!segment_->try_lock(slot_byte(slot))) continue;
+        // If only a lock for reading is in the way, no reader owns the slot, and none can take it.
+        if (!segment_->try_lock(slot_byte(slot)) && segment_->is_locked(slot_byte(slot))) continue;
         auto& control = *memory_of(*segment_).control;
         producer_.drop_holds(std::uint64_t{1} << slot);
         control.attached.fetch_and(~(std::uint64_t{1} << slot), std::memory_order_relaxed);

@@ -17,6 +17,7 @@
 #include "mavloom/base/name.hpp"
 #include "mavloom/base/shown.hpp"
 #include "shm/lock_file.hpp"
+#include "shm/mappings.hpp"
 
 namespace mavloom::shm {
 
@@ -75,6 +76,15 @@ std::string path_of(std::string_view name, std::string_view suffix) {
     return fmt::format("{}/mavloom.{}{}", shared_folder, name, suffix);
 }
 
+SetupResult<void> check_owner(const Segment& segment) {
+    const auto owner = segment.status().owner;
+    if (owner == 0 || owner == ::geteuid()) return {};
+    return setup_error(SetupCode::permission, fmt::format("{} belongs to {}; remove it or choose another name",
+                                                          segment.path(), user_name(owner)));
+}
+
+bool rename_aside(const std::string& path) { return ::rename(path.c_str(), (path + ".aside").c_str()) == 0; }
+
 std::string user_name(uid_t user) {
     std::array<char, 1024> buffer;
     passwd entry{};
@@ -92,7 +102,8 @@ Segment::Segment(Segment&& other) noexcept
       locks_(std::move(other.locks_)),
       access_(other.access_),
       data_(std::exchange(other.data_, nullptr)),
-      size_(std::exchange(other.size_, 0)) {}
+      size_(std::exchange(other.size_, 0)),
+      mapping_(std::exchange(other.mapping_, nullptr)) {}
 
 Segment& Segment::operator=(Segment&& other) noexcept {
     std::swap(path_, other.path_);
@@ -100,10 +111,12 @@ Segment& Segment::operator=(Segment&& other) noexcept {
     std::swap(access_, other.access_);
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
+    std::swap(mapping_, other.mapping_);
     return *this;
 }
 
 Segment::~Segment() {
+    remove_mapping(mapping_);
     if (data_ != nullptr) ::munmap(data_, size_);
 }
 
@@ -116,7 +129,12 @@ SetupResult<void> Segment::map() {
     ::close(fd);
     if (memory == MAP_FAILED) return system_error(fmt::format("cannot map {}", path_), error);
     data_ = static_cast<std::uint8_t*>(memory);
+    mapping_ = add_mapping(data_, size_);
     return {};
+}
+
+void Segment::set_retired_word(std::size_t offset) noexcept {
+    if (mapping_ != nullptr) mapping_->retired_word.store(offset, std::memory_order_relaxed);
 }
 
 // Failure is harmless: if the kernel lacks MADV_POPULATE, or the file was shortened, nothing changes.
@@ -167,6 +185,7 @@ bool Segment::is_locked(std::size_t byte) const noexcept { return locks_->is_loc
 const std::atomic<bool>& Segment::forked_flag() const noexcept { return locks_->forked(); }
 
 bool Segment::is_named() const noexcept {
+    if (mapping_ != nullptr && mapping_->lost.load(std::memory_order_acquire)) return false;
     struct stat named {
     }, mine{};
     return ::stat(path_.c_str(), &named) == 0 && ::fstat(locks_->get(), &mine) == 0 && named.st_dev == mine.st_dev &&

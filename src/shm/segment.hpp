@@ -29,6 +29,7 @@ inline constexpr std::string_view shared_folder = "/dev/shm";
 [[nodiscard]] std::string path_of(std::string_view name, std::string_view suffix = "");
 
 class LockFile;
+struct Mapping;
 
 class Segment {
 public:
@@ -55,16 +56,20 @@ public:
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] bool writable() const noexcept { return access_ == Access::read_write; }
 
-    // Returns false if another process holds the lock.
+    // Where the word is that retires the ring, so that a lost mapping becomes a retired ring (lost_mapping.hpp).
+    void set_retired_word(std::size_t offset) noexcept;
+
+    // Returns false if another process holds a lock on the byte.
     [[nodiscard]] bool try_lock(std::size_t byte) noexcept;
     void unlock(std::size_t byte) noexcept;
-    // Returns whether another open file description holds the lock.
+    // Returns whether another open file description holds the lock. A lock for reading does not count: every process
+    // that may read the file can take one.
     [[nodiscard]] bool is_locked(std::size_t byte) const noexcept;
 
     // True in a child of the process that opened the file. The child must not use the segment.
     [[nodiscard]] bool forked() const noexcept { return forked_flag().load(std::memory_order_relaxed); }
     [[nodiscard]] const std::atomic<bool>& forked_flag() const noexcept;  // keeps its address when the segment moves
-    // Returns whether the path still leads to this file.
+    // Returns whether the path still leads to this file. False if the file was shortened and the mapping replaced.
     [[nodiscard]] bool is_named() const noexcept;
     // Removes the path if it still leads to this file.
     [[nodiscard]] SetupResult<void> unlink() const;
@@ -83,7 +88,14 @@ private:
     Access access_ = Access::read_only;
     std::uint8_t* data_ = nullptr;
     std::size_t size_ = 0;
+    Mapping* mapping_ = nullptr;  // the entry in the list of mappings; null if that is full
 };
+
+// Returns an error if the file belongs to another user than this one and root. Its owner can shorten it at any time.
+[[nodiscard]] SetupResult<void> check_owner(const Segment& segment);
+
+// Renames the file to PATH.aside, over an earlier one. Returns false if that is not allowed.
+[[nodiscard]] bool rename_aside(const std::string& path);
 
 // Returns the user's login name, or "user N" if there is none.
 [[nodiscard]] std::string user_name(uid_t user);

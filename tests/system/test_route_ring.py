@@ -3,6 +3,7 @@
 frames are pymavlink's."""
 import array
 import contextlib
+import fcntl
 import hashlib
 import json
 import os
@@ -123,7 +124,8 @@ class Tapped:
 def ring():
     name = f"tap-{os.getpid()}-{uuid.uuid4().hex[:8]}"
     yield name
-    for path in (shared(name), shared(name, ".stat"), harness.RUN / f"{name}.in"):
+    suffixes = ("", ".stat", ".aside", ".stat.aside")
+    for path in (*(shared(name, suffix) for suffix in suffixes), harness.RUN / f"{name}.in"):
         with contextlib.suppress(OSError):
             path.unlink()
 
@@ -444,10 +446,6 @@ def test_rings_that_cannot_be(run, ring, tmp_path):
     for name in ("a/b", "x" * 65, "a.b"):
         done = run("route", f"udpin://127.0.0.1:{port}", "--ring", name)
         assert done.status == 2 and "is not a valid ring name" in done.stderr, done
-    shared(ring).write_bytes(bytes(100_000))
-    done = run("route", f"udpin://127.0.0.1:{port}", "--ring", ring)
-    assert done.status == 3 and f"mavloom.{ring}" in done.stderr, done
-    assert shared(ring).read_bytes() == bytes(100_000), "left as it was"
     done = run("route", f"udpin://127.0.0.1:{port}", f"shm://{ring}")
     assert done.status == 2 and f"a ring is not an endpoint of a router; --ring {ring}" in done.stderr
     file = tmp_path / "r.toml"
@@ -702,3 +700,101 @@ def test_two_hundred_senders_come_and_go(tapped):
     endpoint, = [e for e in net.router.stats("endpoint") if e["endpoint"] == f"shm://{net.ring}"]
     assert endpoint["peers_evicted"] == 400 - 256 and endpoint["peers_refused"] == 0
     assert len([link for link in net.router.links() if link["endpoint"] == f"shm://{net.ring}"]) == 256
+
+
+# ---- hostile neighbours ----------------------------------------------------------------------------------------------
+
+def test_a_ring_that_a_neighbour_shortens_ends_and_the_routing_goes_on(tapped, run):
+    """A member of the group may do that with mode=0660. It was the end of the router, by SIGBUS."""
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat(), attitude())
+    os.truncate(shared(net.ring), 0)
+    net.vehicle.send(frame := attitude())
+    net.ground.until(frame)  # it is routed although the ring is lost
+    net.router.process.wait_output(f"ring {net.ring} was removed; it is created again")
+    net.router.process.wait_output(f"mavloom.{net.ring} is truncated: 0 bytes .*; it was renamed to "
+                                   f"mavloom.{net.ring}.aside")
+    frame = attitude()
+
+    assert frame in [r.data for r in net.sent_by(net.vehicle, frame)]
+    assert net.page(run)[0]["ring_dropped"] >= 1  # the frame that met the lost ring is counted
+
+
+def test_a_counter_page_that_a_neighbour_shortens_is_made_anew(tapped, run):
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat(), attitude())
+    os.truncate(shared(net.ring, ".stat"), 0)
+    net.sent_by(net.vehicle, attitude())
+    harness.wait_for(lambda: shared(net.ring, ".stat").exists() and shared(net.ring, ".stat").stat().st_size > 0,
+                     what="a new page")
+
+    assert net.router.process.alive
+    assert f"vehicle#127.0.0.1:{net.vehicle.port}" in harness.wait_for(lambda: net.names(run),
+                                                                       what="the links' names").values()
+
+
+@pytest.mark.parametrize("reader", ["listen", "shm read"])
+def test_a_reader_survives_a_ring_that_is_shortened(tapped, spawn, reader):
+    net = tapped()
+    args = ("listen", f"shm://{net.ring}", "--json") if reader == "listen" else ("shm", "read", net.ring, "--json")
+    sut = spawn(*args)
+    net.sent_by(net.vehicle, heartbeat())
+
+    def reads():
+        before = sut.stdout
+        net.vehicle.send(frame := attitude())
+        net.ground.until(frame)
+        return len(sut.stdout) > len(before)
+    harness.wait_for(reads, what="the reader")
+    os.truncate(shared(net.ring), 0)
+    harness.wait_for(lambda: shared(net.ring).exists() and shared(net.ring).stat().st_size > 0, what="a new ring")
+    harness.wait_for(lambda: not sut.alive or reads(), what="the reader's end, or the new ring")
+
+    assert sut.alive or (reader == "shm read" and sut.wait().status == 3)  # it opened the file before it was replaced
+
+
+def test_a_readers_lock_does_not_keep_the_next_writer_out(tapped):
+    """Whoever may read the file may lock it for reading."""
+    net = tapped()
+    net.sent_by(net.vehicle, heartbeat())
+    net.router.process.process.kill()
+    net.router.process.wait()
+    with open(shared(net.ring), "rb") as file:
+        f_ofd_setlk = 37
+        fcntl.fcntl(file, f_ofd_setlk, struct.pack("hhqqi4x", fcntl.F_RDLCK, os.SEEK_SET, 0, 70, 0))
+        net.close()
+        again = tapped()
+        frame = attitude()
+
+        assert frame in [r.data for r in again.sent_by(again.vehicle, heartbeat(), frame)]
+
+
+@pytest.mark.parametrize("what", ["", ".stat"])
+def test_a_damaged_file_under_its_name_keeps_no_router_down(tapped, ring, what):
+    shared(ring, what).write_bytes(b"squatted" * 10_000)
+    net = tapped()
+    frame = attitude()
+
+    assert frame in [r.data for r in net.sent_by(net.vehicle, heartbeat(), frame)]
+    if not what:
+        net.router.process.wait_output(f"mavloom.{ring}: is not a Mavloom ring; it was renamed to mavloom.{ring}.aside")
+        assert shared(ring, ".aside").read_bytes() == b"squatted" * 10_000
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@pytest.mark.parametrize("what, said", [("", "the router runs without a ring"), (".stat", "no counter page for ring")])
+def test_a_name_that_another_user_took_keeps_no_router_down(ring, program, tmp_path, what, said):
+    """In /dev/shm nobody may rename the file of another user."""
+    shared(ring, what).write_bytes(b"")
+    os.chown(shared(ring, what), 12344, 12344)
+    tmp_path.chmod(0o777)
+    for place in list(tmp_path.parents)[:3]:
+        place.chmod(0o755)
+    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring, "--for", "2s",
+                           f"udpin://127.0.0.1:{routers.udp_port()}"], capture_output=True, text=True, timeout=60,
+                          env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
+    left = shared(ring, what).stat().st_uid
+    shared(ring, what).unlink()
+
+    assert done.returncode == 0 and said in done.stderr, done
+    assert left == 12344

@@ -25,10 +25,11 @@ namespace mavloom::ring {
 
 class RingTap {
 public:
-    // Creates the ring, or continues one whose writer was killed. Same errors as RingWriter::open. A thread of the tap
+    // Creates the ring, or continues one whose writer was killed. Renames a file under its name that is damaged, no ring
+    // or of another user; the first look_after() reports that. Same errors as RingWriter::open. A thread of the tap
     // calls `ready` when look_after() has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
-        const std::string& name, const shm::RingOptions& options, std::function<void()> ready = [] {});
+        const std::string& name, shm::RingOptions options, std::function<void()> ready = [] {});
     // The last link number that the ring's earlier writers used. New links must get higher numbers, so that a slow
     // reader does not find a different link under an old number.
     [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
@@ -72,8 +73,9 @@ public:
 private:
     static constexpr std::chrono::milliseconds page_interval{250};
 
-    RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, RingPage page,
+    RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, std::optional<RingPage> page,
             std::function<void()> ready);
+    void note_aside(std::vector<std::string>& notices);
     void make_ring_anew();
     void take_new_ring(std::vector<std::string>& notices);
     template <class Work>
@@ -92,6 +94,7 @@ private:
     MonoTime page_due_{};
     LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
+    bool noted_aside_ = false;                    // that the file which had the name before was renamed
     bool told_ring_ = false, told_page_ = false;  // whether the failure to recreate the ring or page was reported
 };
 

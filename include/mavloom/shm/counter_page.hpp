@@ -36,6 +36,7 @@ inline constexpr std::size_t longest_link_name = 104;  // bytes; longer ones are
 struct CounterPageOptions {
     std::uint32_t counters = 4096;
     std::uint32_t links = 512;
+    bool sets_aside = false;  // renames a file of another user under the page's name, instead of failing
     unsigned mode = 0600;
 };
 

@@ -29,6 +29,9 @@ struct RingOptions {
     std::uint64_t capacity = default_capacity;  // bytes of records and headers: a power of two, 64 KiB to 64 GiB
     WhenFull when_full = WhenFull::wait;
     unsigned mode = 0600;  // of a new ring, regardless of the umask; readers that register need write access
+    // If the file under the ring's name is damaged, is no ring, or belongs to another user than this one and root,
+    // renames it to mavloom.NAME.aside instead of failing.
+    bool sets_aside = false;
 };
 
 // last_link() ignores link numbers from here up, so that no writer continues its numbering there.
@@ -57,6 +60,9 @@ public:
     // Publishes the first `length` bytes of the claim; without `length`, all of it. Requires an uncommitted claim.
     void commit(const RecordInfo& info, std::size_t length) noexcept { producer_.commit(info, length); }
     void commit(const RecordInfo& info) noexcept { commit(info, producer_.claimed()); }
+
+    // Why the file that had the name before was renamed (RingOptions::sets_aside). Empty if none was.
+    [[nodiscard]] const std::string& set_aside() const noexcept { return set_aside_; }
 
     // Counts a record that the caller dropped, so that ring_status() shows it.
     void count_dropped() noexcept;
@@ -92,7 +98,7 @@ private:
     void drop_dead(std::uint64_t slots) noexcept;
     void end() noexcept;
 
-    std::string name_;
+    std::string name_, set_aside_;
     RingOptions options_;
     std::unique_ptr<Segment> segment_;           // empty once closed
     const std::atomic<bool>* forked_ = nullptr;  // the segment's flag
