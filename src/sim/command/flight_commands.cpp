@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#include "sim/parts.hpp"
+#include "sim/command/commands.hpp"
+
+namespace mavloom::sim {
+
+std::span<const CommandRow> flight_commands() noexcept { return {}; }
+
+}  // namespace mavloom::sim

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "sim/physics/airframe.hpp"
+
+namespace mavloom::sim {
+
+namespace {
+
+class Parked final : public Airframe {
+public:
+    void step(const Setpoint& /*setpoint*/, bool /*armed*/, const Surroundings& /*around*/) override {}
+    void place(const Vector3& position, double heading) override {
+        motion_.position = position;
+        motion_.attitude = to_quaternion({0, 0, heading});
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Airframe> make_airframe(Kind /*kind*/) { return std::make_unique<Parked>(); }
+
+}  // namespace mavloom::sim

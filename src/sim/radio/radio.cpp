@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "sim/radio/radio.hpp"
+
+#include <algorithm>
+
+namespace mavloom::sim {
+
+void Radio::open(LinkId link) {
+    if (find(link) != nullptr) return;
+    ids_.push_back(link);
+    auto& outlet = outlets_.emplace_back();
+    if (key_) outlet.signer.emplace(*key_, static_cast<std::uint8_t>(ids_.size()), signing_start_);
+}
+
+void Radio::close(LinkId link) {
+    const auto at = std::ranges::find(ids_, link);
+    if (at == ids_.end()) return;
+    outlets_.erase(outlets_.begin() + (at - ids_.begin()));
+    ids_.erase(at);
+}
+
+void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from) {
+    Outlet* const outlet = find(link);
+    if (outlet == nullptr || silent_) return;
+    auto& sequence = outlet->sequences[from == autopilot_component ? 0 : 1];
+    wire::Signing signing;
+    if (outlet->signer) signing = {&*outlet->signer, wire::SigningTime::from(utc_)};
+    wire::FrameBuffer buffer;
+    const auto frame = wire::write_frame(buffer, {.sequence = sequence++, .source = {system_, from}}, info, payload,
+                                         signing);
+    outlet->totals.frames += 1;
+    outlet->totals.bytes += frame.size();
+    sink_.send(link, frame);
+}
+
+Radio::Totals Radio::totals(LinkId link) const noexcept {
+    const auto at = std::ranges::find(ids_, link);
+    return at == ids_.end() ? Totals{} : outlets_[static_cast<std::size_t>(at - ids_.begin())].totals;
+}
+
+void Radio::sign_with(const std::optional<wire::SigningKey>& key, wire::SigningTime now) {
+    key_ = key;
+    signing_start_ = now;
+    std::uint8_t link_id = 0;
+    for (Outlet& outlet : outlets_) {
+        outlet.signer.reset();
+        if (key) outlet.signer.emplace(*key, link_id++, now);
+    }
+}
+
+Radio::Outlet* Radio::find(LinkId link) noexcept {
+    const auto at = std::ranges::find(ids_, link);
+    return at == ids_.end() ? nullptr : &outlets_[static_cast<std::size_t>(at - ids_.begin())];
+}
+
+}  // namespace mavloom::sim

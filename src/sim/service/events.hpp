@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// The events interface: EVENT, CURRENT_EVENT_SEQUENCE, REQUEST_EVENT. Private to module sim; single owner. Source:
+// MAVLink guide, "Events Interface".
+#pragma once
+
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class EventService final : public Service {
+public:
+    explicit EventService(Parts& parts) noexcept : parts_(parts) {}
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+
+private:
+    Parts& parts_;
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Message signing of a vehicle: SETUP_SIGNING sets the key; from then on unsigned messages are refused, but for a few.
+// Private to module sim; single owner. Source: MAVLink guide, "Message Signing".
+#pragma once
+
+#include <optional>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/wire/frame.hpp"
+#include "mavloom/wire/signing.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class Guard final : public Service {
+public:
+    explicit Guard(Parts& parts) noexcept : parts_(parts) {}
+
+    // False: drop the frame. `utc` dates signatures.
+    [[nodiscard]] bool admits(const wire::FrameView& frame, WallTime utc);
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+
+private:
+    Parts& parts_;
+    std::optional<wire::Verifier> verifier_;
+    bool last_was_signed_ = false;  // the frame that `admits` looked at last
+};
+
+}  // namespace mavloom::sim
