@@ -95,20 +95,29 @@ void Parts::report_changes() {
     if (std::exchange(home_changed_, false)) streams.send_now(view(), std::array{HomePosition::id});
     if (std::exchange(mission_changed_, false)) streams.send_now(view(), std::array{MissionCurrent::id});
     if (wanted_silence_.count() != 0) begin_silence();
-    const bool busy = std::ranges::any_of(services, [](const Service* service) { return service->is_busy(); });
+    schedule_pump();
+}
+
+void Parts::schedule_pump() noexcept {
+    bool busy = false;
+    wake_ = FlightTime::max();
+    for (const Service* const service : services) {
+        busy = busy || service->is_busy();
+        wake_ = std::min(wake_, service->wakes_at());
+    }
     if (!busy) {
-        next_pump_ = FlightTime::max();
-    } else if (next_pump_ == FlightTime::max()) {
-        next_pump_ = now.flight;
+        busy_pump_ = FlightTime::max();
+    } else if (busy_pump_ == FlightTime::max()) {
+        busy_pump_ = now.flight;
     }
 }
 
-FlightTime Parts::next_pump() const noexcept { return next_pump_; }
+FlightTime Parts::next_pump() const noexcept { return std::min(busy_pump_, wake_); }
 
 void Parts::pump(Moment moment) {
-    next_pump_ = moment.flight + pump_interval;
+    busy_pump_ = moment.flight + pump_interval;
     for (Service* const service : services)
-        if (service->is_busy()) service->pump(moment);
+        if (service->is_busy() || service->wakes_at() <= moment.flight) service->pump(moment);
     report_changes();
 }
 

@@ -71,7 +71,7 @@ struct Parts final : FlightObserver {
     [[nodiscard]] bool may_change_by_itself() const noexcept { return flight.armed() || flight.unready() != 0; }
     // Reports what changed since the last call, on the links that stream it.
     void report_changes();
-    // When services are pumped next; FlightTime::max() while none is busy.
+    // When services are pumped next; FlightTime::max() while none is busy or wants to wake.
     [[nodiscard]] FlightTime next_pump() const noexcept;
     void pump(Moment moment);
 
@@ -92,12 +92,14 @@ private:
     static constexpr Nanoseconds reboot_time = std::chrono::milliseconds{2500};
 
     void add(Service& service);
+    void schedule_pump() noexcept;
     void begin_silence();
     void end_silence();
 
     FlightTime silent_until_ = FlightTime::min();
     Nanoseconds wanted_silence_{0};
-    FlightTime next_pump_ = FlightTime::max();
+    FlightTime busy_pump_ = FlightTime::max();  // of the services that are busy
+    FlightTime wake_ = FlightTime::max();       // the earliest that a service wants to wake
     static constexpr std::size_t direct_ids = 512;
     std::array<std::uint8_t, direct_ids> service_of_{};  // by message id: index in `services` plus one
     bool state_changed_ = false, home_changed_ = false, mission_changed_ = false;

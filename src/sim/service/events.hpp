@@ -16,6 +16,9 @@ public:
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
 
+    // Sends the arming checks and the health of all components, as RUN_PREARM_CHECKS asks. Does nothing for ArduPilot.
+    void report_health() {}
+
 private:
     Parts& parts_;
 };

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Component metadata: JSON files from which ground stations learn the names and ranges of parameters, the texts of events
+// and the outputs of actuators. Private to module sim.
+//
+// All vehicles of a firmware share the files. They are made at their first use and never change; any thread may use
+// them. Source: MAVLink guide, "Component Metadata Protocol".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace mavloom::sim {
+
+class Firmware;
+
+// What COMPONENT_METADATA and COMPONENT_INFORMATION report of the general file, which lists the others.
+struct GeneralMetadata {
+    std::string_view uri;        // mftp://...
+    std::uint32_t file_crc = 0;  // of the JSON before compression, as PX4 has it
+};
+
+// Empty: this firmware has no metadata. REQUEST_MESSAGE for it is then UNSUPPORTED.
+[[nodiscard]] std::optional<GeneralMetadata> general_metadata(const Firmware& firmware);
+
+}  // namespace mavloom::sim
