@@ -16,6 +16,14 @@ public:
 
 }  // namespace
 
+void Airframe::integrate_step(const Vector3& acceleration, const Vector3& rates) {
+    motion_.acceleration = acceleration;
+    motion_.velocity += acceleration * step_s;
+    motion_.position += motion_.velocity * step_s;
+    motion_.rates = rates;
+    motion_.attitude = integrate(motion_.attitude, rates, step_s);
+}
+
 std::unique_ptr<Airframe> make_airframe(Kind /*kind*/) { return std::make_unique<Parked>(); }
 
 }  // namespace mavloom::sim

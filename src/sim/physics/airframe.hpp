@@ -46,10 +46,12 @@ enum class Steering : std::uint8_t {
 };
 
 struct SpeedLimits {
-    double horizontal = 5, up = 3, down = 1.5;  // m/s
-    double acceleration = 3;                    // m/s^2, horizontal
-    double tilt = to_radians(45);               // rad; multicopters
+    double horizontal = 5, up = 3, down = 1.5;  // m/s; for planes `horizontal` is the airspeed to hold
+    double acceleration = 3;                    // m/s^2, horizontal; for rovers along the track
+    double tilt = to_radians(45);               // rad; of multicopters, and the bank of planes
     double yaw_rate = to_radians(60);           // rad/s
+    double air_minimum = 12, air_maximum = 25;  // m/s, airspeed; planes
+    double turn_radius = 1.5;                   // m, smallest; rovers
 };
 
 struct Setpoint {
@@ -60,9 +62,9 @@ struct Setpoint {
     double radius = 0;         // of a circle; positive clockwise
     Quaternion attitude = Quaternion::Identity();
     Vector3 rates = no_vector;
-    double thrust = nan;          // 0 to 1
-    std::array<double, 4> mixer{};  // roll, pitch, yaw -1 to 1; thrust 0 to 1
-    bool touch_down = false;      // keep descending until the ground carries the vehicle
+    double thrust = nan;            // 0 to 1; rovers: -1 (full reverse) to 1
+    std::array<double, 4> mixer{};  // roll, pitch, yaw -1 to 1; thrust as above
+    bool touch_down = false;        // keep descending until the ground carries the vehicle
     SpeedLimits limits;
 };
 
@@ -89,6 +91,23 @@ struct Actuators {
     std::uint8_t used = 0;
 };
 
+// How the kinds of vehicles read a Setpoint, beyond what its comments state:
+//
+// Plane, in trajectory, waypoint and circle:
+// - On the ground, armed, a target above the ground starts a take-off run: full throttle along the present heading until
+//   the wings carry, then a climb at `limits.up` with little bank near the ground. Otherwise the plane brakes.
+// - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory), flares,
+//   rolls out and stops.
+// - trajectory with a horizontal position: the plane flies there and circles around it with `radius` (0: 50 m).
+//   With a horizontal velocity: its direction is the course, its length the ground speed. With `yaw`: a course only.
+//   With `yaw_rate`: a turn. With none of these: wings level. Without altitude and climb rate: the altitude is held.
+// - attitude ignores yaw: the plane coordinates its turns.
+//
+// Rover:
+// - trajectory with a horizontal position: it drives there and stops. With a velocity: it turns to that course and drives.
+//   With velocity and `yaw` or `yaw_rate`: that heading or turn; the velocity's share along the heading is the speed, and
+//   may be negative.
+// - waypoint: it stops at `position` unless the next leg comes first.
 class Airframe {
 public:
     Airframe() = default;
@@ -113,6 +132,10 @@ public:
     [[nodiscard]] const Vector3& air_velocity() const noexcept { return air_velocity_; }
 
 protected:
+    // Ends a step with constant acceleration (local frame) and constant rates (body frame): the one place that moves
+    // the vehicle, so that the rules of Kinematics hold for all kinds.
+    void integrate_step(const Vector3& acceleration, const Vector3& rates);
+
     Kinematics motion_;
     InnerTargets targets_;
     Actuators actuators_;
