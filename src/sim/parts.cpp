@@ -20,6 +20,7 @@
 #include "sim/service/other_services.hpp"
 #include "sim/store/parameter_service.hpp"
 #include "sim/store/plan_service.hpp"
+#include "sim/telemetry/data_streams.hpp"
 
 namespace mavloom::sim {
 
@@ -32,7 +33,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       parameters(firmware.parameters()),
       flight(options, firmware, parameters, *this),
       radio(options.system, sink),
-      streams(options.system, radio),
+      streams(options, firmware, radio),
       announcer(radio),
       commands(*this),
       gimbal(options.has_gimbal ? std::make_unique<Gimbal>(*this) : nullptr),
@@ -45,6 +46,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       calibration_service(std::make_unique<CalibrationService>(*this)),
       other_services(make_other_services(*this)) {
     other_services.push_back(std::make_unique<Connection>(*this));
+    other_services.push_back(std::make_unique<DataStreams>(*this));
     if (gimbal) add(*gimbal);
     add(commands);
     add(*guard);
@@ -138,6 +140,7 @@ void Parts::end_silence() {
     silent_until_ = FlightTime::min();
     radio.set_silent(false);
     flight.reboot();
+    streams.reset(booted);
 }
 
 void Parts::on_text(Severity severity, std::string_view text) { announcer.say(severity, text, now.flight); }

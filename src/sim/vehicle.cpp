@@ -41,7 +41,7 @@ Vehicle::~Vehicle() = default;
 
 void Vehicle::open(LinkId link, const LinkOptions& options, Moment now) {
     parts_->radio.open(link);
-    parts_->streams.open(link, options, now.flight);
+    parts_->streams.open(link, options, parts_->view(), now.flight);
 }
 
 void Vehicle::close(LinkId link) {
@@ -53,6 +53,7 @@ void Vehicle::close(LinkId link) {
 
 void Vehicle::receive(LinkId link, const wire::FrameView& frame, const wire::MessageInfo* info, Moment now) {
     Parts& parts = *parts_;
+    parts.radio.note_received(link, frame.size());
     if (info == nullptr || parts.is_silent(now.flight) || !is_for(parts.options.system, frame, *info)) return;
     Service* const service = parts.service_for(info->id);
     if (service == nullptr || !parts.guard->admits(frame, parts.utc_at(now.flight))) return;

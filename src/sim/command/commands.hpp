@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/firmware/known_by.hpp"
 #include "sim/flight/orders.hpp"
 #include "sim/radio/client.hpp"
 #include "sim/service/service.hpp"
@@ -36,8 +37,6 @@ struct Command {
 
 // The altitude of `z` above mean sea level, by the command's frame. `nan` stays `nan`.
 [[nodiscard]] double altitude_of(const Command& command, const Parts& parts);
-
-enum class KnownBy : std::uint8_t { both, px4, ardupilot };
 
 struct CommandRow {
     std::uint16_t id;

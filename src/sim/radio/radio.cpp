@@ -8,8 +8,9 @@ namespace mavloom::sim {
 void Radio::open(LinkId link) {
     if (find(link) != nullptr) return;
     ids_.push_back(link);
-    auto& outlet = outlets_.emplace_back();
-    if (key_) outlet.signer.emplace(*key_, static_cast<std::uint8_t>(ids_.size()), signing_start_);
+    Outlet& outlet = outlets_.emplace_back();
+    outlet.signing_link = next_signing_link_++;
+    if (key_) outlet.signer.emplace(*key_, outlet.signing_link, signing_start_);
 }
 
 void Radio::close(LinkId link) {
@@ -22,7 +23,7 @@ void Radio::close(LinkId link) {
 void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from) {
     Outlet* const outlet = find(link);
     if (outlet == nullptr || silent_) return;
-    auto& sequence = outlet->sequences[from == autopilot_component ? 0 : 1];
+    auto& sequence = outlet->sequences[from.value];
     wire::Signing signing;
     if (outlet->signer) signing = {&*outlet->signer, wire::SigningTime::from(utc_)};
     wire::FrameBuffer buffer;
@@ -33,6 +34,13 @@ void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payloa
     sink_.send(link, frame);
 }
 
+void Radio::note_received(LinkId link, std::size_t bytes) noexcept {
+    Outlet* const outlet = find(link);
+    if (outlet == nullptr) return;
+    outlet->totals.received_frames += 1;
+    outlet->totals.received_bytes += bytes;
+}
+
 Radio::Totals Radio::totals(LinkId link) const noexcept {
     const auto at = std::ranges::find(ids_, link);
     return at == ids_.end() ? Totals{} : outlets_[static_cast<std::size_t>(at - ids_.begin())].totals;
@@ -41,10 +49,9 @@ Radio::Totals Radio::totals(LinkId link) const noexcept {
 void Radio::sign_with(const std::optional<wire::SigningKey>& key, wire::SigningTime now) {
     key_ = key;
     signing_start_ = now;
-    std::uint8_t link_id = 0;
     for (Outlet& outlet : outlets_) {
         outlet.signer.reset();
-        if (key) outlet.signer.emplace(*key, link_id++, now);
+        if (key) outlet.signer.emplace(*key, outlet.signing_link, now);
     }
 }
 

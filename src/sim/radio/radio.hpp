@@ -42,15 +42,16 @@ public:
         (void)message.encode(payload);
         for (const LinkId link : ids_) transmit(link, info_of<Message>, payload, from);
     }
-    void transmit(LinkId link, const wire::MessageInfo& info, ByteView payload,
-                  ComponentId from = autopilot_component);
+    void transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from = autopilot_component);
 
     // True while the link's queue is short enough for another frame of a bulk transfer.
     [[nodiscard]] bool has_room(LinkId link) const { return sink_.queued_bytes(link) < bulk_bytes; }
-    // Frames and bytes sent on a link so far.
+    // What went over a link so far.
     struct Totals {
-        std::uint64_t frames = 0, bytes = 0;
+        std::uint64_t frames = 0, bytes = 0;                    // sent
+        std::uint64_t received_frames = 0, received_bytes = 0;  // for any vehicle
     };
+    void note_received(LinkId link, std::size_t bytes) noexcept;
     [[nodiscard]] Totals totals(LinkId link) const noexcept;
 
     // From now on every frame is signed with this key; empty: none. `now` is UTC.
@@ -64,7 +65,8 @@ private:
     static constexpr std::size_t bulk_bytes = 4096;
 
     struct Outlet {
-        std::array<std::uint8_t, 2> sequences{};  // of the autopilot, and of all other components
+        std::array<std::uint8_t, 256> sequences{};  // by component
+        std::uint8_t signing_link = 0;              // the link id in signatures
         std::optional<wire::Signer> signer;
         Totals totals;
     };
@@ -76,6 +78,7 @@ private:
     std::vector<Outlet> outlets_;  // as ids_
     std::optional<wire::SigningKey> key_;
     wire::SigningTime signing_start_;
+    std::uint8_t next_signing_link_ = 0;
     WallTime utc_{};
     bool silent_ = false;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -16,16 +17,34 @@ constexpr MessageId heartbeat_id{0};
 constexpr MessageId high_latency2_id{235};
 // No stream runs faster than the vehicle steps.
 constexpr Nanoseconds shortest_interval = step_time;
+// A stream that a client asks for starts within this time.
+constexpr Nanoseconds longest_start = std::chrono::milliseconds{20};
+constexpr Nanoseconds metering = std::chrono::seconds{1};
 
 Nanoseconds interval_of(double hz) noexcept {
     return hz <= 0 ? Nanoseconds{0} : Nanoseconds{static_cast<std::int64_t>(std::llround(1e9 / hz))};
 }
 
-// A number that spreads over 0 to 1 for each vehicle and message.
-double phase_of(SystemId system, MessageId message) noexcept {
-    std::uint64_t z = (std::uint64_t{system.value} << 32 | message.value) * 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
+Nanoseconds scaled(Nanoseconds time, double factor) noexcept {
+    return Nanoseconds{std::llround(static_cast<double>(time.count()) * factor)};
+}
+
+double fraction(double x) noexcept { return x - std::floor(x); }
+
+// Spreads systems 1, 2, 3 ... evenly over 0 to 1, however many there are: 0, 1/2, 1/4, 3/4, 1/8 ...
+double phase_of(SystemId system) noexcept {
+    unsigned reversed = 0;
+    for (unsigned bit = 0, id = system.value - 1u; bit < 8; ++bit) reversed = reversed << 1 | (id >> bit & 1);
+    return reversed / 256.0;
+}
+
+// Spreads streams of one interval over it: multiples of the golden ratio keep far apart for any number of streams. The
+// interval's own share keeps classes of different rates apart.
+double phase_of(SystemId system, std::size_t rank, Nanoseconds interval) noexcept {
+    constexpr double golden = 0.6180339887498949;
+    const auto mixed = static_cast<std::uint64_t>(interval.count()) * 0x9e3779b97f4a7c15u;
+    const double of_class = static_cast<double>(mixed >> 11) * 0x1.0p-53;
+    return fraction(phase_of(system) + static_cast<double>(rank) * golden + of_class);
 }
 
 // Streams that the bandwidth limit leaves alone, as in PX4.
@@ -37,31 +56,48 @@ std::size_t wire_size(const Projection& projection) noexcept {
     return wire::header_length_v2 + projection.info.max_length + wire::checksum_length;
 }
 
-Nanoseconds default_interval(const LinkOptions& options, MessageId message) noexcept {
-    const auto rows = rates_of(options.profile);
-    const auto row = std::ranges::find(rows, message, &StreamRate::message);
-    return row == rows.end() ? Nanoseconds{0} : interval_of(row->hz);
+double bytes_s_at(const Projection& projection, Nanoseconds interval) noexcept {
+    return static_cast<double>(wire_size(projection)) * 1e9 / static_cast<double>(interval.count());
+}
+
+double hz_of(Nanoseconds interval) noexcept {
+    return interval.count() == 0 ? 0 : 1e9 / static_cast<double>(interval.count());
 }
 
 }  // namespace
 
-void Streams::open(LinkId link, const LinkOptions& options, FlightTime now) {
+void Streams::open(LinkId link, const LinkOptions& options, const View& view, FlightTime now) {
     if (find(link) != nullptr) return;
-    auto& opened = links_.emplace_back(LinkStreams{.link = link, .options = options, .streams = {}});
-    for (const Projection& projection : projections()) {
-        const Nanoseconds interval = default_interval(options, projection.info.id);
-        if (interval.count() != 0) opened.streams.push_back({.projection = &projection, .asked = interval});
+    LinkStreams& opened = links_.emplace_back(LinkStreams{.link = link, .options = options});
+    opened.meter.at = now;
+    fill(opened, now);
+    if (phase_of(options_.system) != 0) send_once(view, link, heartbeat_id);
+}
+
+// HEARTBEAT of system 1 is due at once. Other systems send theirs later in the second, so that a fleet does not burst;
+// `open` has sent them one more.
+void Streams::fill(LinkStreams& link, FlightTime now) {
+    link.streams.clear();
+    link.due.clear();
+    for (const StreamRate& rate : rates_of(link.options.profile)) {
+        const Projection* const projection = find_projection(rate.message, firmware_.is_px4());
+        if (projection == nullptr || !holds(rate.when, options_)) continue;
+        const Nanoseconds interval = interval_of(rate.hz);
+        const auto rank = static_cast<std::size_t>(std::ranges::count(link.streams, interval, &Stream::asked));
+        const bool is_heartbeat = projection->info.id == heartbeat_id;
+        const double phase = is_heartbeat ? phase_of(options_.system) : phase_of(options_.system, rank, interval);
+        link.streams.push_back({.projection = projection, .only_armed = rate.when == When::armed, .asked = interval});
+        link.due.push_back(now + scaled(interval, phase));
     }
-    for (Stream& stream : opened.streams) {
-        const bool starts_at_once = is_constant(*stream.projection);
-        const double phase = starts_at_once ? 0 : phase_of(system_, stream.projection->info.id);
-        stream.due = now + Nanoseconds{static_cast<std::int64_t>(phase * static_cast<double>(stream.asked.count()))};
-    }
-    limit(opened, now);
+    limit(link, now);
 }
 
 void Streams::close(LinkId link) {
     std::erase_if(links_, [&](const LinkStreams& l) { return l.link == link; });
+}
+
+void Streams::reset(FlightTime now) {
+    for (LinkStreams& link : links_) fill(link, now);
 }
 
 FlightTime Streams::next_due() const noexcept {
@@ -72,13 +108,14 @@ FlightTime Streams::next_due() const noexcept {
 
 void Streams::skip_missed(FlightTime now) noexcept {
     for (LinkStreams& link : links_) {
-        if (now - link.next < shortest_interval) continue;
-        for (Stream& stream : link.streams) {
-            if (stream.interval.count() == 0 || now - stream.due < stream.interval) continue;
-            const auto missed = (now - stream.due) / stream.interval;
-            stream.due += missed * stream.interval;
+        if (link.next > now - shortest_interval) continue;
+        for (std::size_t i = 0; i < link.streams.size(); ++i) {
+            Stream& stream = link.streams[i];
+            if (stream.interval.count() == 0 || link.due[i] > now - stream.interval) continue;
+            const auto missed = (now - link.due[i]) / stream.interval;
+            link.due[i] += missed * stream.interval;
             stream.skipped += static_cast<std::uint64_t>(missed);
-            stream.skipped_time += missed * stream.interval;
+            stream.pending += missed * stream.interval;
         }
         note_next(link);
     }
@@ -87,59 +124,119 @@ void Streams::skip_missed(FlightTime now) noexcept {
 void Streams::run(const View& view, FlightTime at, FlightTime now) {
     for (LinkStreams& link : links_) {
         if (link.next > at) continue;
-        for (Stream& stream : link.streams)
-            if (stream.interval.count() != 0 && stream.due <= at) send(link.link, stream, view, now);
+        View own = view_of(view, link, at);
+        for (std::size_t i = 0; i < link.due.size(); ++i) {
+            const FlightTime due = link.due[i];
+            if (due > at) continue;
+            link.due[i] += link.streams[i].interval;
+            send(link.link, link.streams[i], own, due, now);
+        }
         note_next(link);
     }
 }
 
-void Streams::send(LinkId link, Stream& stream, const View& view, FlightTime now) {
-    const FlightTime due = std::exchange(stream.due, stream.due + stream.interval);
-    std::array<std::uint8_t, wire::max_payload_length> payload{};
-    if (!stream.projection->write(view, payload)) return;
-    stream.lateness.add(now - due);
-    if (stream.sent++ == 0) {
+View Streams::view_of(const View& view, LinkStreams& link, FlightTime at) const noexcept {
+    const Radio::Totals now = radio_.totals(link.link);
+    Meter& meter = link.meter;
+    if (at - meter.at >= metering) {
+        const double seconds = std::chrono::duration<double>(at - meter.at).count();
+        const auto rate = [&](std::uint64_t after, std::uint64_t before) {
+            return static_cast<std::uint32_t>(static_cast<double>(after - before) / seconds);
+        };
+        meter = {.at = at,
+                 .totals = now,
+                 .sent_s = rate(now.bytes, meter.totals.bytes),
+                 .received_s = rate(now.received_bytes, meter.totals.received_bytes)};
+    }
+    View own = view;
+    own.traffic = {.sent = static_cast<std::uint32_t>(now.frames),
+                   .received = static_cast<std::uint32_t>(now.received_frames),
+                   .sent_s = meter.sent_s,
+                   .received_s = meter.received_s};
+    return own;
+}
+
+void Streams::send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now) {
+    std::array<std::uint8_t, wire::max_payload_length> payload;
+    view.number = stream.number;
+    if ((stream.only_armed && !view.flight.armed()) || !stream.projection->write(view, payload)) {
+        stream.pending += stream.interval;
+        return;
+    }
+    if (stream.sent == 0) {
         stream.first = now;
         stream.skipped = 0;
-        stream.skipped_time = Nanoseconds{0};
+    } else {
+        stream.left_out += stream.pending;
     }
+    stream.pending = Nanoseconds{0};
     stream.last = now;
+    ++stream.sent;
+    ++stream.number;
+    stream.lateness.add(now - due);
     radio_.transmit(link, stream.projection->info, {payload.data(), stream.projection->info.max_length});
 }
 
 void Streams::send_now(const View& view, std::span<const MessageId> messages) {
     std::array<std::uint8_t, wire::max_payload_length> payload;
     for (const MessageId id : messages) {
-        const Projection* const projection = find_projection(id);
-        if (projection == nullptr) continue;
-        payload.fill(0);
-        if (!projection->write(view, payload)) continue;
+        const Projection* const projection = find_projection(id, firmware_.is_px4());
+        if (projection == nullptr || projection->write == nullptr || !projection->write(view, payload)) continue;
         for (const LinkStreams& link : links_)
-            if (streams(link, id)) radio_.transmit(link.link, projection->info, {payload.data(), projection->info.max_length});
+            if (streams(link, id))
+                radio_.transmit(link.link, projection->info, {payload.data(), projection->info.max_length});
     }
+}
+
+bool Streams::send_once(const View& view, LinkId link, MessageId message) {
+    std::array<std::uint8_t, wire::max_payload_length> payload;
+    const Projection* const projection = find_projection(message, firmware_.is_px4());
+    LinkStreams* const of = find(link);
+    if (projection == nullptr || projection->write == nullptr || of == nullptr) return false;
+    if (!projection->write(view_of(view, *of, of->meter.at), payload)) return false;
+    radio_.transmit(link, projection->info, {payload.data(), projection->info.max_length});
+    return true;
 }
 
 bool Streams::set_interval(LinkId link, MessageId message, std::optional<Nanoseconds> interval, FlightTime now) {
     LinkStreams* const of = find(link);
-    const Projection* const projection = find_projection(message);
+    const Projection* const projection = find_projection(message, firmware_.is_px4());
     if (of == nullptr || projection == nullptr || message == heartbeat_id) return false;
-    const Nanoseconds asked = interval ? std::max(*interval, Nanoseconds{0}) : default_interval(of->options, message);
-    auto at = std::ranges::find(of->streams, projection, &Stream::projection);
-    if (at == of->streams.end()) {
-        of->streams.push_back({.projection = projection});
-        at = of->streams.end() - 1;
-    }
-    at->asked = asked.count() == 0 ? asked : std::max(asked, shortest_interval);
-    at->due = now;
-    at->sent = at->skipped = 0;
-    at->skipped_time = Nanoseconds{0};
-    at->lateness = {};
+    const StreamRate* const usual = interval ? nullptr : default_rate(of->options, message);
+    Nanoseconds asked = interval.value_or(interval_of(usual == nullptr ? 0 : usual->hz));
+    if (asked.count() != 0) asked = std::max(asked, shortest_interval);
+    Stream& stream = stream_of(*of, *projection);
+    const auto index = static_cast<std::size_t>(&stream - of->streams.data());
+    stream.only_armed = usual != nullptr && usual->when == When::armed;
+    if (stream.asked == asked) return true;
+    stream = {.projection = projection, .only_armed = stream.only_armed, .number = stream.number, .asked = asked};
     limit(*of, now);
+    of->due[index] = stream.interval.count() == 0 ? FlightTime::max() : first_due(*of, index, now);
+    note_next(*of);
     return true;
 }
 
+Streams::Stream& Streams::stream_of(LinkStreams& link, const Projection& projection) {
+    const auto at = std::ranges::find(link.streams, &projection, &Stream::projection);
+    if (at != link.streams.end()) return *at;
+    link.due.push_back(FlightTime::max());
+    return link.streams.emplace_back(Stream{.projection = &projection});
+}
+
+// Soon, but not at the same instant as the other streams that the client asks for.
+FlightTime Streams::first_due(const LinkStreams& link, std::size_t index, FlightTime now) const noexcept {
+    const Nanoseconds window = std::min(link.streams[index].interval, longest_start);
+    return now + scaled(window, phase_of(options_.system, index, window));
+}
+
+const StreamRate* Streams::default_rate(const LinkOptions& options, MessageId message) const noexcept {
+    const auto rows = rates_of(options.profile);
+    const auto row = std::ranges::find(rows, message, &StreamRate::message);
+    return row == rows.end() || !holds(row->when, options_) ? nullptr : &*row;
+}
+
 std::optional<Nanoseconds> Streams::interval(LinkId link, MessageId message) const noexcept {
-    const Projection* const projection = find_projection(message);
+    const Projection* const projection = find_projection(message, firmware_.is_px4());
     const LinkStreams* const of = find(link);
     if (projection == nullptr || of == nullptr) return std::nullopt;
     const auto at = std::ranges::find(of->streams, projection, &Stream::projection);
@@ -147,45 +244,50 @@ std::optional<Nanoseconds> Streams::interval(LinkId link, MessageId message) con
 }
 
 void Streams::set_share(LinkId link, double share, FlightTime now) {
-    if (LinkStreams* const of = find(link)) {
-        of->share = share;
-        limit(*of, now);
-    }
+    LinkStreams* const of = find(link);
+    if (of == nullptr || of->share == share) return;
+    of->share = share;
+    limit(*of, now);
 }
 
 double Streams::bytes_s(LinkId link) const noexcept {
     double sum = 0;
     if (const LinkStreams* const of = find(link))
         for (const Stream& stream : of->streams)
-            if (stream.interval.count() != 0)
-                sum += static_cast<double>(wire_size(*stream.projection)) * 1e9 / static_cast<double>(stream.interval.count());
+            if (stream.interval.count() != 0) sum += bytes_s_at(*stream.projection, stream.interval);
     return sum;
 }
 
 // One factor for all streams but the constant ones, so that the sum fits the link: PX4's rule. The factor is at least
-// 0.05. With no limit it is 1.
+// 0.05. With no limit it is 1. The rest of each running interval is scaled too, so that phases stay apart.
 void Streams::limit(LinkStreams& link, FlightTime now) {
     double constant = 0, rest = 0;
-    for (const Stream& stream : link.streams) {
-        if (stream.asked.count() == 0) continue;
-        const double rate = static_cast<double>(wire_size(*stream.projection)) * 1e9 / static_cast<double>(stream.asked.count());
-        (is_constant(*stream.projection) ? constant : rest) += rate;
-    }
+    for (const Stream& stream : link.streams)
+        if (stream.asked.count() != 0 && stream.projection->write != nullptr)
+            (is_constant(*stream.projection) ? constant : rest) += bytes_s_at(*stream.projection, stream.asked);
     double factor = 1;
     if (link.options.max_bytes_s != 0 && rest > 0)
         factor = std::clamp((link.options.max_bytes_s * link.share - constant) / rest, 0.05, 1.0);
-    for (Stream& stream : link.streams) {
+    for (std::size_t i = 0; i < link.streams.size(); ++i) {
+        Stream& stream = link.streams[i];
+        const bool is_scheduled = stream.asked.count() != 0 && stream.projection->write != nullptr;
         const double scale = is_constant(*stream.projection) ? 1 : 1 / factor;
-        stream.interval = Nanoseconds{static_cast<std::int64_t>(std::llround(static_cast<double>(stream.asked.count()) * scale))};
-        stream.due = std::min(stream.due, now + stream.interval);
+        const Nanoseconds before = std::exchange(stream.interval,
+                                                 is_scheduled ? scaled(stream.asked, scale) : Nanoseconds{0});
+        if (!is_scheduled) {
+            link.due[i] = FlightTime::max();
+        } else if (before.count() != 0 && before != stream.interval && link.due[i] > now) {
+            const double change = static_cast<double>(stream.interval.count()) / static_cast<double>(before.count());
+            link.due[i] = now + scaled(link.due[i] - now, change);
+        }
     }
     note_next(link);
 }
 
 void Streams::note_next(LinkStreams& link) noexcept {
-    link.next = FlightTime::max();
-    for (const Stream& stream : link.streams)
-        if (stream.interval.count() != 0) link.next = std::min(link.next, stream.due);
+    FlightTime next = FlightTime::max();
+    for (const FlightTime due : link.due) next = std::min(next, due);
+    link.next = next;
 }
 
 bool Streams::streams(const LinkStreams& link, MessageId message) noexcept {
@@ -197,19 +299,23 @@ bool Streams::streams(const LinkStreams& link, MessageId message) noexcept {
 std::vector<StreamReport> Streams::reports() const {
     std::vector<StreamReport> reports;
     for (const LinkStreams& link : links_)
-        for (const Stream& stream : link.streams) {
-            const auto time = std::chrono::duration<double>(stream.last - stream.first - stream.skipped_time).count();
-            reports.push_back({.system = system_,
-                               .link = link.link,
-                               .message = stream.projection->info.id,
-                               .name = stream.projection->name,
-                               .asked_hz = stream.interval.count() == 0 ? 0 : 1e9 / static_cast<double>(stream.interval.count()),
-                               .achieved_hz = stream.sent < 2 || time <= 0 ? 0 : static_cast<double>(stream.sent - 1) / time,
-                               .sent = stream.sent,
-                               .skipped = stream.skipped,
-                               .lateness = stream.lateness});
-        }
+        for (const Stream& stream : link.streams)
+            if (stream.interval.count() != 0 || stream.sent != 0)
+                reports.push_back(report_of(options_.system, link.link, stream));
     return reports;
+}
+
+StreamReport Streams::report_of(SystemId system, LinkId link, const Stream& stream) {
+    const auto time = std::chrono::duration<double>(stream.last - stream.first - stream.left_out).count();
+    return {.system = system,
+            .link = link,
+            .message = stream.projection->info.id,
+            .name = stream.projection->name,
+            .asked_hz = hz_of(stream.asked),
+            .achieved_hz = stream.sent < 2 || time <= 0 ? 0 : static_cast<double>(stream.sent - 1) / time,
+            .sent = stream.sent,
+            .skipped = stream.skipped,
+            .lateness = stream.lateness};
 }
 
 Streams::LinkStreams* Streams::find(LinkId link) noexcept {
