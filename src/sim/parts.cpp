@@ -13,11 +13,11 @@
 #include "sim/service/calibration.hpp"
 #include "sim/service/connection.hpp"
 #include "sim/service/events.hpp"
-#include "sim/store/file_service.hpp"
 #include "sim/service/gimbal.hpp"
 #include "sim/service/guard.hpp"
-#include "sim/store/log_service.hpp"
 #include "sim/service/other_services.hpp"
+#include "sim/store/file_service.hpp"
+#include "sim/store/log_service.hpp"
 #include "sim/store/parameter_service.hpp"
 #include "sim/store/plan_service.hpp"
 #include "sim/telemetry/data_streams.hpp"
@@ -45,6 +45,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       event_service(std::make_unique<EventService>(*this)),
       calibration_service(std::make_unique<CalibrationService>(*this)),
       other_services(make_other_services(*this)) {
+    parameters.put(firmware.system_parameter(), options.system.value);
     other_services.push_back(std::make_unique<Connection>(*this));
     other_services.push_back(std::make_unique<DataStreams>(*this));
     if (gimbal) add(*gimbal);
@@ -139,6 +140,8 @@ void Parts::end_silence() {
     booted = stepped = silent_until_;
     silent_until_ = FlightTime::min();
     radio.set_silent(false);
+    radio.set_system(SystemId{static_cast<std::uint8_t>(
+        std::clamp(parameters.get(firmware.system_parameter(), options.system.value), 1.0, 255.0))});
     flight.reboot();
     streams.reset(booted);
 }

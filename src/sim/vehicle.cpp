@@ -54,7 +54,7 @@ void Vehicle::close(LinkId link) {
 void Vehicle::receive(LinkId link, const wire::FrameView& frame, const wire::MessageInfo* info, Moment now) {
     Parts& parts = *parts_;
     parts.radio.note_received(link, frame.size());
-    if (info == nullptr || parts.is_silent(now.flight) || !is_for(parts.options.system, frame, *info)) return;
+    if (info == nullptr || parts.is_silent(now.flight) || !is_for(parts.radio.system(), frame, *info)) return;
     Service* const service = parts.service_for(info->id);
     if (service == nullptr || !parts.guard->admits(frame, parts.utc_at(now.flight))) return;
     parts.step_to(now);
@@ -86,7 +86,9 @@ void Vehicle::advance(Moment now) {
     parts.report_changes();
 }
 
-SetupResult<void> Vehicle::arm(bool force) { return of_outcome(parts_->flight.arm(force, OrderedBy::operator_console)); }
+SetupResult<void> Vehicle::arm(bool force) {
+    return of_outcome(parts_->flight.arm(force, OrderedBy::operator_console));
+}
 
 SetupResult<void> Vehicle::disarm(bool force) {
     return of_outcome(parts_->flight.disarm(force, OrderedBy::operator_console));
@@ -113,13 +115,13 @@ SetupResult<void> Vehicle::set_parameter(std::string_view name, double value) {
     return {};
 }
 
-SystemId Vehicle::system() const noexcept { return parts_->options.system; }
+SystemId Vehicle::system() const noexcept { return parts_->radio.system(); }
 
 VehicleStatus Vehicle::status() const {
     const Flight& flight = parts_->flight;
     const Estimate& estimate = flight.estimate();
     const GeoPoint& position = flight.position();
-    return {.system = parts_->options.system,
+    return {.system = parts_->radio.system(),
             .kind = parts_->options.kind,
             .autopilot = parts_->options.autopilot,
             .armed = flight.armed(),

@@ -68,6 +68,7 @@ public:
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
 
+    // A client may change the system id by a parameter. The new one holds after a reboot.
     [[nodiscard]] SystemId system() const noexcept;
     [[nodiscard]] VehicleStatus status() const;
     [[nodiscard]] std::vector<std::string_view> mode_names() const;

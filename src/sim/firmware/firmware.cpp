@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "sim/firmware/tables.hpp"
+
 namespace mavloom::sim {
 
 namespace {
@@ -13,6 +15,10 @@ bool equals_ignoring_case(std::string_view a, std::string_view b) noexcept {
 }
 
 }  // namespace
+
+const Firmware& Firmware::of(Autopilot autopilot, Kind kind) {
+    return autopilot == Autopilot::px4 ? px4_firmware(kind) : ardupilot_firmware(kind);
+}
 
 const ModeInfo* Firmware::find_mode(std::uint32_t custom_mode) const noexcept {
     const auto at = std::ranges::find(modes(), custom_mode, &ModeInfo::custom_mode);

@@ -22,8 +22,9 @@ struct VersionInfo {
     std::uint16_t vendor = 0, product = 0;
 };
 
-// What a vehicle says. `{}` stands for a number.
+// What a vehicle says. `{}` stands for a number or a mode's name. A firmware that is silent has an empty text.
 struct Texts {
+    std::string_view banner{};  // name and version, for a client that connects
     std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};
     std::string_view takeoff_detected{}, landing_detected{};
     std::string_view not_ready{}, no_position{}, not_landed{};  // refusals
@@ -65,6 +66,10 @@ public:
     [[nodiscard]] virtual std::span<const ParamInfo> parameters() const noexcept = 0;
     // True: an integer lies in PARAM_VALUE.param_value byte by byte (PX4); false: as a float (ArduPilot).
     [[nodiscard]] virtual bool is_bytewise() const noexcept = 0;
+    // The parameter that holds the system id. It acts after a reboot.
+    [[nodiscard]] std::string_view system_parameter() const noexcept {
+        return is_px4() ? "MAV_SYS_ID" : "SYSID_THISMAV";
+    }
     [[nodiscard]] virtual Tuning tuning(const Parameters& parameters) const = 0;
     // ArduPilot keeps home as item 0 of the mission.
     [[nodiscard]] virtual bool has_home_in_mission() const noexcept = 0;

@@ -14,12 +14,25 @@ namespace {
 
 std::uint32_t bits_of(ParamType type, double value) noexcept {
     if (type == ParamType::real32) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
-    using Range = std::numeric_limits<std::int32_t>;
-    const double whole = std::isnan(value) ? 0 : std::clamp(std::round(value), double{Range::min()}, double{Range::max()});
+    const auto [lowest, highest] = range_of(type);
+    const double whole = std::isnan(value) ? 0 : std::clamp(std::round(value), lowest, highest);
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(whole));
 }
 
 }  // namespace
+
+ParamRange range_of(ParamType type) noexcept {
+    const auto limits = [](auto zero) {
+        using Limits = std::numeric_limits<decltype(zero)>;
+        return ParamRange{double{Limits::lowest()}, double{Limits::max()}};
+    };
+    switch (type) {
+        case ParamType::int8: return limits(std::int8_t{});
+        case ParamType::int16: return limits(std::int16_t{});
+        case ParamType::int32: return limits(std::int32_t{});
+        default: return limits(float{});
+    }
+}
 
 Parameters::Parameters(std::span<const ParamInfo> infos) : infos_(infos), bits_(infos.size()) { reset(); }
 

@@ -14,6 +14,18 @@ namespace mavloom::sim {
 // Values of MAV_PARAM_TYPE.
 enum class ParamType : std::uint8_t { int8 = 2, int16 = 4, int32 = 6, real32 = 9 };
 
+// The smallest and the greatest value of an integer type.
+struct ParamRange {
+    double lowest, highest;
+};
+[[nodiscard]] ParamRange range_of(ParamType type) noexcept;
+
+// A value of a parameter that stands for something, such as a mode.
+struct ParamChoice {
+    int value = 0;
+    std::string_view name;
+};
+
 struct ParamInfo {
     std::string_view name;  // at most 16 characters
     ParamType type = ParamType::real32;
@@ -21,9 +33,10 @@ struct ParamInfo {
     double minimum = 0, maximum = 0;  // for people; both 0: no range. Values beyond it are stored all the same.
     std::string_view unit{}, group{}, summary{};
     std::uint8_t decimals = 0;
-    bool is_volatile = false;   // changes by itself; not part of the checksum
+    bool is_volatile = false;  // changes by itself; not part of the checksum
     bool is_read_only = false;
     bool needs_reboot = false;
+    std::span<const ParamChoice> choices{};
 };
 
 using ParamIndex = std::uint16_t;

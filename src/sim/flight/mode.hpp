@@ -9,12 +9,12 @@ namespace mavloom::sim {
 
 // What the vehicle does, independent of the firmware's name for it.
 enum class Behaviour : std::uint8_t {
-    manual,       // sticks to actuators
-    acro,         // sticks to body rates
-    stabilized,   // sticks to attitude and thrust
-    altitude,     // sticks to attitude; height is held
-    position,     // sticks to velocity; position is held
-    hold,         // stays, or loiters
+    manual,      // sticks to actuators
+    acro,        // sticks to body rates
+    stabilized,  // sticks to attitude and thrust
+    altitude,    // sticks to attitude; height is held
+    position,    // sticks to velocity; position is held
+    hold,        // stays, or loiters
     mission,
     return_home,
     takeoff,
@@ -38,14 +38,22 @@ enum BaseMode : std::uint8_t {
     base_armed = 128,
 };
 
+// MAV_MODE_PROPERTY bits.
+enum ModeProperty : std::uint32_t { mode_advanced = 1, mode_not_selectable = 2, mode_auto = 4 };
+
 struct ModeInfo {
-    std::string_view name;           // for people: "Hold", "GUIDED"
-    std::uint32_t custom_mode = 0;   // HEARTBEAT.custom_mode
+    std::string_view name;          // for people: "Hold", "GUIDED"
+    std::uint32_t custom_mode = 0;  // HEARTBEAT.custom_mode
     Behaviour behaviour = Behaviour::unavailable;
     std::uint8_t base_mode = base_custom;  // without base_armed
-    std::uint8_t standard_mode = 0;  // MAV_STANDARD_MODE
-    std::uint32_t properties = 0;    // MAV_MODE_PROPERTY
-    bool is_listed = true;           // AVAILABLE_MODES reports it
+    std::uint8_t standard_mode = 0;        // MAV_STANDARD_MODE
+    std::uint32_t properties = 0;          // MAV_MODE_PROPERTY
+    bool is_listed = true;                 // AVAILABLE_MODES reports it
+
+    // True if clients may ask for it.
+    [[nodiscard]] constexpr bool is_selectable() const noexcept {
+        return behaviour != Behaviour::unavailable && (properties & mode_not_selectable) == 0;
+    }
 };
 
 // True if the behaviour needs a valid position.

@@ -28,7 +28,9 @@ public:
     void open(LinkId link);
     void close(LinkId link);
     [[nodiscard]] std::span<const LinkId> links() const noexcept { return ids_; }
+    // The vehicle's system id. A reboot may change it.
     [[nodiscard]] SystemId system() const noexcept { return system_; }
+    void set_system(SystemId system) noexcept { system_ = system; }
 
     template <class Message>
     void send(LinkId link, const Message& message, ComponentId from = autopilot_component) {
