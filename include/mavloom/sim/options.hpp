@@ -64,10 +64,10 @@ struct VehicleOptions {
     Autopilot autopilot = Autopilot::px4;
     Motion motion = Motion::flight;
     SystemId system{1};
-    Home home;
-    Wind wind;
-    BatteryOptions battery;
-    Limits limits;
+    Home home{};
+    Wind wind{};
+    BatteryOptions battery{};
+    Limits limits{};
     std::uint64_t seed = 1;
     bool has_noise = true;
     bool has_gimbal = false;

@@ -31,10 +31,10 @@ MessageId message_of(const Command& command) noexcept {
 
 // Microseconds on the wire: negative is off, 0 the default. Empty here: the default.
 std::optional<Nanoseconds> interval_of(float microseconds) noexcept {
-    constexpr float longest = 3.6e9f;  // one hour
+    constexpr float shortest = 1, longest = 2e9f;  // the longest that MESSAGE_INTERVAL can report
     if (microseconds == 0) return std::nullopt;
     if (microseconds < 0) return Nanoseconds{0};
-    return Nanoseconds{std::llround(double{std::min(microseconds, longest)} * 1e3)};
+    return Nanoseconds{std::llround(double{std::clamp(microseconds, shortest, longest)} * 1e3)};
 }
 
 // PX4 answers FAILED for a message that it does not stream, ArduPilot DENIED.

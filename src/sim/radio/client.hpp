@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who sent a request. All protocol state belongs to a client, so that several clients of one vehicle do not disturb each
-// other. Private to module sim; a plain value.
+// The sender of a request. All protocol state belongs to a client, so that several clients of one vehicle do not
+// disturb each other. Private to module sim; a plain value.
 #pragma once
 
 #include <compare>

@@ -48,7 +48,7 @@ public:
 
     // True while the link's queue is short enough for another frame of a bulk transfer.
     [[nodiscard]] bool has_room(LinkId link) const { return sink_.queued_bytes(link) < bulk_bytes; }
-    // What went over a link so far.
+    // Traffic of a link so far.
     struct Totals {
         std::uint64_t frames = 0, bytes = 0;                    // sent
         std::uint64_t received_frames = 0, received_bytes = 0;  // for any vehicle
@@ -63,7 +63,7 @@ public:
     void set_silent(bool silent) noexcept { silent_ = silent; }
 
 private:
-    // What may wait in a link's queue before bulk transfers pause.
+    // Bulk transfers pause while a link's queue holds this much.
     static constexpr std::size_t bulk_bytes = 4096;
 
     struct Outlet {

@@ -58,19 +58,21 @@ Motors motors_of(const View& view) noexcept {
     return motors;
 }
 
-// Roll, pitch, yaw (-1 to 1) and thrust (0 to 1) behind the outputs.
-std::array<float, 8> controls_of(const View& view) noexcept {
-    const Actuators& actuators = view.flight.airframe().actuators();
-    const auto& o = actuators.outputs;
-    std::array<float, 8> controls{};
-    controls[3] = to_float(view.flight.airframe().thrust());
-    if (view.options.kind != Kind::quad || !view.flight.armed()) return controls;
-    // Motors of a quadrotor in X form: front right, rear left, front left, rear right. The first two turn
-    // counter-clockwise.
-    controls[0] = to_float((o[1] + o[2] - o[0] - o[3]) / 4);
-    controls[1] = to_float((o[0] + o[2] - o[1] - o[3]) / 4);
-    controls[2] = to_float((o[0] + o[1] - o[2] - o[3]) / 4);
-    return controls;
+// Roll, pitch, yaw (-1 to 1) and thrust (0 to 1) behind the outputs of a quadrotor in X form: front right, rear left,
+// front left, rear right. The first two motors turn counter-clockwise.
+std::array<double, 4> quad_controls(const std::array<double, Actuators::count>& o) noexcept {
+    return {(o[1] + o[2] - o[0] - o[3]) / 4, (o[0] + o[2] - o[1] - o[3]) / 4, (o[0] + o[1] - o[2] - o[3]) / 4,
+            (o[0] + o[1] + o[2] + o[3]) / 4};
+}
+
+// A plane has ailerons, elevator, throttle and rudder, a rover throttle and steering.
+std::array<double, 4> controls_of(Kind kind, const std::array<double, Actuators::count>& o) noexcept {
+    switch (kind) {
+        case Kind::quad: return quad_controls(o);
+        case Kind::plane: return {o[0], o[1], o[3], o[2]};
+        case Kind::rover: return {0, 0, o[1], o[0]};
+    }
+    return {};
 }
 
 // Pulse widths in us of a stick from -1 to 1.
@@ -87,7 +89,10 @@ bool write_servo_output_raw(const View& view, ByteSpan payload) {
 }
 
 bool write_actuator_control_target(const View& view, ByteSpan payload) {
-    return put(msg::ActuatorControlTarget{.time_usec = boot_us(view), .controls = controls_of(view)}, payload);
+    msg::ActuatorControlTarget message{.time_usec = boot_us(view)};
+    const auto controls = controls_of(view.options.kind, view.flight.airframe().actuators().outputs);
+    if (view.flight.armed()) std::ranges::transform(controls, message.controls.begin(), to_float);
+    return put(message, payload);
 }
 
 bool write_actuator_output_status(const View& view, ByteSpan payload) {
