@@ -52,7 +52,7 @@ public:
 
     // Integers up to 32 bits are exact.
     [[nodiscard]] double value(ParamIndex index) const noexcept;
-    // The four bytes of the value: an integer of 32 bits, or a float.
+    // The four bytes of the value: an integer of 32 bits (also of a smaller type), or a float.
     [[nodiscard]] std::uint32_t bits(ParamIndex index) const noexcept { return bits_[index]; }
     void set_bits(ParamIndex index, std::uint32_t bits) noexcept { bits_[index] = bits; }
     // Rounds to a whole number for an integer parameter.
