@@ -24,7 +24,7 @@ public:
     Sensors sensors;
     LocalFrame frame;
     GeoPoint position;
-    std::optional<GeoPoint> home;
+    std::optional<GeoPoint> home, interest;
     Tuning tuning;
     Plans plans;
     Setpoint setpoint;
@@ -59,7 +59,7 @@ Outcome Flight::resume() { return Result::unsupported; }
 Outcome Flight::change_altitude(double /*altitude*/) { return Result::unsupported; }
 Outcome Flight::change_speed(SpeedKind /*kind*/, double /*speed*/) { return Result::unsupported; }
 Outcome Flight::turn_to(double /*yaw*/, double /*yaw_rate*/, bool /*relative*/) { return Result::unsupported; }
-Outcome Flight::look_at(const std::optional<GeoPoint>& /*point*/) { return Result::unsupported; }
+Outcome Flight::look_at(const std::optional<GeoPoint>& point) { impl_->interest = point; return Result::accepted; }
 Outcome Flight::start_mission(std::optional<std::uint16_t> /*first*/) { return Result::unsupported; }
 Outcome Flight::set_current_item(std::optional<std::uint16_t> /*seq*/, bool /*resets*/) { return Result::unsupported; }
 Outcome Flight::set_home(const std::optional<GeoPoint>& /*point*/, double /*yaw*/) { return Result::unsupported; }
@@ -102,6 +102,7 @@ const Plans& Flight::plans() const noexcept { return impl_->plans; }
 MissionProgress Flight::mission() const noexcept { return {}; }
 const std::optional<NavigationTarget>& Flight::target() const noexcept { return impl_->target; }
 std::optional<OrbitStatus> Flight::orbit_status() const { return std::nullopt; }
+const std::optional<GeoPoint>& Flight::region_of_interest() const noexcept { return impl_->interest; }
 FlightTime Flight::armed_at() const noexcept { return {}; }
 FlightTime Flight::took_off_at() const noexcept { return {}; }
 std::uint32_t Flight::flights() const noexcept { return 0; }

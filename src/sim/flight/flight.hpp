@@ -39,6 +39,8 @@ public:
     virtual void on_mission_progress() = 0;
     virtual void on_item_reached(std::uint16_t seq) = 0;
     virtual void on_waypoint_triggered_camera(std::uint16_t /*seq*/) {}
+    // The mission reached an item for the payload: gimbal, camera, gripper, relay or actuator.
+    virtual void on_payload_item(const PlanItem& /*item*/) {}
 };
 
 // MAV_STATE.
@@ -172,6 +174,8 @@ public:
     [[nodiscard]] MissionProgress mission() const noexcept;
     [[nodiscard]] const std::optional<NavigationTarget>& target() const noexcept;
     [[nodiscard]] std::optional<OrbitStatus> orbit_status() const;
+    // Where nose and gimbal look; empty: nowhere.
+    [[nodiscard]] const std::optional<GeoPoint>& region_of_interest() const noexcept;
     [[nodiscard]] FlightTime armed_at() const noexcept;    // since boot; 0 if disarmed
     [[nodiscard]] FlightTime took_off_at() const noexcept;  // since boot; 0 if on the ground
     [[nodiscard]] std::uint32_t flights() const noexcept;

@@ -217,7 +217,7 @@ TEST_F(FixedWingTest, NeverStallsByAnAltitudeThatIsAskedOfIt) {
     EXPECT_LT(motion().velocity.z(), -2);
 }
 
-// By hand nothing protects the plane: with its nose held up and no power, it stalls, drops the nose and sinks.
+// By hand nothing protects the plane: with its nose up and no power, it stalls, drops the nose and sinks.
 TEST_F(FixedWingTest, StallsWhenThePilotHoldsTheNoseUpWithoutPower) {
     climb_out();
     setpoint.steering = Steering::rates;
