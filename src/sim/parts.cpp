@@ -10,10 +10,10 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/home_position.hpp"
 #include "mavloom/msg/mission_current.hpp"
+#include "sim/payload/gimbal.hpp"
 #include "sim/service/calibration.hpp"
 #include "sim/service/connection.hpp"
 #include "sim/service/events.hpp"
-#include "sim/service/gimbal.hpp"
 #include "sim/service/guard.hpp"
 #include "sim/service/other_services.hpp"
 #include "sim/store/file_service.hpp"
@@ -88,7 +88,10 @@ void Parts::step_to(Moment moment) {
     now = moment;
     radio.set_utc(utc_at(moment.flight));
     if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
-    for (; stepped + step_time <= moment.flight; stepped += step_time) flight.step();
+    for (; stepped + step_time <= moment.flight; stepped += step_time) {
+        flight.step();
+        if (gimbal) gimbal->step();
+    }
 }
 
 void Parts::report_changes() {
@@ -147,6 +150,8 @@ void Parts::end_silence() {
 }
 
 void Parts::on_text(Severity severity, std::string_view text) { announcer.say(severity, text, now.flight); }
+
+void Parts::on_payload_item(const PlanItem& item) { carry_out_payload_item(*this, item); }
 
 void Parts::on_item_reached(std::uint16_t seq) { plan_service->report_reached(seq); }
 

@@ -16,6 +16,7 @@
 #include "mavloom/sim/vehicle.hpp"
 #include "sim/firmware/firmware.hpp"
 #include "sim/flight/flight.hpp"
+#include "sim/payload/servo_outputs.hpp"
 #include "sim/radio/radio.hpp"
 #include "sim/service/announcer.hpp"
 #include "sim/command/commands.hpp"
@@ -48,6 +49,7 @@ struct Parts final : FlightObserver {
     Streams streams;
     Announcer announcer;
     Commands commands;
+    ServoOutputs servos;
 
     std::unique_ptr<Gimbal> gimbal;  // null: none is simulated
     std::unique_ptr<Guard> guard;
@@ -87,6 +89,7 @@ struct Parts final : FlightObserver {
     void on_home_changed() override { home_changed_ = true; }
     void on_mission_progress() override { mission_changed_ = true; }
     void on_item_reached(std::uint16_t seq) override;
+    void on_payload_item(const PlanItem& item) override;
 
 private:
     static constexpr Nanoseconds reboot_time = std::chrono::milliseconds{2500};

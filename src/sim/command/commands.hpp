@@ -15,6 +15,7 @@
 
 #include "sim/firmware/known_by.hpp"
 #include "sim/flight/orders.hpp"
+#include "sim/flight/plan.hpp"
 #include "sim/radio/client.hpp"
 #include "sim/service/service.hpp"
 
@@ -68,6 +69,8 @@ private:
 [[nodiscard]] std::span<const CommandRow> message_commands() noexcept;      // intervals, requests
 [[nodiscard]] std::span<const CommandRow> maintenance_commands() noexcept;  // reboot, storage, calibration, failures
 [[nodiscard]] std::span<const CommandRow> payload_commands() noexcept;      // gimbal, actuators, camera, logging
+// Carries out a mission item of payload_commands() as an order of the vehicle itself. Ignores all other items.
+void carry_out_payload_item(Parts& parts, const PlanItem& item);
 // Null: this firmware does not know the command.
 [[nodiscard]] const CommandRow* find_command(std::uint16_t id, bool is_px4) noexcept;
 

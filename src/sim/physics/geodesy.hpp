@@ -15,6 +15,7 @@ using Vector3 = Eigen::Vector3d;
 struct GeoPoint {
     double latitude = 0, longitude = 0;  // degrees
     double altitude = 0;                 // metres above mean sea level
+    friend bool operator==(const GeoPoint&, const GeoPoint&) = default;
 };
 
 class LocalFrame {

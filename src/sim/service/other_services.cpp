@@ -2,9 +2,14 @@
 #include "sim/service/other_services.hpp"
 
 #include "sim/parts.hpp"
+#include "sim/payload/traffic.hpp"
 
 namespace mavloom::sim {
 
-std::vector<std::unique_ptr<Service>> make_other_services(Parts& /*parts*/) { return {}; }
+std::vector<std::unique_ptr<Service>> make_other_services(Parts& parts) {
+    std::vector<std::unique_ptr<Service>> services;
+    if (parts.options.traffic != 0) services.push_back(std::make_unique<Traffic>(parts));
+    return services;
+}
 
 }  // namespace mavloom::sim
