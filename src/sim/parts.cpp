@@ -79,6 +79,7 @@ View Parts::view() const {
             .parameters = parameters,
             .flight = flight,
             .gimbal = gimbal.get(),
+            .servos = &servos,
             .since_boot = stepped - booted,
             .utc = utc_at(stepped),
             .has_utc = has_utc()};

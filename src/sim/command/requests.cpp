@@ -8,10 +8,13 @@
 #include "mavloom/msg/available_modes.hpp"
 #include "mavloom/msg/component_information.hpp"
 #include "mavloom/msg/component_metadata.hpp"
+#include "mavloom/msg/gimbal_device_information.hpp"
+#include "mavloom/msg/gimbal_manager_information.hpp"
 #include "mavloom/msg/mission_current.hpp"
 #include "mavloom/msg/protocol_version.hpp"
 #include "sim/metadata/metadata.hpp"
 #include "sim/parts.hpp"
+#include "sim/payload/gimbal.hpp"
 
 namespace mavloom::sim {
 
@@ -113,6 +116,8 @@ constexpr std::array requests{
 Result send_requested(Parts& parts, LinkId link, MessageId message, double index) {
     const auto request = std::ranges::find(requests, message, &Request::message);
     if (request != requests.end()) return request->send(parts, link, index);
+    const bool is_of_gimbal = message == GimbalManagerInformation::id || message == GimbalDeviceInformation::id;
+    if (is_of_gimbal && !parts.gimbal) return Result::unsupported;
     // PX4 sends MISSION_CURRENT by itself, outside of its streams, and denies a request.
     if (message == MissionCurrent::id && parts.firmware.is_px4()) return Result::denied;
     return parts.streams.send_once(parts.view(), link, message) ? Result::accepted : Result::denied;

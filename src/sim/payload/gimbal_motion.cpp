@@ -16,9 +16,9 @@ void GimbalMotion::Axis::order(double to, double at_rate) noexcept {
     }
 }
 
-void GimbalMotion::Axis::step(double dt) noexcept {
+void GimbalMotion::Axis::step(double dt, double lowest, double highest) noexcept {
     constexpr double gain = 8;  // 1/s
-    target += wanted_rate * dt;
+    target = std::clamp(target + wanted_rate * dt, lowest, highest);
     rate = std::clamp(gain * wrap_pi(target - angle), -fastest, fastest);
     angle += rate * dt;
 }
@@ -39,9 +39,8 @@ void GimbalMotion::center(double heading) noexcept {
 }
 
 void GimbalMotion::step(double dt) noexcept {
-    pitch_.step(dt);
-    pitch_.target = std::clamp(pitch_.target, pitch_lowest, pitch_highest);
-    yaw_.step(dt);
+    pitch_.step(dt, pitch_lowest, pitch_highest);
+    yaw_.step(dt, -2 * pi, 2 * pi);  // yaw turns without end
     yaw_.target = wrap_pi(yaw_.target);
     yaw_.angle = wrap_pi(yaw_.angle);
 }

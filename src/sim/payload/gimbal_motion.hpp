@@ -42,7 +42,7 @@ private:
         double angle = 0, rate = 0;
         double target = 0, wanted_rate = 0;
         void order(double to, double at_rate) noexcept;
-        void step(double dt) noexcept;
+        void step(double dt, double lowest, double highest) noexcept;
     };
     void lock(bool locked, double heading) noexcept;
 

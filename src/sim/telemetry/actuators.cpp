@@ -5,6 +5,7 @@
 #include "mavloom/msg/esc_status.hpp"
 #include "mavloom/msg/rc_channels.hpp"
 #include "mavloom/msg/servo_output_raw.hpp"
+#include "sim/payload/servo_outputs.hpp"
 #include "sim/telemetry/projections.hpp"
 #include "sim/telemetry/wire_units.hpp"
 
@@ -32,6 +33,9 @@ std::array<std::uint16_t, servo_channels> pulse_widths(const View& view) noexcep
             widths[i] = is_px4 ? 900 : 1000;
         }
     }
+    if (view.servos != nullptr)
+        for (std::size_t i = actuators.used; i < servo_channels; ++i)
+            if (const std::uint16_t set = view.servos->pulses()[i]; set != 0) widths[i] = set;
     return widths;
 }
 

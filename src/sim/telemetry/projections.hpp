@@ -100,6 +100,13 @@ bool write_nav_controller_output(const View& view, ByteSpan payload);
 bool write_orbit_execution_status(const View& view, ByteSpan payload);
 bool write_time_estimate_to_target(const View& view, ByteSpan payload);
 
+// payload/gimbal_messages.cpp: only with a gimbal
+bool write_gimbal_manager_information(const View& view, ByteSpan payload);
+bool write_gimbal_device_information(const View& view, ByteSpan payload);
+bool write_gimbal_manager_status(const View& view, ByteSpan payload);
+bool write_gimbal_device_attitude_status(const View& view, ByteSpan payload);
+bool write_mount_orientation(const View& view, ByteSpan payload);
+
 // ardupilot.cpp: messages that only ArduPilot sends
 bool write_ahrs(const View& view, ByteSpan payload);
 bool write_ahrs2(const View& view, ByteSpan payload);

@@ -31,6 +31,8 @@
 #include "mavloom/msg/fence_status.hpp"
 #include "mavloom/msg/flight_information.hpp"
 #include "mavloom/msg/gimbal_device_attitude_status.hpp"
+#include "mavloom/msg/gimbal_device_information.hpp"
+#include "mavloom/msg/gimbal_manager_information.hpp"
 #include "mavloom/msg/gimbal_manager_status.hpp"
 #include "mavloom/msg/global_position_int.hpp"
 #include "mavloom/msg/gnss_integrity.hpp"
@@ -156,10 +158,12 @@ constexpr std::array table{
     row<msg::CameraCaptureStatus>(nullptr),
     row<msg::CameraImageCaptured>(nullptr),
     row<msg::FlightInformation>(write_flight_information),
-    row<msg::MountOrientation>(nullptr),
+    row<msg::MountOrientation>(write_mount_orientation),
     row<msg::VideoStreamStatus>(nullptr),
-    row<msg::GimbalManagerStatus>(nullptr),
-    row<msg::GimbalDeviceAttitudeStatus>(nullptr),
+    row<msg::GimbalManagerInformation>(write_gimbal_manager_information),
+    row<msg::GimbalManagerStatus>(write_gimbal_manager_status),
+    row<msg::GimbalDeviceInformation>(write_gimbal_device_information),
+    row<msg::GimbalDeviceAttitudeStatus>(write_gimbal_device_attitude_status),
     row<msg::EscInfo>(write_esc_info),
     row<msg::EscStatus>(write_esc_status),
     row<msg::ObstacleDistance>(nullptr),
