@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands for what the vehicle carries: gimbal, servos, relays, logs. Cameras, grippers and winches are not simulated, so
-// their commands have no row here and are answered UNSUPPORTED at once; PX4 leaves some of them without any answer.
+// Commands for what the vehicle carries: gimbal, servos, relays, logs. Cameras, grippers and winches are not simulated,
+// so their commands have no row here and are answered UNSUPPORTED at once; PX4 leaves some of them without any answer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,7 +49,8 @@ Outcome set_relay(Parts& parts, const Command& command, Moment /*now*/) {
     return parts.servos.set_relay(command.param(1), command.param(2)) ? Result::accepted : Result::failed;
 }
 
-// Tests of single motors, and changes of their direction, are for a vehicle whose propellers may not turn by themselves.
+// Tests of single motors, and changes of their direction, are for a vehicle whose propellers may not turn by
+// themselves.
 Outcome only_disarmed(Parts& parts, const Command& /*command*/, Moment /*now*/) {
     return parts.flight.armed() ? Result::denied : Result::accepted;
 }

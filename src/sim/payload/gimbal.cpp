@@ -27,7 +27,7 @@ std::uint32_t flags_of(double value) noexcept {
     return value >= 0 && value <= 0xffff ? static_cast<std::uint32_t>(value) : 0;
 }
 
-// Clients send each angle as they like, but not turns without end.
+// Clients may send any angle; absurd ones count as not given.
 double angle_of(double radians) noexcept { return std::abs(radians) < 1e3 ? radians : nan; }
 
 GimbalAim aim_of(const msg::GimbalManagerSetAttitude& m) {

@@ -40,7 +40,7 @@ void GimbalMotion::center(double heading) noexcept {
 
 void GimbalMotion::step(double dt) noexcept {
     pitch_.step(dt, pitch_lowest, pitch_highest);
-    yaw_.step(dt, -2 * pi, 2 * pi);  // yaw turns without end
+    yaw_.step(dt, -2 * pi, 2 * pi);  // yaw has no stops
     yaw_.target = wrap_pi(yaw_.target);
     yaw_.angle = wrap_pi(yaw_.angle);
 }

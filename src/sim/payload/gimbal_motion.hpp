@@ -9,7 +9,7 @@
 
 namespace mavloom::sim {
 
-// What a client asks for; `nan`: unchanged. A rate moves the axis until the next order.
+// An order of a client; `nan`: unchanged. A rate moves the axis until the next order.
 struct GimbalAim {
     double pitch, yaw;
     double pitch_rate, yaw_rate;  // rad/s

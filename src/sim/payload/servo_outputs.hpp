@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Servo outputs that clients set themselves: DO_SET_SERVO, DO_SET_ACTUATOR, relays. Private to module sim; a plain value.
+// Servo outputs that clients set themselves: DO_SET_SERVO, DO_SET_ACTUATOR, relays. Private to module sim; a plain
+// value.
 #pragma once
 
 #include <algorithm>

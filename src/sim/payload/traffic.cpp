@@ -86,8 +86,8 @@ Traffic::Traffic(Parts& parts) : parts_(parts) {
     if (!aircraft_.empty()) next_ = parts.now.flight + period / 2;
 }
 
-// Each aircraft transmits once a second; they take turns, so that their messages do not burst. Nor do they after a stall:
-// what was not received then is lost, as over the air.
+// Each aircraft transmits once a second; they take turns, so that their messages do not burst. Nor do they after a
+// stall: what was not received then is lost, as over the air.
 void Traffic::pump(Moment now) {
     caught_up_ = std::exchange(last_pump_, now.real) == now.real ? caught_up_ + 1 : 0;
     const std::uint64_t turn = turns_++;

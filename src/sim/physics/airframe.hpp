@@ -68,7 +68,7 @@ struct Setpoint {
     SpeedLimits limits;
 };
 
-// What surrounds the vehicle during one step.
+// Air, ground and supply around the vehicle during one step.
 struct Surroundings {
     Vector3 wind = Vector3::Zero();  // m/s, the direction that the air moves to
     double ground = 0;               // `position.z` of the ground below
@@ -76,7 +76,7 @@ struct Surroundings {
     double supply = 1;               // battery voltage relative to full; scales the thrust
 };
 
-// What the inner loops follow, for ATTITUDE_TARGET and POSITION_TARGET_LOCAL_NED.
+// Targets of the inner loops, for ATTITUDE_TARGET and POSITION_TARGET_LOCAL_NED.
 struct InnerTargets {
     Quaternion attitude = Quaternion::Identity();
     Vector3 rates = Vector3::Zero();
@@ -94,19 +94,19 @@ struct Actuators {
 // How the kinds of vehicles read a Setpoint, beyond what its comments state:
 //
 // Plane, in trajectory, waypoint and circle:
-// - On the ground, armed, a target above the ground starts a take-off run: full throttle along the present heading until
-//   the wings carry, then a climb at `limits.up` with little bank near the ground. Otherwise the plane brakes.
-// - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory), flares,
-//   rolls out and stops.
+// - On the ground, armed, a target above the ground starts a take-off run: full throttle along the present heading
+//   until the wings carry, then a climb at `limits.up` with little bank near the ground. Otherwise the plane brakes.
+// - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory),
+//   flares, rolls out and stops.
 // - trajectory with a horizontal position: the plane flies there and circles around it with `radius` (0: 50 m).
 //   With a horizontal velocity: its direction is the course, its length the ground speed. With `yaw`: a course only.
 //   With `yaw_rate`: a turn. With none of these: wings level. Without altitude and climb rate: the altitude is held.
 // - attitude ignores yaw: the plane coordinates its turns.
 //
 // Rover:
-// - trajectory with a horizontal position: it drives there and stops. With a velocity: it turns to that course and drives.
-//   With velocity and `yaw` or `yaw_rate`: that heading or turn; the velocity's share along the heading is the speed, and
-//   may be negative.
+// - trajectory with a horizontal position: it drives there and stops. With a velocity: it turns to that course and
+//   drives. With velocity and `yaw` or `yaw_rate`: that heading or turn; the velocity's share along the heading is the
+//   speed, and may be negative.
 // - waypoint: it stops at `position` unless the next leg comes first.
 class Airframe {
 public:

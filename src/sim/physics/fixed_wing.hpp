@@ -21,7 +21,7 @@ private:
     void move(const wing::Command& command, const wing::Situation& now, double supply);
     // Newtons of the gear, straight up.
     [[nodiscard]] double gear_force(double height) const;
-    // What wheels and brakes do to the horizontal velocity within one step.
+    // The velocity after wheels and brakes acted on its horizontal part for one step.
     [[nodiscard]] Vector3 with_wheels(const Vector3& velocity, double load, bool brakes, double yaw) const;
     [[nodiscard]] Vector3 rates_in_air(const wing::Command& command, const wing::Airflow& air) const;
     [[nodiscard]] Vector3 rates_on_ground(const wing::Command& command, const wing::Situation& now) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A car-like rover on flat ground. Private to module sim; single owner; nothing allocates.
 //
-// Speed and steering follow their wanted values with a lag and within limits of acceleration. The turn rate is the speed
-// times the curvature that the front wheels set (kinematic bicycle), and the wheels do not slide.
+// Speed and steering follow their wanted values with a lag and within limits of acceleration. The turn rate is the
+// speed times the curvature that the front wheels set (kinematic bicycle), and the wheels do not slide.
 #pragma once
 
 #include "sim/physics/airframe.hpp"
@@ -15,7 +15,7 @@ public:
     void place(const Vector3& position, double heading) override;
 
 private:
-    // What the driver asks of motor and front wheels.
+    // Orders of the driver to motor and front wheels.
     struct Wish {
         double speed = 0;      // m/s along the heading; negative: reverse
         double curvature = 0;  // 1/m, positive to the right

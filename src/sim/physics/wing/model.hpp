@@ -2,8 +2,8 @@
 // Aerodynamics of a small plane: lift, drag, side force and thrust. Private to module sim; pure functions.
 //
 // The numbers describe a model plane of 1.5 kg with 0.35 m^2 of wing: it stalls at 8 m/s and cruises at 15. Lift is
-// linear up to the stall, then that of a flat plate. Source of the formulas: Beard and McLain, "Small Unmanned Aircraft"
-// (2012), chapter 4.
+// linear up to the stall, then that of a flat plate. Source of the formulas: Beard and McLain, "Small Unmanned
+// Aircraft" (2012), chapter 4.
 #pragma once
 
 #include "sim/physics/rotation.hpp"

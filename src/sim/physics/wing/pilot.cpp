@@ -71,8 +71,8 @@ double bank_limit(const SpeedLimits& limits, const Situation& now) {
     return std::min(by_height, by_stall);
 }
 
-// The bank at which the plane turns with this rate over the ground. The wings pull at a right angle to the airspeed, the
-// turn needs the share at a right angle to the ground speed.
+// The bank at which the plane turns with this rate over the ground. The wings pull at a right angle to the airspeed,
+// the turn needs the share at a right angle to the ground speed.
 double bank_for(double turn_rate, const Situation& now) {
     const Vector3& velocity = now.motion.velocity;
     const double speed = std::hypot(velocity.x(), velocity.y());
@@ -103,7 +103,7 @@ double wanted_airspeed(const Setpoint& setpoint, const SpeedLimits& limits, cons
 
 double drag(const Airflow& air) { return air.pressure * area * drag_coefficient(air.attack); }
 
-// What the motor can provide beyond the drag, as a climb rate.
+// The power that the motor has beyond the drag, as a climb rate.
 double greatest_climb(const Airflow& air) {
     return (0.95 * full_thrust(air.speed) - drag(air)) * air.speed / (mass * gravity);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The autopilot of a plane: from a set-point to an attitude and a throttle. Private to module sim; single owner; nothing
-// allocates.
+// The autopilot of a plane: from a set-point to an attitude and a throttle. Private to module sim; single owner;
+// nothing allocates.
 //
 // Altitude and airspeed share one budget of energy: the throttle provides the energy that climb and acceleration need,
 // and pitch shares it out. When the air is too slow, speed comes first. Source of the idea: PX4 user guide, "Fixed-wing
