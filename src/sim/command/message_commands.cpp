@@ -23,14 +23,14 @@ using namespace msg;
 
 constexpr MessageId no_message{0xffffffff};
 
-MessageId message_of(const Command& command) noexcept {
+MessageId asked_message(const Command& command) noexcept {
     constexpr float ids = 1 << 24;
     const float id = command.param(1);
     return id >= 0 && id < ids ? MessageId{static_cast<std::uint32_t>(id)} : no_message;
 }
 
 // Microseconds on the wire: negative is off, 0 the default. Empty here: the default.
-std::optional<Nanoseconds> interval_of(float microseconds) noexcept {
+std::optional<Nanoseconds> asked_interval(float microseconds) noexcept {
     constexpr float shortest = 1, longest = 2e9f;  // the longest that MESSAGE_INTERVAL can report
     if (microseconds == 0) return std::nullopt;
     if (microseconds < 0) return Nanoseconds{0};
@@ -40,8 +40,8 @@ std::optional<Nanoseconds> interval_of(float microseconds) noexcept {
 // PX4 answers FAILED for a message that it does not stream, ArduPilot DENIED.
 Outcome set_message_interval(Parts& parts, const Command& command, Moment now) {
     if (std::isnan(command.param(2))) return Result::denied;
-    const auto interval = interval_of(command.param(2));
-    if (parts.streams.set_interval(command.from.link, message_of(command), interval, now.flight))
+    const auto interval = asked_interval(command.param(2));
+    if (parts.streams.set_interval(command.from.link, asked_message(command), interval, now.flight))
         return Result::accepted;
     return parts.firmware.is_px4() ? Result::failed : Result::denied;
 }
@@ -53,7 +53,7 @@ std::int32_t microseconds_of(const std::optional<Nanoseconds>& interval) noexcep
 }
 
 Outcome get_message_interval(Parts& parts, const Command& command, Moment /*now*/) {
-    const MessageId message = message_of(command);
+    const MessageId message = asked_message(command);
     if (message.value > 0xffff) return Result::denied;
     const auto interval = parts.streams.interval(command.from.link, message);
     parts.radio.send(command.from.link, MessageInterval{.message_id = static_cast<std::uint16_t>(message.value),
@@ -64,7 +64,7 @@ Outcome get_message_interval(Parts& parts, const Command& command, Moment /*now*
 // The message goes out before the acknowledgement; clients that get it afterwards start a timer of a second.
 Outcome request_message(Parts& parts, const Command& command, Moment /*now*/) {
     const double index = std::isnan(command.param(2)) ? 0 : double{command.param(2)};
-    return send_requested(parts, command.from.link, message_of(command), index);
+    return send_requested(parts, command.from.link, asked_message(command), index);
 }
 
 template <class Message>
@@ -72,7 +72,7 @@ Outcome request(Parts& parts, const Command& command, Moment /*now*/) {
     return send_requested(parts, command.from.link, Message::id, 0);
 }
 
-constexpr std::array rows{
+constexpr std::array message_rows{
     CommandRow{MAV_CMD_GET_HOME_POSITION, request<HomePosition>},
     CommandRow{MAV_CMD_GET_MESSAGE_INTERVAL, get_message_interval},
     CommandRow{MAV_CMD_SET_MESSAGE_INTERVAL, set_message_interval},
@@ -84,6 +84,6 @@ constexpr std::array rows{
 
 }  // namespace
 
-std::span<const CommandRow> message_commands() noexcept { return rows; }
+std::span<const CommandRow> message_commands() noexcept { return message_rows; }
 
 }  // namespace mavloom::sim

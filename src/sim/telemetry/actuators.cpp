@@ -95,7 +95,7 @@ bool write_servo_output_raw(const View& view, ByteSpan payload) {
 bool write_actuator_control_target(const View& view, ByteSpan payload) {
     msg::ActuatorControlTarget message{.time_usec = boot_us(view)};
     const auto controls = controls_of(view.options.kind, view.flight.airframe().actuators().outputs);
-    if (view.flight.armed()) std::ranges::transform(controls, message.controls.begin(), to_float);
+    if (view.flight.armed()) std::ranges::transform(controls, message.controls.begin(), as_float);
     return put(message, payload);
 }
 
@@ -103,7 +103,7 @@ bool write_actuator_output_status(const View& view, ByteSpan payload) {
     const Actuators& actuators = view.flight.airframe().actuators();
     const std::size_t used = std::min<std::size_t>(actuators.used, Actuators::count);
     msg::ActuatorOutputStatus message{.time_usec = boot_us(view), .active = (1u << used) - 1};
-    for (std::size_t i = 0; i < used; ++i) message.actuator[i] = to_float(actuators.outputs[i]);
+    for (std::size_t i = 0; i < used; ++i) message.actuator[i] = as_float(actuators.outputs[i]);
     return put(message, payload);
 }
 
@@ -126,8 +126,8 @@ bool write_esc_status(const View& view, ByteSpan payload) {
     const bool turns = view.flight.armed();
     for (std::size_t i = 0; turns && i < motors.count; ++i) {
         message.rpm[i] = saturated<std::int32_t>(full_speed * std::sqrt(std::max(motors.outputs[i], 0.0)));
-        message.voltage[i] = to_float(view.flight.battery().voltage());
-        message.current[i] = to_float(view.flight.battery().current() / motors.count);
+        message.voltage[i] = as_float(view.flight.battery().voltage());
+        message.current[i] = as_float(view.flight.battery().current() / motors.count);
     }
     return put(message, payload);
 }

@@ -30,10 +30,10 @@ bool write_ahrs(const View& /*view*/, ByteSpan payload) {
 bool write_ahrs2(const View& view, ByteSpan payload) {
     const Euler& euler = view.flight.estimate().euler;
     const GeoPoint& position = view.flight.position();
-    return put(msg::Ahrs2{.roll = to_float(euler.roll),
-                          .pitch = to_float(euler.pitch),
-                          .yaw = to_float(euler.yaw),
-                          .altitude = to_float(position.altitude),
+    return put(msg::Ahrs2{.roll = as_float(euler.roll),
+                          .pitch = as_float(euler.pitch),
+                          .yaw = as_float(euler.yaw),
+                          .altitude = as_float(position.altitude),
                           .lat = to_degrees_e7(position.latitude),
                           .lng = to_degrees_e7(position.longitude)},
                payload);
@@ -45,15 +45,15 @@ bool write_simstate(const View& view, ByteSpan payload) {
     const Euler euler = to_euler(truth.attitude);
     const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
     const GeoPoint position = view.flight.frame().to_geo(truth.position);
-    return put(msg::Simstate{.roll = to_float(euler.roll),
-                             .pitch = to_float(euler.pitch),
-                             .yaw = to_float(euler.yaw),
-                             .xacc = to_float(force.x()),
-                             .yacc = to_float(force.y()),
-                             .zacc = to_float(force.z()),
-                             .xgyro = to_float(truth.rates.x()),
-                             .ygyro = to_float(truth.rates.y()),
-                             .zgyro = to_float(truth.rates.z()),
+    return put(msg::Simstate{.roll = as_float(euler.roll),
+                             .pitch = as_float(euler.pitch),
+                             .yaw = as_float(euler.yaw),
+                             .xacc = as_float(force.x()),
+                             .yacc = as_float(force.y()),
+                             .zacc = as_float(force.z()),
+                             .xgyro = as_float(truth.rates.x()),
+                             .ygyro = as_float(truth.rates.y()),
+                             .zgyro = as_float(truth.rates.z()),
                              .lat = to_degrees_e7(position.latitude),
                              .lng = to_degrees_e7(position.longitude)},
                payload);
@@ -76,9 +76,9 @@ bool write_wind(const View& view, ByteSpan payload) {
     const Vector3& wind = view.flight.wind();
     const double from = wrap_2pi(std::atan2(-wind.y(), -wind.x()));
     const double speed = std::hypot(wind.x(), wind.y());
-    return put(msg::Wind{.direction = to_float(speed > 0 ? to_degrees(from) : 0),
-                         .speed = to_float(speed),
-                         .speed_z = to_float(wind.z())},
+    return put(msg::Wind{.direction = as_float(speed > 0 ? to_degrees(from) : 0),
+                         .speed = as_float(speed),
+                         .speed_z = as_float(wind.z())},
                payload);
 }
 
@@ -91,14 +91,14 @@ bool write_terrain_report(const View& view, ByteSpan payload) {
     return put(msg::TerrainReport{.lat = to_degrees_e7(position.latitude),
                                   .lon = to_degrees_e7(position.longitude),
                                   .spacing = 100,
-                                  .terrain_height = to_float(view.flight.ground_altitude()),
-                                  .current_height = to_float(position.altitude - view.flight.ground_altitude()),
+                                  .terrain_height = as_float(view.flight.ground_altitude()),
+                                  .current_height = as_float(position.altitude - view.flight.ground_altitude()),
                                   .loaded = 504},
                payload);
 }
 
 bool write_rangefinder(const View& view, ByteSpan payload) {
-    return put(msg::Rangefinder{.distance = to_float(height_of(view))}, payload);
+    return put(msg::Rangefinder{.distance = as_float(height_of(view))}, payload);
 }
 
 bool write_mcu_status(const View& /*view*/, ByteSpan payload) {

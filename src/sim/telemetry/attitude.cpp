@@ -17,7 +17,7 @@ namespace {
 std::array<float, 21> diagonal(const std::array<double, 6>& variances) noexcept {
     constexpr std::array<std::size_t, 6> places{0, 6, 11, 15, 18, 20};
     std::array<float, 21> matrix{};
-    for (std::size_t i = 0; i < places.size(); ++i) matrix[places[i]] = to_float(variances[i]);
+    for (std::size_t i = 0; i < places.size(); ++i) matrix[places[i]] = as_float(variances[i]);
     return matrix;
 }
 
@@ -27,18 +27,18 @@ constexpr double square(double x) noexcept { return x * x; }
 
 std::array<float, 4> quaternion_on_wire(const Quaternion& q) noexcept {
     const double sign = q.w() < 0 ? -1 : 1;
-    return {to_float(sign * q.w()), to_float(sign * q.x()), to_float(sign * q.y()), to_float(sign * q.z())};
+    return {as_float(sign * q.w()), as_float(sign * q.x()), as_float(sign * q.y()), as_float(sign * q.z())};
 }
 
 bool write_attitude(const View& view, ByteSpan payload) {
     const Estimate& estimate = view.flight.estimate();
     return put(msg::Attitude{.time_boot_ms = boot_ms(view),
-                             .roll = to_float(estimate.euler.roll),
-                             .pitch = to_float(estimate.euler.pitch),
-                             .yaw = to_float(estimate.euler.yaw),
-                             .rollspeed = to_float(estimate.rates.x()),
-                             .pitchspeed = to_float(estimate.rates.y()),
-                             .yawspeed = to_float(estimate.rates.z())},
+                             .roll = as_float(estimate.euler.roll),
+                             .pitch = as_float(estimate.euler.pitch),
+                             .yaw = as_float(estimate.euler.yaw),
+                             .rollspeed = as_float(estimate.rates.x()),
+                             .pitchspeed = as_float(estimate.rates.y()),
+                             .yawspeed = as_float(estimate.rates.z())},
                payload);
 }
 
@@ -50,9 +50,9 @@ bool write_attitude_quaternion(const View& view, ByteSpan payload) {
                                        .q2 = q[1],
                                        .q3 = q[2],
                                        .q4 = q[3],
-                                       .rollspeed = to_float(estimate.rates.x()),
-                                       .pitchspeed = to_float(estimate.rates.y()),
-                                       .yawspeed = to_float(estimate.rates.z())},
+                                       .rollspeed = as_float(estimate.rates.x()),
+                                       .pitchspeed = as_float(estimate.rates.y()),
+                                       .yawspeed = as_float(estimate.rates.z())},
                payload);
 }
 
@@ -65,16 +65,16 @@ bool write_odometry(const View& view, ByteSpan payload) {
     return put(msg::Odometry{.time_usec = boot_us(view),
                              .frame_id = msg::MAV_FRAME_LOCAL_NED,
                              .child_frame_id = msg::MAV_FRAME_LOCAL_NED,
-                             .x = to_float(estimate.position.x()),
-                             .y = to_float(estimate.position.y()),
-                             .z = to_float(estimate.position.z()),
+                             .x = as_float(estimate.position.x()),
+                             .y = as_float(estimate.position.y()),
+                             .z = as_float(estimate.position.z()),
                              .q = quaternion_on_wire(estimate.attitude),
-                             .vx = to_float(estimate.velocity.x()),
-                             .vy = to_float(estimate.velocity.y()),
-                             .vz = to_float(estimate.velocity.z()),
-                             .rollspeed = to_float(estimate.rates.x()),
-                             .pitchspeed = to_float(estimate.rates.y()),
-                             .yawspeed = to_float(estimate.rates.z()),
+                             .vx = as_float(estimate.velocity.x()),
+                             .vy = as_float(estimate.velocity.y()),
+                             .vz = as_float(estimate.velocity.z()),
+                             .rollspeed = as_float(estimate.rates.x()),
+                             .pitchspeed = as_float(estimate.rates.y()),
+                             .yawspeed = as_float(estimate.rates.z()),
                              .pose_covariance = diagonal({position, position, 1.5e-3, 3.8e-4, 3.8e-4, 2.3e-2}),
                              .velocity_covariance = diagonal({velocity, velocity, 1e-3, 0, 0, 0}),
                              .estimator_type = msg::MAV_ESTIMATOR_TYPE_AUTOPILOT},
@@ -90,9 +90,9 @@ bool write_hil_state_quaternion(const View& view, ByteSpan payload) {
     const auto milli_g = [](double m_s2) { return saturated<std::int16_t>(m_s2 / gravity * 1e3); };
     return put(msg::HilStateQuaternion{.time_usec = boot_us(view),
                                        .attitude_quaternion = quaternion_on_wire(truth.attitude),
-                                       .rollspeed = to_float(truth.rates.x()),
-                                       .pitchspeed = to_float(truth.rates.y()),
-                                       .yawspeed = to_float(truth.rates.z()),
+                                       .rollspeed = as_float(truth.rates.x()),
+                                       .pitchspeed = as_float(truth.rates.y()),
+                                       .yawspeed = as_float(truth.rates.z()),
                                        .lat = to_degrees_e7(position.latitude),
                                        .lon = to_degrees_e7(position.longitude),
                                        .alt = to_mm(position.altitude),

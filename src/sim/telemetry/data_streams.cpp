@@ -11,16 +11,16 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr std::array handled_ids{msg::RequestDataStream::id};
+constexpr std::array data_stream_ids{msg::RequestDataStream::id};
 
-Nanoseconds interval_of(const msg::RequestDataStream& request) noexcept {
+Nanoseconds group_interval(const msg::RequestDataStream& request) noexcept {
     if (request.start_stop == 0 || request.req_message_rate == 0) return Nanoseconds{0};
     return Nanoseconds{1'000'000'000 / request.req_message_rate};
 }
 
 }  // namespace
 
-std::span<const MessageId> DataStreams::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> DataStreams::handled() const noexcept { return data_stream_ids; }
 
 void DataStreams::receive(const Client& from, MessageId /*id*/, ByteView payload, Moment now) {
     if (parts_.firmware.is_px4()) return;
@@ -28,7 +28,7 @@ void DataStreams::receive(const Client& from, MessageId /*id*/, ByteView payload
     for (const StreamGroup& group : stream_groups()) {
         if (request.req_stream_id != msg::MAV_DATA_STREAM_ALL && request.req_stream_id != group.id) continue;
         for (const MessageId message : group.messages)
-            (void)parts_.streams.set_interval(from.link, message, interval_of(request), now.flight);
+            (void)parts_.streams.set_interval(from.link, message, group_interval(request), now.flight);
     }
 }
 

@@ -17,14 +17,14 @@ using namespace msg;
 // ESTIMATOR_STATUS_FLAGS; EKF_STATUS_FLAGS has the same bits.
 constexpr unsigned constant_position = ESTIMATOR_CONST_POS_MODE;
 constexpr unsigned absolute_position = ESTIMATOR_POS_HORIZ_ABS | ESTIMATOR_PRED_POS_HORIZ_ABS;
-constexpr unsigned always = ESTIMATOR_ATTITUDE | ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_VELOCITY_VERT |
-                            ESTIMATOR_POS_HORIZ_REL | ESTIMATOR_POS_VERT_ABS | ESTIMATOR_PRED_POS_HORIZ_REL;
+constexpr unsigned without_position = ESTIMATOR_ATTITUDE | ESTIMATOR_VELOCITY_HORIZ | ESTIMATOR_VELOCITY_VERT |
+                                      ESTIMATOR_POS_HORIZ_REL | ESTIMATOR_POS_VERT_ABS | ESTIMATOR_PRED_POS_HORIZ_REL;
 
 // PX4 also reports a constant position while the vehicle rests on the ground.
 unsigned estimator_flags(const View& view) noexcept {
     const bool is_grounded = view.flight.landed() == LandedState::on_ground;
     const bool has_position = view.flight.sensors().has_position();
-    unsigned flags = always | (has_position ? absolute_position : constant_position);
+    unsigned flags = without_position | (has_position ? absolute_position : constant_position);
     if (view.firmware.is_px4()) flags |= ESTIMATOR_POS_VERT_AGL | (is_grounded ? constant_position : 0);
     return flags;
 }
@@ -39,7 +39,7 @@ TestRatios test_ratios(const View& view) noexcept {
     const Estimate& estimate = view.flight.estimate();
     const auto ratio = [](double difference, double deviation) {
         const double normalised = deviation > 0 ? difference / (gate * deviation) : 0;
-        return to_float(std::clamp(normalised * normalised, 0.001, 0.5));
+        return as_float(std::clamp(normalised * normalised, 0.001, 0.5));
     };
     const Vector3 apart = fix.position - estimate.position;
     return {ratio((fix.velocity - estimate.velocity).norm(), fix.speed_m_s),
@@ -61,7 +61,7 @@ bool write_estimator_status(const View& view, ByteSpan payload) {
                                .mag_ratio = magnetometer_ratio,
                                .hagl_ratio = terrain_ratio,
                                .tas_ratio = float_nan,
-                               .pos_horiz_accuracy = to_float(view.flight.sensors().position_accuracy()),
+                               .pos_horiz_accuracy = as_float(view.flight.sensors().position_accuracy()),
                                .pos_vert_accuracy = is_grounded ? 0.05f : 0.27f},
                payload);
 }
@@ -98,11 +98,11 @@ bool write_ekf_status_report(const View& view, ByteSpan payload) {
 bool write_wind_cov(const View& view, ByteSpan payload) {
     const Vector3& wind = view.flight.wind();
     return put(WindCov{.time_usec = boot_us(view),
-                       .wind_x = to_float(wind.x()),
-                       .wind_y = to_float(wind.y()),
-                       .wind_z = to_float(wind.z()),
+                       .wind_x = as_float(wind.x()),
+                       .wind_y = as_float(wind.y()),
+                       .wind_z = as_float(wind.z()),
                        .var_horiz = 0.25f,
-                       .wind_alt = to_float(view.flight.position().altitude),
+                       .wind_alt = as_float(view.flight.position().altitude),
                        .horiz_accuracy = 0.5f},
                payload);
 }

@@ -36,12 +36,12 @@ bool write_local_position_ned(const View& view, ByteSpan payload) {
     if (!view.flight.has_origin()) return false;
     const Estimate& estimate = view.flight.estimate();
     return put(msg::LocalPositionNed{.time_boot_ms = boot_ms(view),
-                                     .x = to_float(estimate.position.x()),
-                                     .y = to_float(estimate.position.y()),
-                                     .z = to_float(estimate.position.z()),
-                                     .vx = to_float(estimate.velocity.x()),
-                                     .vy = to_float(estimate.velocity.y()),
-                                     .vz = to_float(estimate.velocity.z())},
+                                     .x = as_float(estimate.position.x()),
+                                     .y = as_float(estimate.position.y()),
+                                     .z = as_float(estimate.position.z()),
+                                     .vx = as_float(estimate.velocity.x()),
+                                     .vy = as_float(estimate.velocity.y()),
+                                     .vz = as_float(estimate.velocity.z())},
                payload);
 }
 
@@ -80,10 +80,10 @@ bool write_home_position(const View& view, ByteSpan payload) {
     return put(msg::HomePosition{.latitude = to_degrees_e7(home->latitude),
                                  .longitude = to_degrees_e7(home->longitude),
                                  .altitude = to_mm(home->altitude),
-                                 .x = to_float(local.x()),
-                                 .y = to_float(local.y()),
-                                 .z = to_float(local.z()),
-                                 .q = {to_float(std::cos(half_yaw)), 0, 0, to_float(std::sin(half_yaw))},
+                                 .x = as_float(local.x()),
+                                 .y = as_float(local.y()),
+                                 .z = as_float(local.z()),
+                                 .q = {as_float(std::cos(half_yaw)), 0, 0, as_float(std::sin(half_yaw))},
                                  .time_usec = boot_us(view)},
                payload);
 }
@@ -91,12 +91,12 @@ bool write_home_position(const View& view, ByteSpan payload) {
 bool write_vfr_hud(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
     const Vector3& velocity = flight.estimate().velocity;
-    return put(msg::VfrHud{.airspeed = to_float(airspeed_of(view)),
-                           .groundspeed = to_float(std::hypot(velocity.x(), velocity.y())),
+    return put(msg::VfrHud{.airspeed = as_float(airspeed_of(view)),
+                           .groundspeed = as_float(std::hypot(velocity.x(), velocity.y())),
                            .heading = static_cast<std::int16_t>(to_whole_degrees(flight.estimate().heading)),
                            .throttle = saturated<std::uint16_t>(flight.armed() ? 100 * flight.airframe().thrust() : 0),
-                           .alt = to_float(flight.position().altitude),
-                           .climb = to_float(-velocity.z())},
+                           .alt = as_float(flight.position().altitude),
+                           .climb = as_float(-velocity.z())},
                payload);
 }
 
@@ -104,12 +104,12 @@ bool write_altitude(const View& view, ByteSpan payload) {
     const Flight& flight = view.flight;
     const double ground = flight.ground_altitude() - flight.frame().origin().altitude;
     return put(msg::Altitude{.time_usec = boot_us(view),
-                             .altitude_monotonic = to_float(flight.sensors().imu().pressure_altitude),
-                             .altitude_amsl = to_float(flight.position().altitude),
-                             .altitude_local = to_float(-flight.estimate().position.z()),
-                             .altitude_relative = to_float(relative_altitude_of(view)),
-                             .altitude_terrain = to_float(ground),
-                             .bottom_clearance = to_float(height_of(view))},
+                             .altitude_monotonic = as_float(flight.sensors().imu().pressure_altitude),
+                             .altitude_amsl = as_float(flight.position().altitude),
+                             .altitude_local = as_float(-flight.estimate().position.z()),
+                             .altitude_relative = as_float(relative_altitude_of(view)),
+                             .altitude_terrain = as_float(ground),
+                             .bottom_clearance = as_float(height_of(view))},
                payload);
 }
 

@@ -3,222 +3,270 @@
 
 #include <array>
 
+#include "mavloom/msg/actuator_control_target.hpp"
+#include "mavloom/msg/adsb_vehicle.hpp"
+#include "mavloom/msg/ahrs.hpp"
+#include "mavloom/msg/ahrs2.hpp"
+#include "mavloom/msg/altitude.hpp"
+#include "mavloom/msg/attitude.hpp"
+#include "mavloom/msg/attitude_quaternion.hpp"
+#include "mavloom/msg/attitude_target.hpp"
+#include "mavloom/msg/battery_status.hpp"
+#include "mavloom/msg/current_mode.hpp"
+#include "mavloom/msg/distance_sensor.hpp"
+#include "mavloom/msg/ekf_status_report.hpp"
+#include "mavloom/msg/esc_info.hpp"
+#include "mavloom/msg/esc_status.hpp"
+#include "mavloom/msg/estimator_sensor_fusion_status.hpp"
+#include "mavloom/msg/estimator_status.hpp"
+#include "mavloom/msg/extended_sys_state.hpp"
+#include "mavloom/msg/fence_status.hpp"
+#include "mavloom/msg/gimbal_device_attitude_status.hpp"
+#include "mavloom/msg/gimbal_manager_status.hpp"
+#include "mavloom/msg/global_position_int.hpp"
+#include "mavloom/msg/gnss_integrity.hpp"
+#include "mavloom/msg/gps_raw_int.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/highres_imu.hpp"
+#include "mavloom/msg/home_position.hpp"
+#include "mavloom/msg/link_node_status.hpp"
+#include "mavloom/msg/local_position_ned.hpp"
+#include "mavloom/msg/mcu_status.hpp"
+#include "mavloom/msg/meminfo.hpp"
+#include "mavloom/msg/mission_current.hpp"
+#include "mavloom/msg/mount_orientation.hpp"
+#include "mavloom/msg/nav_controller_output.hpp"
+#include "mavloom/msg/odometry.hpp"
+#include "mavloom/msg/open_drone_id_location.hpp"
+#include "mavloom/msg/open_drone_id_system.hpp"
+#include "mavloom/msg/orbit_execution_status.hpp"
+#include "mavloom/msg/ping.hpp"
+#include "mavloom/msg/position_target_global_int.hpp"
+#include "mavloom/msg/position_target_local_ned.hpp"
+#include "mavloom/msg/power_status.hpp"
+#include "mavloom/msg/rangefinder.hpp"
+#include "mavloom/msg/raw_imu.hpp"
+#include "mavloom/msg/rc_channels.hpp"
+#include "mavloom/msg/scaled_imu2.hpp"
+#include "mavloom/msg/scaled_imu3.hpp"
+#include "mavloom/msg/scaled_pressure.hpp"
+#include "mavloom/msg/servo_output_raw.hpp"
+#include "mavloom/msg/simstate.hpp"
+#include "mavloom/msg/sys_status.hpp"
+#include "mavloom/msg/system_time.hpp"
+#include "mavloom/msg/terrain_report.hpp"
+#include "mavloom/msg/time_estimate_to_target.hpp"
+#include "mavloom/msg/timesync.hpp"
+#include "mavloom/msg/vfr_hud.hpp"
+#include "mavloom/msg/vibration.hpp"
+#include "mavloom/msg/wind.hpp"
+#include "mavloom/msg/wind_cov.hpp"
+
 namespace mavloom::sim {
 
 namespace {
 
-using enum When;
+using namespace msg;
 
-// Message ids, as far as profiles need them.
-constexpr MessageId heartbeat{0}, sys_status{1}, system_time{2}, ping{4}, link_node_status{8}, gps_raw_int{24},
-    raw_imu{27}, scaled_pressure{29}, attitude{30}, attitude_quaternion{31}, local_position_ned{32},
-    global_position_int{33}, servo_output_raw{36}, mission_current{42}, nav_controller_output{62}, rc_channels{65},
-    vfr_hud{74}, attitude_target{83}, position_target_local_ned{85}, position_target_global_int{87}, highres_imu{105},
-    timesync{111}, scaled_imu2{116}, power_status{125}, scaled_imu3{129}, distance_sensor{132}, terrain_report{136},
-    actuator_control_target{140}, altitude{141}, battery_status{147}, meminfo{152}, fence_status{162}, ahrs{163},
-    simstate{164}, wind_message{168}, rangefinder{173}, ahrs2{178}, ekf_status_report{193}, estimator_status{230},
-    wind_cov{231}, vibration{241}, home_position{242}, extended_sys_state{245}, adsb_vehicle{246},
-    mount_orientation{265}, gimbal_manager_status{281}, gimbal_device_attitude_status{285}, esc_info{290},
-    esc_status{291}, odometry{331}, orbit_execution_status{360}, time_estimate_to_target{380}, current_mode{436},
-    gnss_integrity{441}, estimator_sensor_fusion_status{514}, mcu_status{11039}, open_drone_id_location{12901},
-    open_drone_id_system{12904};
-
-constexpr std::array lite{
-    StreamRate{heartbeat, 1},          StreamRate{sys_status, 1},
-    StreamRate{extended_sys_state, 1}, StreamRate{battery_status, 1},
-    StreamRate{home_position, 1},      StreamRate{mission_current, 1},
-    StreamRate{current_mode, 1},       StreamRate{system_time, 1},
-    StreamRate{servo_output_raw, 1},   StreamRate{rc_channels, 1, remote},
-    StreamRate{wind_cov, 1, wind},     StreamRate{global_position_int, 2},
-    StreamRate{attitude, 2},
+constexpr std::array rates_lite{
+    StreamRate{Heartbeat::id, 1},
+    StreamRate{SysStatus::id, 1},
+    StreamRate{ExtendedSysState::id, 1},
+    StreamRate{BatteryStatus::id, 1},
+    StreamRate{HomePosition::id, 1},
+    StreamRate{MissionCurrent::id, 1},
+    StreamRate{CurrentMode::id, 1},
+    StreamRate{SystemTime::id, 1},
+    StreamRate{ServoOutputRaw::id, 1},
+    StreamRate{RcChannels::id, 1, When::remote},
+    StreamRate{WindCov::id, 1, When::wind},
+    StreamRate{GlobalPositionInt::id, 2},
+    StreamRate{Attitude::id, 2},
 };
 
-constexpr std::array normal{
-    StreamRate{heartbeat, 1},
-    StreamRate{sys_status, 1},
-    StreamRate{extended_sys_state, 1},
-    StreamRate{battery_status, 1},
-    StreamRate{home_position, 1},
-    StreamRate{mission_current, 1},
-    StreamRate{current_mode, 1},
-    StreamRate{system_time, 1},
-    StreamRate{servo_output_raw, 1},
-    StreamRate{rc_channels, 1, remote},
-    StreamRate{wind_cov, 1, wind},
-    StreamRate{wind_message, 1, wind},
-    StreamRate{simstate, 1},
-    StreamRate{adsb_vehicle, 1},
-    StreamRate{gimbal_manager_status, 1, gimbal},
-    StreamRate{gps_raw_int, 5},
-    StreamRate{vfr_hud, 5},
-    StreamRate{global_position_int, 5},
-    StreamRate{altitude, 5},
-    StreamRate{position_target_global_int, 5},
-    StreamRate{scaled_pressure, 5},
-    StreamRate{estimator_status, 5},
-    StreamRate{ekf_status_report, 5},
-    StreamRate{vibration, 5},
-    StreamRate{nav_controller_output, 5},
-    StreamRate{orbit_execution_status, 5},
-    StreamRate{gimbal_device_attitude_status, 5, gimbal},
-    StreamRate{attitude, 10},
-    StreamRate{local_position_ned, 10},
-    StreamRate{position_target_local_ned, 10, armed},
-    StreamRate{attitude_quaternion, 20},
-    StreamRate{actuator_control_target, 20},
-    StreamRate{attitude_target, 20, armed},
+constexpr std::array rates_normal{
+    StreamRate{Heartbeat::id, 1},
+    StreamRate{SysStatus::id, 1},
+    StreamRate{ExtendedSysState::id, 1},
+    StreamRate{BatteryStatus::id, 1},
+    StreamRate{HomePosition::id, 1},
+    StreamRate{MissionCurrent::id, 1},
+    StreamRate{CurrentMode::id, 1},
+    StreamRate{SystemTime::id, 1},
+    StreamRate{ServoOutputRaw::id, 1},
+    StreamRate{RcChannels::id, 1, When::remote},
+    StreamRate{WindCov::id, 1, When::wind},
+    StreamRate{msg::Wind::id, 1, When::wind},
+    StreamRate{Simstate::id, 1},
+    StreamRate{AdsbVehicle::id, 1},
+    StreamRate{GimbalManagerStatus::id, 1, When::gimbal},
+    StreamRate{GpsRawInt::id, 5},
+    StreamRate{VfrHud::id, 5},
+    StreamRate{GlobalPositionInt::id, 5},
+    StreamRate{Altitude::id, 5},
+    StreamRate{PositionTargetGlobalInt::id, 5},
+    StreamRate{ScaledPressure::id, 5},
+    StreamRate{EstimatorStatus::id, 5},
+    StreamRate{EkfStatusReport::id, 5},
+    StreamRate{Vibration::id, 5},
+    StreamRate{NavControllerOutput::id, 5},
+    StreamRate{OrbitExecutionStatus::id, 5},
+    StreamRate{GimbalDeviceAttitudeStatus::id, 5, When::gimbal},
+    StreamRate{Attitude::id, 10},
+    StreamRate{LocalPositionNed::id, 10},
+    StreamRate{PositionTargetLocalNed::id, 10, When::armed},
+    StreamRate{AttitudeQuaternion::id, 20},
+    StreamRate{ActuatorControlTarget::id, 20},
+    StreamRate{AttitudeTarget::id, 20, When::armed},
 };
 
 // The default messages in the four classes of the generator that came before this simulator. Nothing depends on the
 // state of the vehicle.
-constexpr std::array original{
-    StreamRate{heartbeat, 1},
-    StreamRate{sys_status, 1},
-    StreamRate{extended_sys_state, 1},
-    StreamRate{battery_status, 1},
-    StreamRate{home_position, 1},
-    StreamRate{mission_current, 1},
-    StreamRate{current_mode, 1},
-    StreamRate{system_time, 1},
-    StreamRate{servo_output_raw, 1},
-    StreamRate{rc_channels, 1},
-    StreamRate{wind_cov, 1},
-    StreamRate{gps_raw_int, 5},
-    StreamRate{vfr_hud, 5},
-    StreamRate{global_position_int, 5},
-    StreamRate{altitude, 5},
-    StreamRate{position_target_global_int, 5},
-    StreamRate{scaled_pressure, 5},
-    StreamRate{estimator_status, 5},
-    StreamRate{vibration, 5},
-    StreamRate{nav_controller_output, 5},
-    StreamRate{attitude, 10},
-    StreamRate{local_position_ned, 10},
-    StreamRate{position_target_local_ned, 10},
-    StreamRate{attitude_quaternion, 20},
-    StreamRate{actuator_control_target, 20},
-    StreamRate{attitude_target, 20},
+constexpr std::array rates_original{
+    StreamRate{Heartbeat::id, 1},
+    StreamRate{SysStatus::id, 1},
+    StreamRate{ExtendedSysState::id, 1},
+    StreamRate{BatteryStatus::id, 1},
+    StreamRate{HomePosition::id, 1},
+    StreamRate{MissionCurrent::id, 1},
+    StreamRate{CurrentMode::id, 1},
+    StreamRate{SystemTime::id, 1},
+    StreamRate{ServoOutputRaw::id, 1},
+    StreamRate{RcChannels::id, 1},
+    StreamRate{WindCov::id, 1},
+    StreamRate{GpsRawInt::id, 5},
+    StreamRate{VfrHud::id, 5},
+    StreamRate{GlobalPositionInt::id, 5},
+    StreamRate{Altitude::id, 5},
+    StreamRate{PositionTargetGlobalInt::id, 5},
+    StreamRate{ScaledPressure::id, 5},
+    StreamRate{EstimatorStatus::id, 5},
+    StreamRate{Vibration::id, 5},
+    StreamRate{NavControllerOutput::id, 5},
+    StreamRate{Attitude::id, 10},
+    StreamRate{LocalPositionNed::id, 10},
+    StreamRate{PositionTargetLocalNed::id, 10},
+    StreamRate{AttitudeQuaternion::id, 20},
+    StreamRate{ActuatorControlTarget::id, 20},
+    StreamRate{AttitudeTarget::id, 20},
 };
 
 // PX4 1.17, mode "Normal", with the rates that the start script of its simulation raises for ground stations.
-constexpr std::array px4_normal{
-    StreamRate{heartbeat, 1},
-    StreamRate{sys_status, 1},
-    StreamRate{ping, 0.1},
-    StreamRate{link_node_status, 1},
-    StreamRate{gps_raw_int, 5},
-    StreamRate{scaled_pressure, 1},
-    StreamRate{attitude, 50},
-    StreamRate{attitude_quaternion, 50},
-    StreamRate{local_position_ned, 50},
-    StreamRate{global_position_int, 50},
-    StreamRate{servo_output_raw, 50},
-    StreamRate{mission_current, 1},
-    StreamRate{nav_controller_output, 1},
-    StreamRate{rc_channels, 20, remote},
-    StreamRate{vfr_hud, 4},
-    StreamRate{attitude_target, 50},
-    StreamRate{position_target_local_ned, 50},
-    StreamRate{position_target_global_int, 1},
-    StreamRate{distance_sensor, 0.5},
-    StreamRate{altitude, 1},
-    StreamRate{battery_status, 0.5},
-    StreamRate{estimator_status, 0.5},
-    StreamRate{wind_cov, 0.5, wind},
-    StreamRate{vibration, 0.1},
-    StreamRate{home_position, 0.5},
-    StreamRate{extended_sys_state, 1},
-    StreamRate{adsb_vehicle, 5},
-    StreamRate{mount_orientation, 10, gimbal},
-    StreamRate{gimbal_manager_status, 0.5, gimbal},
-    StreamRate{gimbal_device_attitude_status, 5, gimbal},
-    StreamRate{esc_info, 1},
-    StreamRate{esc_status, 1},
-    StreamRate{orbit_execution_status, 2},
-    StreamRate{time_estimate_to_target, 0.5},
-    StreamRate{current_mode, 0.5},
-    StreamRate{gnss_integrity, 1},
-    StreamRate{estimator_sensor_fusion_status, 0.5},
-    StreamRate{open_drone_id_location, 1},
-    StreamRate{open_drone_id_system, 1},
+constexpr std::array rates_px4_normal{
+    StreamRate{Heartbeat::id, 1},
+    StreamRate{SysStatus::id, 1},
+    StreamRate{Ping::id, 0.1},
+    StreamRate{LinkNodeStatus::id, 1},
+    StreamRate{GpsRawInt::id, 5},
+    StreamRate{ScaledPressure::id, 1},
+    StreamRate{Attitude::id, 50},
+    StreamRate{AttitudeQuaternion::id, 50},
+    StreamRate{LocalPositionNed::id, 50},
+    StreamRate{GlobalPositionInt::id, 50},
+    StreamRate{ServoOutputRaw::id, 50},
+    StreamRate{MissionCurrent::id, 1},
+    StreamRate{NavControllerOutput::id, 1},
+    StreamRate{RcChannels::id, 20, When::remote},
+    StreamRate{VfrHud::id, 4},
+    StreamRate{AttitudeTarget::id, 50},
+    StreamRate{PositionTargetLocalNed::id, 50},
+    StreamRate{PositionTargetGlobalInt::id, 1},
+    StreamRate{DistanceSensor::id, 0.5},
+    StreamRate{Altitude::id, 1},
+    StreamRate{BatteryStatus::id, 0.5},
+    StreamRate{EstimatorStatus::id, 0.5},
+    StreamRate{WindCov::id, 0.5, When::wind},
+    StreamRate{Vibration::id, 0.1},
+    StreamRate{HomePosition::id, 0.5},
+    StreamRate{ExtendedSysState::id, 1},
+    StreamRate{AdsbVehicle::id, 5},
+    StreamRate{MountOrientation::id, 10, When::gimbal},
+    StreamRate{GimbalManagerStatus::id, 0.5, When::gimbal},
+    StreamRate{GimbalDeviceAttitudeStatus::id, 5, When::gimbal},
+    StreamRate{EscInfo::id, 1},
+    StreamRate{EscStatus::id, 1},
+    StreamRate{OrbitExecutionStatus::id, 2},
+    StreamRate{TimeEstimateToTarget::id, 0.5},
+    StreamRate{CurrentMode::id, 0.5},
+    StreamRate{GnssIntegrity::id, 1},
+    StreamRate{EstimatorSensorFusionStatus::id, 0.5},
+    StreamRate{OpenDroneIdLocation::id, 1},
+    StreamRate{OpenDroneIdSystem::id, 1},
 };
 
 // PX4 1.17, mode "Onboard". GPS_RAW_INT comes at the rate of the receiver.
-constexpr std::array px4_onboard{
-    StreamRate{heartbeat, 1},
-    StreamRate{sys_status, 5},
-    StreamRate{system_time, 1},
-    StreamRate{ping, 1},
-    StreamRate{link_node_status, 1},
-    StreamRate{gps_raw_int, 8},
-    StreamRate{scaled_pressure, 1},
-    StreamRate{attitude, 100},
-    StreamRate{attitude_quaternion, 50},
-    StreamRate{local_position_ned, 30},
-    StreamRate{global_position_int, 50},
-    StreamRate{servo_output_raw, 10},
-    StreamRate{mission_current, 1},
-    StreamRate{nav_controller_output, 10},
-    StreamRate{rc_channels, 20, remote},
-    StreamRate{vfr_hud, 10},
-    StreamRate{attitude_target, 10},
-    StreamRate{position_target_local_ned, 10},
-    StreamRate{position_target_global_int, 10},
-    StreamRate{highres_imu, 50},
-    StreamRate{timesync, 10},
-    StreamRate{distance_sensor, 10},
-    StreamRate{altitude, 10},
-    StreamRate{battery_status, 0.5},
-    StreamRate{estimator_status, 1},
-    StreamRate{wind_cov, 10, wind},
-    StreamRate{vibration, 0.5},
-    StreamRate{home_position, 0.5},
-    StreamRate{extended_sys_state, 5},
-    StreamRate{adsb_vehicle, 5},
-    StreamRate{mount_orientation, 10, gimbal},
-    StreamRate{gimbal_manager_status, 0.5, gimbal},
-    StreamRate{gimbal_device_attitude_status, 5, gimbal},
-    StreamRate{esc_info, 10},
-    StreamRate{esc_status, 10},
-    StreamRate{odometry, 30},
-    StreamRate{orbit_execution_status, 5},
-    StreamRate{time_estimate_to_target, 0.5},
-    StreamRate{current_mode, 0.5},
-    StreamRate{gnss_integrity, 1},
-    StreamRate{estimator_sensor_fusion_status, 1},
-    StreamRate{open_drone_id_location, 1},
-    StreamRate{open_drone_id_system, 1},
+constexpr std::array rates_px4_onboard{
+    StreamRate{Heartbeat::id, 1},
+    StreamRate{SysStatus::id, 5},
+    StreamRate{SystemTime::id, 1},
+    StreamRate{Ping::id, 1},
+    StreamRate{LinkNodeStatus::id, 1},
+    StreamRate{GpsRawInt::id, 8},
+    StreamRate{ScaledPressure::id, 1},
+    StreamRate{Attitude::id, 100},
+    StreamRate{AttitudeQuaternion::id, 50},
+    StreamRate{LocalPositionNed::id, 30},
+    StreamRate{GlobalPositionInt::id, 50},
+    StreamRate{ServoOutputRaw::id, 10},
+    StreamRate{MissionCurrent::id, 1},
+    StreamRate{NavControllerOutput::id, 10},
+    StreamRate{RcChannels::id, 20, When::remote},
+    StreamRate{VfrHud::id, 10},
+    StreamRate{AttitudeTarget::id, 10},
+    StreamRate{PositionTargetLocalNed::id, 10},
+    StreamRate{PositionTargetGlobalInt::id, 10},
+    StreamRate{HighresImu::id, 50},
+    StreamRate{Timesync::id, 10},
+    StreamRate{DistanceSensor::id, 10},
+    StreamRate{Altitude::id, 10},
+    StreamRate{BatteryStatus::id, 0.5},
+    StreamRate{EstimatorStatus::id, 1},
+    StreamRate{WindCov::id, 10, When::wind},
+    StreamRate{Vibration::id, 0.5},
+    StreamRate{HomePosition::id, 0.5},
+    StreamRate{ExtendedSysState::id, 5},
+    StreamRate{AdsbVehicle::id, 5},
+    StreamRate{MountOrientation::id, 10, When::gimbal},
+    StreamRate{GimbalManagerStatus::id, 0.5, When::gimbal},
+    StreamRate{GimbalDeviceAttitudeStatus::id, 5, When::gimbal},
+    StreamRate{EscInfo::id, 10},
+    StreamRate{EscStatus::id, 10},
+    StreamRate{Odometry::id, 30},
+    StreamRate{OrbitExecutionStatus::id, 5},
+    StreamRate{TimeEstimateToTarget::id, 0.5},
+    StreamRate{CurrentMode::id, 0.5},
+    StreamRate{GnssIntegrity::id, 1},
+    StreamRate{EstimatorSensorFusionStatus::id, 1},
+    StreamRate{OpenDroneIdLocation::id, 1},
+    StreamRate{OpenDroneIdSystem::id, 1},
 };
 
 // ArduPilot's groups (MAV_DATA_STREAM 1, 2, 3, 6, 10, 11, 12).
-constexpr std::array raw_sensors{raw_imu, scaled_imu2, scaled_imu3, scaled_pressure};
-constexpr std::array extended_status{sys_status,
-                                     power_status,
-                                     mcu_status,
-                                     meminfo,
-                                     mission_current,
-                                     gps_raw_int,
-                                     nav_controller_output,
-                                     position_target_global_int,
-                                     fence_status};
-constexpr std::array rc_group{rc_channels, servo_output_raw};
-constexpr std::array position{global_position_int, local_position_ned};
-constexpr std::array extra1{attitude, ahrs2, simstate};
-constexpr std::array extra2{vfr_hud};
-constexpr std::array extra3{system_time,    ahrs,           wind_message,      distance_sensor, rangefinder,
-                            terrain_report, battery_status, ekf_status_report, vibration};
-constexpr std::array groups{
-    StreamGroup{1, raw_sensors}, StreamGroup{2, extended_status}, StreamGroup{3, rc_group}, StreamGroup{6, position},
-    StreamGroup{10, extra1},     StreamGroup{11, extra2},         StreamGroup{12, extra3},
+constexpr std::array group_raw_sensors{RawImu::id, ScaledImu2::id, ScaledImu3::id, ScaledPressure::id};
+constexpr std::array group_extended_status{
+    SysStatus::id,      PowerStatus::id, McuStatus::id,           Meminfo::id,
+    MissionCurrent::id, GpsRawInt::id,   NavControllerOutput::id, PositionTargetGlobalInt::id,
+    FenceStatus::id};
+constexpr std::array group_rc_channels{RcChannels::id, ServoOutputRaw::id};
+constexpr std::array group_position{GlobalPositionInt::id, LocalPositionNed::id};
+constexpr std::array group_extra1{Attitude::id, Ahrs2::id, Simstate::id};
+constexpr std::array group_extra2{VfrHud::id};
+constexpr std::array group_extra3{SystemTime::id,  Ahrs::id,          msg::Wind::id,     DistanceSensor::id,
+                                  Rangefinder::id, TerrainReport::id, BatteryStatus::id, EkfStatusReport::id,
+                                  Vibration::id};
+constexpr std::array group_table{
+    StreamGroup{1, group_raw_sensors}, StreamGroup{2, group_extended_status}, StreamGroup{3, group_rc_channels},
+    StreamGroup{6, group_position},    StreamGroup{10, group_extra1},         StreamGroup{11, group_extra2},
+    StreamGroup{12, group_extra3},
 };
 
 // ArduPilot's simulation streams every group at 4 Hz before anybody asks.
-constexpr auto ardupilot = [] {
-    constexpr std::size_t rows = raw_sensors.size() + extended_status.size() + rc_group.size() + position.size() +
-                                 extra1.size() + extra2.size() + extra3.size();
-    std::array<StreamRate, rows + 1> rates{StreamRate{heartbeat, 1}};
+constexpr auto rates_ardupilot = [] {
+    constexpr std::size_t rows = group_raw_sensors.size() + group_extended_status.size() + group_rc_channels.size() +
+                                 group_position.size() + group_extra1.size() + group_extra2.size() + group_extra3.size();
+    std::array<StreamRate, rows + 1> rates{StreamRate{Heartbeat::id, 1}};
     std::size_t next = 1;
-    for (const StreamGroup& group : groups)
+    for (const StreamGroup& group : group_table)
         for (const MessageId message : group.messages) rates[next++] = {message, 4};
     return rates;
 }();
@@ -227,25 +275,26 @@ constexpr auto ardupilot = [] {
 
 std::span<const StreamRate> rates_of(Profile profile) noexcept {
     switch (profile) {
-        case Profile::lite: return lite;
-        case Profile::normal: return normal;
-        case Profile::px4_normal: return px4_normal;
-        case Profile::px4_onboard: return px4_onboard;
-        case Profile::ardupilot: return ardupilot;
-        case Profile::original: return original;
+        case Profile::lite: return rates_lite;
+        case Profile::normal: return rates_normal;
+        case Profile::px4_normal: return rates_px4_normal;
+        case Profile::px4_onboard: return rates_px4_onboard;
+        case Profile::ardupilot: return rates_ardupilot;
+        case Profile::original: return rates_original;
     }
-    return lite;
+    return rates_lite;
 }
 
 bool holds(When when, const VehicleOptions& options) noexcept {
     switch (when) {
-        case wind: return options.wind.speed_m_s != 0 || options.wind.gust_m_s != 0 || options.kind == Kind::plane;
-        case remote: return options.has_manual_control;
-        case gimbal: return options.has_gimbal;
+        case When::wind:
+            return options.wind.speed_m_s != 0 || options.wind.gust_m_s != 0 || options.kind == Kind::plane;
+        case When::remote: return options.has_manual_control;
+        case When::gimbal: return options.has_gimbal;
         default: return true;
     }
 }
 
-std::span<const StreamGroup> stream_groups() noexcept { return groups; }
+std::span<const StreamGroup> stream_groups() noexcept { return group_table; }
 
 }  // namespace mavloom::sim

@@ -22,7 +22,7 @@ float seconds_of_hour(const View& view) noexcept {
     return static_cast<float>(tenths % 36000) / 10;
 }
 
-void fill_motion(const View& view, OpenDroneIdLocation& message) {
+void fill_fix_motion(const View& view, OpenDroneIdLocation& message) {
     const GpsFix& fix = view.flight.sensors().gps();
     const GeoPoint position = view.flight.frame().to_geo(fix.position);
     const double course = wrap_2pi(std::atan2(fix.velocity.y(), fix.velocity.x()));
@@ -31,7 +31,7 @@ void fill_motion(const View& view, OpenDroneIdLocation& message) {
     message.speed_vertical = to_cm_s(-fix.velocity.z());
     message.latitude = to_degrees_e7(position.latitude);
     message.longitude = to_degrees_e7(position.longitude);
-    message.altitude_geodetic = to_float(std::round(position.altitude));
+    message.altitude_geodetic = as_float(std::round(position.altitude));
 }
 
 }  // namespace
@@ -40,13 +40,13 @@ bool write_open_drone_id_location(const View& view, ByteSpan payload) {
     if (!view.flight.sensors().has_position()) return false;
     const bool is_grounded = view.flight.landed() == LandedState::on_ground;
     OpenDroneIdLocation message{.status = is_grounded ? MAV_ODID_STATUS_GROUND : MAV_ODID_STATUS_AIRBORNE,
-                                .altitude_barometric = to_float(view.flight.sensors().imu().pressure_altitude),
-                                .height = to_float(relative_altitude_of(view)),
+                                .altitude_barometric = as_float(view.flight.sensors().imu().pressure_altitude),
+                                .height = as_float(relative_altitude_of(view)),
                                 .horizontal_accuracy = MAV_ODID_HOR_ACC_1_METER,
                                 .vertical_accuracy = MAV_ODID_VER_ACC_3_METER,
                                 .speed_accuracy = MAV_ODID_SPEED_ACC_1_METERS_PER_SECOND,
                                 .timestamp = seconds_of_hour(view)};
-    fill_motion(view, message);
+    fill_fix_motion(view, message);
     return put(message, payload);
 }
 
@@ -60,7 +60,7 @@ bool write_open_drone_id_system(const View& view, ByteSpan payload) {
                                  .area_count = 1,
                                  .area_ceiling = unknown_altitude,
                                  .area_floor = unknown_altitude,
-                                 .operator_altitude_geo = to_float(home->altitude)},
+                                 .operator_altitude_geo = as_float(home->altitude)},
                payload);
 }
 

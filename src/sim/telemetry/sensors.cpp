@@ -52,19 +52,19 @@ bool write_highres_imu(const View& view, ByteSpan payload) {
     const bool has_airspeed = view.options.kind == Kind::plane;
     const unsigned absent = has_airspeed ? 0 : unsigned{msg::HIGHRES_IMU_UPDATED_DIFF_PRESSURE};
     return put(msg::HighresImu{.time_usec = boot_us(view),
-                               .xacc = to_float(imu.acceleration.x()),
-                               .yacc = to_float(imu.acceleration.y()),
-                               .zacc = to_float(imu.acceleration.z()),
-                               .xgyro = to_float(imu.rates.x()),
-                               .ygyro = to_float(imu.rates.y()),
-                               .zgyro = to_float(imu.rates.z()),
-                               .xmag = to_float(imu.magnetic.x()),
-                               .ymag = to_float(imu.magnetic.y()),
-                               .zmag = to_float(imu.magnetic.z()),
-                               .abs_pressure = to_float(imu.pressure_hpa),
-                               .diff_pressure = to_float(imu.differential_hpa),
-                               .pressure_alt = to_float(imu.pressure_altitude),
-                               .temperature = to_float(imu.temperature_c),
+                               .xacc = as_float(imu.acceleration.x()),
+                               .yacc = as_float(imu.acceleration.y()),
+                               .zacc = as_float(imu.acceleration.z()),
+                               .xgyro = as_float(imu.rates.x()),
+                               .ygyro = as_float(imu.rates.y()),
+                               .zgyro = as_float(imu.rates.z()),
+                               .xmag = as_float(imu.magnetic.x()),
+                               .ymag = as_float(imu.magnetic.y()),
+                               .zmag = as_float(imu.magnetic.z()),
+                               .abs_pressure = as_float(imu.pressure_hpa),
+                               .diff_pressure = as_float(imu.differential_hpa),
+                               .pressure_alt = as_float(imu.pressure_altitude),
+                               .temperature = as_float(imu.temperature_c),
                                .fields_updated = static_cast<std::uint16_t>(all_updated & ~absent)},
                payload);
 }
@@ -82,8 +82,8 @@ bool write_scaled_imu3(const View& view, ByteSpan payload) { return write_scaled
 bool write_scaled_pressure(const View& view, ByteSpan payload) {
     const ImuSample& imu = view.flight.sensors().imu();
     return put(msg::ScaledPressure{.time_boot_ms = boot_ms(view),
-                                   .press_abs = to_float(imu.pressure_hpa),
-                                   .press_diff = to_float(imu.differential_hpa),
+                                   .press_abs = as_float(imu.pressure_hpa),
+                                   .press_diff = as_float(imu.differential_hpa),
                                    .temperature = saturated<std::int16_t>(imu.temperature_c * 100)},
                payload);
 }
@@ -105,9 +105,9 @@ bool write_distance_sensor(const View& view, ByteSpan payload) {
 bool write_vibration(const View& view, ByteSpan payload) {
     const double level = view.flight.sensors().vibration();
     return put(msg::Vibration{.time_usec = boot_us(view),
-                              .vibration_x = to_float(0.8 * level),
-                              .vibration_y = to_float(0.9 * level),
-                              .vibration_z = to_float(level)},
+                              .vibration_x = as_float(0.8 * level),
+                              .vibration_y = as_float(0.9 * level),
+                              .vibration_z = as_float(level)},
                payload);
 }
 

@@ -21,7 +21,7 @@ constexpr Nanoseconds shortest_interval = step_time;
 constexpr Nanoseconds longest_start = std::chrono::milliseconds{20};
 constexpr Nanoseconds metering = std::chrono::seconds{1};
 
-Nanoseconds interval_of(double hz) noexcept {
+Nanoseconds interval_of_rate(double hz) noexcept {
     return hz <= 0 ? Nanoseconds{0} : Nanoseconds{static_cast<std::int64_t>(std::llround(1e9 / hz))};
 }
 
@@ -82,7 +82,7 @@ void Streams::fill(LinkStreams& link, FlightTime now) {
     for (const StreamRate& rate : rates_of(link.options.profile)) {
         const Projection* const projection = find_projection(rate.message, firmware_.is_px4());
         if (projection == nullptr || !holds(rate.when, options_)) continue;
-        const Nanoseconds interval = interval_of(rate.hz);
+        const Nanoseconds interval = interval_of_rate(rate.hz);
         const auto rank = static_cast<std::size_t>(std::ranges::count(link.streams, interval, &Stream::asked));
         const bool is_heartbeat = projection->info.id == heartbeat_id;
         const double phase = is_heartbeat ? phase_of(options_.system) : phase_of(options_.system, rank, interval);
@@ -203,7 +203,7 @@ bool Streams::set_interval(LinkId link, MessageId message, std::optional<Nanosec
     const Projection* const projection = find_projection(message, firmware_.is_px4());
     if (of == nullptr || projection == nullptr || message == heartbeat_id) return false;
     const StreamRate* const usual = interval ? nullptr : default_rate(of->options, message);
-    Nanoseconds asked = interval.value_or(interval_of(usual == nullptr ? 0 : usual->hz));
+    Nanoseconds asked = interval.value_or(interval_of_rate(usual == nullptr ? 0 : usual->hz));
     if (asked.count() != 0) asked = std::max(asked, shortest_interval);
     Stream& stream = stream_of(*of, *projection);
     const auto index = static_cast<std::size_t>(&stream - of->streams.data());

@@ -59,15 +59,15 @@ std::uint16_t ignored(const Trajectory& t) noexcept {
 
 // The fields that both position targets have.
 template <class Message>
-void fill_motion(const Trajectory& trajectory, Message& message) noexcept {
-    message.vx = to_float(trajectory.velocity.x());
-    message.vy = to_float(trajectory.velocity.y());
-    message.vz = to_float(trajectory.velocity.z());
-    message.afx = to_float(trajectory.acceleration.x());
-    message.afy = to_float(trajectory.acceleration.y());
-    message.afz = to_float(trajectory.acceleration.z());
-    message.yaw = to_float(trajectory.yaw);
-    message.yaw_rate = to_float(trajectory.yaw_rate);
+void fill_trajectory(const Trajectory& trajectory, Message& message) noexcept {
+    message.vx = as_float(trajectory.velocity.x());
+    message.vy = as_float(trajectory.velocity.y());
+    message.vz = as_float(trajectory.velocity.z());
+    message.afx = as_float(trajectory.acceleration.x());
+    message.afy = as_float(trajectory.acceleration.y());
+    message.afz = as_float(trajectory.acceleration.z());
+    message.yaw = as_float(trajectory.yaw);
+    message.yaw_rate = as_float(trajectory.yaw_rate);
 }
 
 std::int16_t to_signed_degrees(double radians) noexcept {
@@ -98,10 +98,10 @@ bool write_attitude_target(const View& view, ByteSpan payload) {
     const Vector3 rates = flight.armed() ? inner.rates : Vector3::Zero();
     return put(AttitudeTarget{.time_boot_ms = boot_ms(view),
                               .q = quaternion_on_wire(flight.armed() ? inner.attitude : level),
-                              .body_roll_rate = to_float(rates.x()),
-                              .body_pitch_rate = to_float(rates.y()),
-                              .body_yaw_rate = to_float(rates.z()),
-                              .thrust = flight.armed() ? to_float(inner.thrust) : 0.001f},
+                              .body_roll_rate = as_float(rates.x()),
+                              .body_pitch_rate = as_float(rates.y()),
+                              .body_yaw_rate = as_float(rates.z()),
+                              .thrust = flight.armed() ? as_float(inner.thrust) : 0.001f},
                payload);
 }
 
@@ -112,10 +112,10 @@ bool write_position_target_local_ned(const View& view, ByteSpan payload) {
     PositionTargetLocalNed message{.time_boot_ms = boot_ms(view),
                                    .coordinate_frame = MAV_FRAME_LOCAL_NED,
                                    .type_mask = ignored(trajectory),
-                                   .x = to_float(trajectory.position.x()),
-                                   .y = to_float(trajectory.position.y()),
-                                   .z = to_float(trajectory.position.z())};
-    fill_motion(trajectory, message);
+                                   .x = as_float(trajectory.position.x()),
+                                   .y = as_float(trajectory.position.y()),
+                                   .z = as_float(trajectory.position.z())};
+    fill_trajectory(trajectory, message);
     return put(message, payload);
 }
 
@@ -128,8 +128,8 @@ bool write_position_target_global_int(const View& view, ByteSpan payload) {
                                     .coordinate_frame = MAV_FRAME_GLOBAL_INT,
                                     .lat_int = to_degrees_e7(point.latitude),
                                     .lon_int = to_degrees_e7(point.longitude),
-                                    .alt = to_float(point.altitude)};
-    fill_motion(trajectory_of(view.flight), message);
+                                    .alt = as_float(point.altitude)};
+    fill_trajectory(trajectory_of(view.flight), message);
     return put(message, payload);
 }
 
@@ -141,14 +141,14 @@ bool write_nav_controller_output(const View& view, ByteSpan payload) {
     const Vector3 way = target->position - view.flight.estimate().position;
     const double bearing = std::atan2(way.y(), way.x());
     const bool moves = std::hypot(inner.velocity.x(), inner.velocity.y()) > 0.3;
-    return put(NavControllerOutput{.nav_roll = to_float(to_degrees(attitude.roll)),
-                                   .nav_pitch = to_float(to_degrees(attitude.pitch)),
+    return put(NavControllerOutput{.nav_roll = as_float(to_degrees(attitude.roll)),
+                                   .nav_pitch = as_float(to_degrees(attitude.pitch)),
                                    .nav_bearing = to_signed_degrees(
                                        moves ? std::atan2(inner.velocity.y(), inner.velocity.x()) : bearing),
                                    .target_bearing = to_signed_degrees(bearing),
                                    .wp_dist = saturated<std::uint16_t>(std::hypot(way.x(), way.y())),
-                                   .alt_error = to_float(-way.z()),
-                                   .xtrack_error = to_float(target->cross_track)},
+                                   .alt_error = as_float(-way.z()),
+                                   .xtrack_error = as_float(target->cross_track)},
                payload);
 }
 
@@ -156,11 +156,11 @@ bool write_orbit_execution_status(const View& view, ByteSpan payload) {
     const auto orbit = view.flight.orbit_status();
     if (!orbit) return false;
     return put(OrbitExecutionStatus{.time_usec = boot_us(view),
-                                    .radius = to_float(orbit->radius),
+                                    .radius = as_float(orbit->radius),
                                     .frame = MAV_FRAME_GLOBAL_INT,
                                     .x = to_degrees_e7(orbit->center.latitude),
                                     .y = to_degrees_e7(orbit->center.longitude),
-                                    .z = to_float(orbit->center.altitude)},
+                                    .z = as_float(orbit->center.altitude)},
                payload);
 }
 

@@ -98,7 +98,7 @@ constexpr Projection row(Write write, KnownBy known_by = KnownBy::both) {
     return {info_of<Message>, Message::name, write, known_by};
 }
 
-constexpr std::array table{
+constexpr std::array projection_table{
     row<msg::Heartbeat>(write_heartbeat),
     row<msg::SysStatus>(write_sys_status),
     row<msg::SystemTime>(write_system_time),
@@ -182,16 +182,16 @@ constexpr std::array table{
 };
 
 constexpr auto id_of = [](const Projection& projection) { return projection.info.id; };
-static_assert(std::ranges::adjacent_find(table, std::ranges::greater_equal{}, id_of) == table.end(),
+static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_equal{}, id_of) == projection_table.end(),
               "the table is sorted by id, without repetition");
 
 }  // namespace
 
-std::span<const Projection> projections() noexcept { return table; }
+std::span<const Projection> projections() noexcept { return projection_table; }
 
 const Projection* find_projection(MessageId id, bool is_px4) noexcept {
-    const auto at = std::ranges::lower_bound(table, id, {}, id_of);
-    if (at == table.end() || at->info.id != id || !is_known(at->known_by, is_px4)) return nullptr;
+    const auto at = std::ranges::lower_bound(projection_table, id, {}, id_of);
+    if (at == projection_table.end() || at->info.id != id || !is_known(at->known_by, is_px4)) return nullptr;
     return &*at;
 }
 

@@ -20,7 +20,7 @@ template <class Int>
     return static_cast<Int>(std::lrint(value));
 }
 
-[[nodiscard]] inline float to_float(double value) noexcept { return static_cast<float>(value); }
+[[nodiscard]] inline float as_float(double value) noexcept { return static_cast<float>(value); }
 [[nodiscard]] inline std::int32_t to_mm(double metres) noexcept { return saturated<std::int32_t>(metres * 1e3); }
 [[nodiscard]] inline std::int16_t to_cm_s(double metres_s) noexcept { return saturated<std::int16_t>(metres_s * 1e2); }
 // An angle in 0 to 2 pi as 0 to 35999.
