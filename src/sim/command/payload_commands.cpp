@@ -63,7 +63,7 @@ Outcome stop_logging(Parts& parts, const Command& command, Moment /*now*/) {
     return parts.log_service->stop_stream(command.from);
 }
 
-constexpr std::array rows{
+constexpr std::array payload_rows{
     CommandRow{msg::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, gimbal_pitch_yaw},
     CommandRow{msg::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE, gimbal_configure},
     CommandRow{msg::MAV_CMD_DO_MOUNT_CONFIGURE, mount_configure, KnownBy::ardupilot},
@@ -80,12 +80,12 @@ constexpr std::array rows{
 
 }  // namespace
 
-std::span<const CommandRow> payload_commands() noexcept { return rows; }
+std::span<const CommandRow> payload_commands() noexcept { return payload_rows; }
 
 void carry_out_payload_item(Parts& parts, const PlanItem& item) {
-    const auto row = std::ranges::find(rows, item.command, &CommandRow::id);
+    const auto row = std::ranges::find(payload_rows, item.command, &CommandRow::id);
     const bool is_logging = item.command == msg::MAV_CMD_LOGGING_START || item.command == msg::MAV_CMD_LOGGING_STOP;
-    if (row == rows.end() || is_logging) return;
+    if (row == payload_rows.end() || is_logging) return;
     Command command{.from = {.link = {}, .id = {parts.options.system, autopilot_component}}, .id = item.command};
     const auto& p = item.params;
     command.params = {p[0], p[1], p[2], p[3], static_cast<float>(item.x), static_cast<float>(item.y), item.z};

@@ -15,8 +15,8 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr std::array handled_ids{msg::GimbalManagerSetAttitude::id, msg::GimbalManagerSetPitchyaw::id,
-                                 msg::GimbalManagerSetManualControl::id};
+constexpr std::array gimbal_message_ids{msg::GimbalManagerSetAttitude::id, msg::GimbalManagerSetPitchyaw::id,
+                                        msg::GimbalManagerSetManualControl::id};
 constexpr Source nobody{SystemId{0}, ComponentId{0}};
 
 // Device 0 means all gimbals.
@@ -59,7 +59,7 @@ GimbalAim aim_of_degrees(double pitch, double yaw, double pitch_rate, double yaw
 
 }  // namespace
 
-std::span<const MessageId> Gimbal::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> Gimbal::handled() const noexcept { return gimbal_message_ids; }
 
 void Gimbal::receive(const Client& from, MessageId id, ByteView payload, Moment /*now*/) {
     if (!may_control(from.id)) return;

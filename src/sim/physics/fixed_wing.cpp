@@ -11,7 +11,7 @@ namespace {
 using wing::mass;
 
 constexpr double motor_lag = 0.15, rate_lag = 0.08;       // s
-constexpr double cruise_motor = 0.48;                     // motor speed of level flight at wing::cruise_speed
+constexpr double cruise_motor = 0.5;                      // motor speed of level flight at wing::cruise_speed
 constexpr double gear_stiffness = mass * gravity / 0.02;  // N/m: the gear gives 2 cm under the plane's weight
 constexpr double gear_damping = 45;                       // N/(m/s)
 constexpr double gear_travel = 0.02;                      // m

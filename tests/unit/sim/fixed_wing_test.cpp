@@ -147,7 +147,7 @@ TEST_F(FixedWingTest, DriftsWithTheWindWhileItHoldsItsHeadingByAttitude) {
     climb_out();
     setpoint.steering = Steering::attitude;
     setpoint.attitude = to_quaternion({0, to_radians(2), 0});
-    setpoint.thrust = 0.48;
+    setpoint.thrust = 0.5;
     around.wind = {4, 0, 0};
 
     run(30);
@@ -230,7 +230,7 @@ TEST_F(FixedWingTest, StallsWhenThePilotHoldsTheNoseUpWithoutPower) {
         fastest_sink = std::max(fastest_sink, motion().velocity.z());
     });
 
-    EXPECT_LT(slowest, 7.9);  // stall speed: sqrt(2 m g / (density * area * 1.17))
+    EXPECT_LT(slowest, 7.2);  // stall speed: sqrt(2 m g / (density * area * 1.17))
     EXPECT_GT(fastest_sink, 4);
 }
 
@@ -287,7 +287,7 @@ TEST_F(FixedWingTest, HoldsItsAltitudeWhenATrajectoryGivesNone) {
 TEST_F(FixedWingTest, AMixerWithoutDeflectionLeavesTheAttitudeAlone) {
     climb_out();
     setpoint.steering = Steering::actuators;
-    setpoint.mixer = {0, 0, 0, 0.48};
+    setpoint.mixer = {0, 0, 0, 0.5};
     run(5);
     EXPECT_NEAR(euler().roll, 0, 0.05);
     setpoint.mixer[0] = 0.2;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Aerodynamics of a small plane: lift, drag, side force and thrust. Private to module sim; pure functions.
 //
-// The numbers describe a model plane of 1.5 kg with 0.35 m^2 of wing: it stalls at 8 m/s and cruises at 15. Lift is
+// The numbers describe a model plane of 1.5 kg with 0.4 m^2 of wing: it stalls at 7 m/s and cruises at 15. Lift is
 // linear up to the stall, then that of a flat plate. Source of the formulas: Beard and McLain, "Small Unmanned
 // Aircraft" (2012), chapter 4.
 #pragma once
@@ -11,7 +11,7 @@
 namespace mavloom::sim::wing {
 
 inline constexpr double mass = 1.5;        // kg
-inline constexpr double area = 0.35;       // m^2
+inline constexpr double area = 0.4;        // m^2
 inline constexpr double lift_zero = 0.15;  // lift coefficient at no angle of attack
 inline constexpr double lift_slope = 4.5;  // per rad
 inline constexpr double stall_angle = to_radians(13);
