@@ -33,8 +33,8 @@ constexpr std::uint32_t device_abilities = GIMBAL_DEVICE_CAP_FLAGS_HAS_RETRACT |
 constexpr std::uint32_t manager_abilities = device_abilities | GIMBAL_MANAGER_CAP_FLAGS_CAN_POINT_LOCATION_GLOBAL;
 
 struct Range {
-    float pitch_min = to_float(GimbalMotion::pitch_lowest), pitch_max = to_float(GimbalMotion::pitch_highest);
-    float yaw_min = to_float(-pi), yaw_max = to_float(pi);
+    float pitch_min = as_float(GimbalMotion::pitch_lowest), pitch_max = as_float(GimbalMotion::pitch_highest);
+    float yaw_min = as_float(-pi), yaw_max = as_float(pi);
 };
 
 // Of the vehicle's nose over the ground, rad/s.
@@ -98,10 +98,10 @@ bool write_gimbal_device_attitude_status(const View& view, ByteSpan payload) {
                                           .flags = view.gimbal->flags(),
                                           .q = quaternion_on_wire(to_quaternion({0, motion.pitch(), motion.yaw()})),
                                           .angular_velocity_x = 0,
-                                          .angular_velocity_y = to_float(motion.pitch_rate()),
-                                          .angular_velocity_z = to_float(motion.yaw_rate()),
-                                          .delta_yaw = to_float(wrap_pi(estimate.heading)),
-                                          .delta_yaw_velocity = to_float(heading_rate(estimate)),
+                                          .angular_velocity_y = as_float(motion.pitch_rate()),
+                                          .angular_velocity_z = as_float(motion.yaw_rate()),
+                                          .delta_yaw = as_float(wrap_pi(estimate.heading)),
+                                          .delta_yaw_velocity = as_float(heading_rate(estimate)),
                                           .gimbal_device_id = Gimbal::device_id},
                payload);
 }
@@ -112,9 +112,9 @@ bool write_mount_orientation(const View& view, ByteSpan payload) {
     const double heading = view.flight.estimate().heading;
     return put(MountOrientation{.time_boot_ms = boot_ms(view),
                                 .roll = 0,
-                                .pitch = to_float(to_degrees(motion.pitch())),
-                                .yaw = to_float(to_degrees(motion.yaw_in_vehicle(heading))),
-                                .yaw_absolute = to_float(to_degrees(motion.yaw_from_north(heading)))},
+                                .pitch = as_float(to_degrees(motion.pitch())),
+                                .yaw = as_float(to_degrees(motion.yaw_in_vehicle(heading))),
+                                .yaw_absolute = as_float(to_degrees(motion.yaw_from_north(heading)))},
                payload);
 }
 
