@@ -16,8 +16,8 @@ constexpr double gear_stiffness = mass * gravity / 0.02;  // N/m: the gear gives
 constexpr double gear_damping = 45;                       // N/(m/s)
 constexpr double gear_travel = 0.02;                      // m
 constexpr double deepest = -0.15;                         // m: height at which the hull carries what the gear cannot
-constexpr double rolling = 0.04, braking = 0.3;           // coefficients of friction
-constexpr double standing = 0.01;                         // m/s: slower counts as standing while the brakes hold
+constexpr double rolling = 0.04, braking = 0.3, sideways = 0.7;  // coefficients of friction
+constexpr double standing = 0.01;                                // m/s: slower counts as standing while the brakes hold
 const Vector3 greatest_rates{to_radians(180), to_radians(90), to_radians(60)};
 
 }  // namespace
@@ -77,12 +77,12 @@ double FixedWing::gear_force(double height) const {
 }
 
 Vector3 FixedWing::with_wheels(const Vector3& velocity, double load, bool brakes, double yaw) const {
-    constexpr double slide_time = 0.05;  // s in which a slide sideways ends
     const Vector3 forward{std::cos(yaw), std::sin(yaw), 0}, right{-forward.y(), forward.x(), 0};
-    const double friction = (brakes ? braking : rolling) * load / mass * step_s;
-    const double along = velocity.dot(forward), across = velocity.dot(right) * (1 - step_s / slide_time);
-    const double slowed = std::copysign(std::max(std::abs(along) - friction, 0.0), along);
-    return slowed * forward + across * right + Vector3{0, 0, velocity.z()};
+    const auto slowed = [&](double speed, double friction) {
+        return std::copysign(std::max(std::abs(speed) - friction * load / mass * step_s, 0.0), speed);
+    };
+    const double along = slowed(velocity.dot(forward), brakes ? braking : rolling);
+    return along * forward + slowed(velocity.dot(right), sideways) * right + Vector3{0, 0, velocity.z()};
 }
 
 // The rudders work by the air that flows over them.
