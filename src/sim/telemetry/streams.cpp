@@ -301,7 +301,7 @@ std::vector<StreamReport> Streams::reports() const {
     for (const LinkStreams& link : links_)
         for (const Stream& stream : link.streams)
             if (stream.interval.count() != 0 || stream.sent != 0)
-                reports.push_back(report_of(options_.system, link.link, stream));
+                reports.push_back(report_of(radio_.system(), link.link, stream));
     return reports;
 }
 

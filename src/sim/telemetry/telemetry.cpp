@@ -181,8 +181,8 @@ constexpr std::array projection_table{
     row<msg::OpenDroneIdSystem>(write_open_drone_id_system),
 };
 
-constexpr auto id_of = [](const Projection& projection) { return projection.info.id; };
-static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_equal{}, id_of) == projection_table.end(),
+constexpr auto projection_id = [](const Projection& projection) { return projection.info.id; };
+static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_equal{}, projection_id) == projection_table.end(),
               "the table is sorted by id, without repetition");
 
 }  // namespace
@@ -190,7 +190,7 @@ static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_
 std::span<const Projection> projections() noexcept { return projection_table; }
 
 const Projection* find_projection(MessageId id, bool is_px4) noexcept {
-    const auto at = std::ranges::lower_bound(projection_table, id, {}, id_of);
+    const auto at = std::ranges::lower_bound(projection_table, id, {}, projection_id);
     if (at == projection_table.end() || at->info.id != id || !is_known(at->known_by, is_px4)) return nullptr;
     return &*at;
 }
