@@ -40,8 +40,8 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       guard(std::make_unique<Guard>(*this)),
       parameter_service(std::make_unique<ParameterService>(*this)),
       plan_service(std::make_unique<PlanService>(*this)),
-      file_service(std::make_unique<FileService>(*this)),
       log_service(std::make_unique<LogService>(*this)),
+      file_service(std::make_unique<FileService>(*this)),
       event_service(std::make_unique<EventService>(*this)),
       calibration_service(std::make_unique<CalibrationService>(*this)),
       other_services(make_other_services(*this)) {
@@ -150,7 +150,11 @@ void Parts::end_silence() {
     streams.reset(booted);
 }
 
-void Parts::on_text(Severity severity, std::string_view text) { announcer.say(severity, text, now.flight); }
+// PX4 ends a text with a tab if it is also an event, so that ground stations show one of the two.
+void Parts::on_text(Severity severity, std::string_view text) {
+    if (!event_service->report_text(text)) return announcer.say(severity, text, now.flight);
+    announcer.say(severity, std::string(text) + '\t', now.flight);
+}
 
 void Parts::on_payload_item(const PlanItem& item) { carry_out_payload_item(*this, item); }
 

@@ -55,8 +55,8 @@ struct Parts final : FlightObserver {
     std::unique_ptr<Guard> guard;
     std::unique_ptr<ParameterService> parameter_service;
     std::unique_ptr<PlanService> plan_service;
-    std::unique_ptr<FileService> file_service;
     std::unique_ptr<LogService> log_service;
+    std::unique_ptr<FileService> file_service;
     std::unique_ptr<EventService> event_service;
     std::unique_ptr<CalibrationService> calibration_service;
     std::vector<std::unique_ptr<Service>> other_services;

@@ -3,12 +3,15 @@
 // and the outputs of actuators. Private to module sim.
 //
 // All vehicles of a firmware share the files. They are made at their first use and never change; any thread may use
-// them. Source: MAVLink guide, "Component Metadata Protocol".
+// them. PX4 serves them by MAVLink FTP, ArduPilot has none. Source: MAVLink guide, "Component Metadata Protocol".
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
+
+#include "mavloom/base/bytes.hpp"
 
 namespace mavloom::sim {
 
@@ -22,5 +25,10 @@ struct GeneralMetadata {
 
 // Empty: this firmware has no metadata. REQUEST_MESSAGE for it is then UNSUPPORTED.
 [[nodiscard]] std::optional<GeneralMetadata> general_metadata(const Firmware& firmware);
+
+// The paths of the files, without leading slash.
+[[nodiscard]] std::span<const std::string_view> metadata_paths(const Firmware& firmware) noexcept;
+// The file as it is transferred: JSON, compressed by xz. `index` counts in `metadata_paths`.
+[[nodiscard]] ByteView metadata_file(const Firmware& firmware, std::size_t index);
 
 }  // namespace mavloom::sim

@@ -26,6 +26,8 @@ public:
     // A ground station was heard on this link for the first time.
     void greet(LinkId link, FlightTime now);
     void forget(LinkId link);
+    // True if a ground station was heard on a link that is open.
+    [[nodiscard]] bool has_audience() const noexcept { return !greeted_.empty(); }
 
 private:
     struct Past {

@@ -93,6 +93,11 @@ protected:
         const auto ack = rig.last<MissionAck>(link);
         return ack ? ack->type : 255;
     }
+    bool has_sync_text() {
+        return std::ranges::any_of(rig.all<Statustext>(), [](const Statustext& message) {
+            return std::string_view(message.text.data()).starts_with("Mission sync timeout");
+        });
+    }
     std::uint16_t count(std::uint8_t type = MAV_MISSION_TYPE_MISSION) {
         request_list(type);
         const auto message = rig.last<MissionCount>();
@@ -172,7 +177,7 @@ TEST_F(PlanService, RepeatsItsRequestEvery250MillisecondsAndGivesUpAfterFiveSeco
     rig.run(0.2);
 
     EXPECT_EQ(last_result(), MAV_MISSION_OPERATION_CANCELLED);
-    EXPECT_TRUE(rig.last<Statustext>());
+    EXPECT_TRUE(has_sync_text());
     rig.forget();
     rig.run(2.0);
     EXPECT_FALSE(rig.last<MissionRequestInt>());
@@ -487,7 +492,7 @@ TEST_F(PlanService, AnswersRequestsInAnyOrderWithoutAnAcknowledgementAtTheEnd) {
     for (const auto& item : rig.all<MissionItemInt>()) got.push_back(item.seq);
     EXPECT_THAT(got, ElementsAre(4, 0, 5, 5, 2));
     rig.run(6.0);
-    EXPECT_FALSE(rig.last<Statustext>());
+    EXPECT_FALSE(has_sync_text());
     upload({waypoint(0)});
     EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
 }
