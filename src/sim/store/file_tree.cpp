@@ -163,7 +163,7 @@ FileError FileTree::check_writable(std::string_view path) const {
     // The name of a special file, such as @PARAM/param.pck, is not one that a client may take.
     if (path.front() == '@' || touches(path, logs_.folder())) return protected_file;
     for (const std::string_view shared : metadata_paths(firmware_))
-        if (touches(path, parent_of(shared))) return protected_file;
+        if (touches(path, shared.substr(0, shared.find('/')))) return protected_file;
     return is_directory(parent_of(path)) ? FileError{} : not_found;
 }
 
