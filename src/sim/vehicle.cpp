@@ -34,6 +34,14 @@ bool is_for(SystemId system, const wire::FrameView& frame, const wire::MessageIn
 
 }  // namespace
 
+std::vector<StreamInfo> stream_infos() {
+    std::vector<StreamInfo> infos;
+    for (const Projection& projection : projections())
+        if (infos.empty() || infos.back().message != projection.info.id)
+            infos.push_back({projection.info.id, projection.name});
+    return infos;
+}
+
 Vehicle::Vehicle(const VehicleOptions& options, Sink& sink, Moment now)
     : parts_(std::make_unique<Parts>(options, sink, now)) {}
 
@@ -151,6 +159,17 @@ std::vector<std::string_view> Vehicle::mode_names() const {
     for (const ModeInfo& mode : parts_->firmware.modes())
         if (mode.behaviour != Behaviour::unavailable) names.push_back(mode.name);
     return names;
+}
+
+std::vector<std::string_view> Vehicle::parameter_names() const {
+    std::vector<std::string_view> names;
+    for (ParamIndex i = 0; i < parts_->parameters.size(); ++i) names.push_back(parts_->parameters.info(i).name);
+    return names;
+}
+
+std::optional<double> Vehicle::parameter(std::string_view name) const {
+    const auto index = parts_->parameters.find(name);
+    return index ? std::optional(parts_->parameters.value(*index)) : std::nullopt;
 }
 
 std::vector<StreamReport> Vehicle::stream_reports() const { return parts_->streams.reports(); }

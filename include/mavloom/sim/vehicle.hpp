@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,11 +30,27 @@ namespace mavloom::sim {
 
 struct Parts;
 
+// The rate of one message. It replaces the profile's; HEARTBEAT keeps its own.
+struct MessageRate {
+    MessageId message;
+    double hz = 0;  // 0: off
+};
+// No stream runs faster than the vehicle steps.
+inline constexpr double fastest_stream_hz = 250;
+
 struct LinkOptions {
     Profile profile = Profile::normal;
+    std::vector<MessageRate> rates{};  // in the place of the profile's
     // Bytes a second for telemetry. If the streams need more, all but HEARTBEAT slow down by one factor. 0: no limit.
     std::uint32_t max_bytes_s = 0;
 };
+
+// A message that vehicles can stream.
+struct StreamInfo {
+    MessageId message;
+    std::string_view name;
+};
+[[nodiscard]] std::vector<StreamInfo> stream_infos();
 
 class Vehicle {
 public:
@@ -72,6 +89,9 @@ public:
     [[nodiscard]] SystemId system() const noexcept;
     [[nodiscard]] VehicleStatus status() const;
     [[nodiscard]] std::vector<std::string_view> mode_names() const;
+    [[nodiscard]] std::vector<std::string_view> parameter_names() const;
+    // Empty if there is none of this name.
+    [[nodiscard]] std::optional<double> parameter(std::string_view name) const;
     // One row for each stream of each open link.
     [[nodiscard]] std::vector<StreamReport> stream_reports() const;
 

@@ -64,6 +64,18 @@ double hz_of(Nanoseconds interval) noexcept {
     return interval.count() == 0 ? 0 : 1e9 / static_cast<double>(interval.count());
 }
 
+// The rows of the profile, with the link's own rates in their place.
+std::vector<StreamRate> rates_for(const LinkOptions& options) {
+    const auto rows = rates_of(options.profile);
+    std::vector<StreamRate> rates(rows.begin(), rows.end());
+    for (const MessageRate& own : options.rates) {
+        if (own.message == heartbeat_id) continue;
+        std::erase_if(rates, [&](const StreamRate& rate) { return rate.message == own.message; });
+        if (own.hz > 0) rates.push_back({own.message, own.hz});
+    }
+    return rates;
+}
+
 }  // namespace
 
 void Streams::open(LinkId link, const LinkOptions& options, const View& view, FlightTime now) {
@@ -79,10 +91,10 @@ void Streams::open(LinkId link, const LinkOptions& options, const View& view, Fl
 void Streams::fill(LinkStreams& link, FlightTime now) {
     link.streams.clear();
     link.due.clear();
-    for (const StreamRate& rate : rates_of(link.options.profile)) {
+    for (const StreamRate& rate : rates_for(link.options)) {
         const Projection* const projection = find_projection(rate.message, firmware_.is_px4());
         if (projection == nullptr || !holds(rate.when, options_)) continue;
-        const Nanoseconds interval = interval_of_rate(rate.hz);
+        const Nanoseconds interval = std::max(interval_of_rate(rate.hz), shortest_interval);
         const auto rank = static_cast<std::size_t>(std::ranges::count(link.streams, interval, &Stream::asked));
         const bool is_heartbeat = projection->info.id == heartbeat_id;
         const double phase = is_heartbeat ? phase_of(options_.system) : phase_of(options_.system, rank, interval);
@@ -202,12 +214,12 @@ bool Streams::set_interval(LinkId link, MessageId message, std::optional<Nanosec
     LinkStreams* const of = find(link);
     const Projection* const projection = find_projection(message, firmware_.is_px4());
     if (of == nullptr || projection == nullptr || message == heartbeat_id) return false;
-    const StreamRate* const usual = interval ? nullptr : default_rate(of->options, message);
-    Nanoseconds asked = interval.value_or(interval_of_rate(usual == nullptr ? 0 : usual->hz));
+    const auto usual = interval ? std::nullopt : default_rate(of->options, message);
+    Nanoseconds asked = interval.value_or(interval_of_rate(usual ? usual->hz : 0));
     if (asked.count() != 0) asked = std::max(asked, shortest_interval);
     Stream& stream = stream_of(*of, *projection);
     const auto index = static_cast<std::size_t>(&stream - of->streams.data());
-    stream.only_armed = usual != nullptr && usual->when == When::armed;
+    stream.only_armed = usual && usual->when == When::armed;
     if (stream.asked == asked) return true;
     stream = {.projection = projection, .only_armed = stream.only_armed, .number = stream.number, .asked = asked};
     limit(*of, now);
@@ -229,10 +241,10 @@ FlightTime Streams::first_due(const LinkStreams& link, std::size_t index, Flight
     return now + scaled(window, phase_of(options_.system, index, window));
 }
 
-const StreamRate* Streams::default_rate(const LinkOptions& options, MessageId message) const noexcept {
-    const auto rows = rates_of(options.profile);
-    const auto row = std::ranges::find(rows, message, &StreamRate::message);
-    return row == rows.end() || !holds(row->when, options_) ? nullptr : &*row;
+std::optional<StreamRate> Streams::default_rate(const LinkOptions& options, MessageId message) const {
+    const auto rates = rates_for(options);
+    const auto rate = std::ranges::find(rates, message, &StreamRate::message);
+    return rate == rates.end() || !holds(rate->when, options_) ? std::nullopt : std::optional(*rate);
 }
 
 std::optional<Nanoseconds> Streams::interval(LinkId link, MessageId message) const noexcept {

@@ -84,7 +84,7 @@ private:
     };
     [[nodiscard]] LinkStreams* find(LinkId link) noexcept;
     [[nodiscard]] const LinkStreams* find(LinkId link) const noexcept;
-    [[nodiscard]] const StreamRate* default_rate(const LinkOptions& options, MessageId message) const noexcept;
+    [[nodiscard]] std::optional<StreamRate> default_rate(const LinkOptions& options, MessageId message) const;
     void fill(LinkStreams& link, FlightTime now);
     Stream& stream_of(LinkStreams& link, const Projection& projection);
     [[nodiscard]] FlightTime first_due(const LinkStreams& link, std::size_t index, FlightTime now) const noexcept;
