@@ -21,7 +21,7 @@ namespace mavloom::simserve {
 struct LinkRates {
     std::optional<sim::Profile> profile;  // empty: the usual one of the vehicle's autopilot
     std::uint32_t max_bytes_s = 0;        // of telemetry; 0: no limit
-    std::vector<sim::StreamRate> rates{};
+    std::vector<sim::MessageRate> rates{};
 };
 
 class Fleet {

@@ -114,7 +114,7 @@ constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
 std::span<const Key<Scenario>> sim_keys() noexcept { return all_sim_keys; }
 std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehicle_keys; }
 
-SetupResult<void> add_rate(std::vector<sim::StreamRate>& rates, std::string_view message, std::string_view hz) {
+SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {
     const auto infos = sim::stream_infos();
     std::vector<std::string_view> names;
     for (const sim::StreamInfo& info : infos) names.push_back(info.name);

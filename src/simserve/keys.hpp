@@ -23,7 +23,7 @@ inline constexpr std::string_view sim_section = "sim", vehicle_section = "vehicl
 [[nodiscard]] std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept;
 
 // Adds a rate of [streams] or of an endpoint's `streams`. A message that vehicles do not stream is an error.
-[[nodiscard]] SetupResult<void> add_rate(std::vector<sim::StreamRate>& rates, std::string_view message,
+[[nodiscard]] SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message,
                                          std::string_view hz);
 
 }  // namespace mavloom::simserve

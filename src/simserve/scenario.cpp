@@ -128,7 +128,7 @@ private:
         return {};
     }
 
-    SetupResult<Setting> read_rate(const Entry& entry, std::vector<sim::StreamRate>& rates) {
+    SetupResult<Setting> read_rate(const Entry& entry, std::vector<sim::MessageRate>& rates) {
         auto text = document_.text_of(entry);
         if (!text) return tl::unexpected(std::move(text.error()));
         if (auto done = add_rate(rates, entry.key, *text); !done) return document_.error(entry.line, done.error().text);

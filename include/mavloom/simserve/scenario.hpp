@@ -34,7 +34,7 @@ struct Scenario {
     std::uint64_t seed = 1;
     double speed = 1;
     std::optional<sim::Profile> profile{};
-    std::vector<sim::StreamRate> rates{};
+    std::vector<sim::MessageRate> rates{};
     std::optional<Nanoseconds> duration{};  // empty: until a signal
     bool has_report = false;
     config::RingConfig ring{};  // without a name: no ring

@@ -39,13 +39,13 @@ struct SimEndpoint {
     // it gets half of what its baud rate carries, so that parameters get through.
     endpoint::Endpoint endpoint;
     std::optional<sim::Profile> profile{};  // empty: the simulator's
-    std::vector<sim::StreamRate> rates{};   // before the simulator's
+    std::vector<sim::MessageRate> rates{};  // before the simulator's
 };
 
 struct SimulatorOptions {
     double speed = 1;                       // of the flight clock; protocol time-outs run in real time
     std::optional<sim::Profile> profile{};  // empty: each vehicle has the usual one of its autopilot
-    std::vector<sim::StreamRate> rates{};   // in the place of the profile's
+    std::vector<sim::MessageRate> rates{};  // in the place of the profile's
     bool keeps_reports = false;             // keeps the reports of links that are gone
 };
 
