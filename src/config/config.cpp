@@ -120,19 +120,20 @@ private:
     Config config_;
 };
 
-SetupResult<Config> read(const SetupResult<Document>& document, const Environment& environment) {
-    if (!document) return tl::unexpected(document.error());
-    return Loader(*document, environment).load();
-}
-
 }  // namespace
 
+SetupResult<Config> read_config(const Document& document, const Environment& environment) {
+    return Loader(document, environment).load();
+}
+
 SetupResult<Config> parse_config(std::string_view text, std::string_view file_name, const Environment& environment) {
-    return read(parse_document(text, file_name), environment);
+    const auto document = parse_document(text, file_name);
+    return document ? read_config(*document, environment) : tl::unexpected(document.error());
 }
 
 SetupResult<Config> load_config(const std::filesystem::path& file, const Environment& environment) {
-    return read(load_document(file), environment);
+    const auto document = load_document(file);
+    return document ? read_config(*document, environment) : tl::unexpected(document.error());
 }
 
 }  // namespace mavloom::config

@@ -58,6 +58,9 @@ struct Document {
 [[nodiscard]] SetupResult<Document> parse_document(std::string_view text, std::string_view file_name);
 [[nodiscard]] SetupResult<Document> load_document(const std::filesystem::path& file);
 
+// Reads a router's configuration, as `load_config` does.
+[[nodiscard]] SetupResult<Config> read_config(const Document& document, const Environment& environment = {});
+
 // Finds variables that set a key of one of the sections: MAVLOOM_SECTION_KEY.
 class Variables {
 public:
