@@ -146,6 +146,7 @@ void Parts::end_silence() {
     radio.set_silent(false);
     radio.set_system(SystemId{static_cast<std::uint8_t>(
         std::clamp(parameters.get(firmware.system_parameter(), options.system.value), 1.0, 255.0))});
+    for (Service* const service : services) service->reboot();
     flight.reboot();
     streams.reset(booted);
 }

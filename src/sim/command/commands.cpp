@@ -18,12 +18,15 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr std::array handled_ids{msg::CommandLong::id, msg::CommandInt::id, msg::CommandCancel::id, msg::SetMode::id};
+constexpr std::array command_messages{msg::CommandLong::id, msg::CommandInt::id, msg::CommandCancel::id,
+                                      msg::SetMode::id};
+
+constexpr Nanoseconds task_report_interval = std::chrono::milliseconds{500};
 
 bool is_local(std::uint8_t frame) noexcept {
     using namespace msg;
-    constexpr std::array local_frames{MAV_FRAME_LOCAL_NED, MAV_FRAME_LOCAL_ENU, MAV_FRAME_LOCAL_OFFSET_NED,
-                                      MAV_FRAME_BODY_NED, MAV_FRAME_BODY_OFFSET_NED, MAV_FRAME_BODY_FRD,
+    constexpr std::array local_frames{MAV_FRAME_LOCAL_NED, MAV_FRAME_LOCAL_ENU,       MAV_FRAME_LOCAL_OFFSET_NED,
+                                      MAV_FRAME_BODY_NED,  MAV_FRAME_BODY_OFFSET_NED, MAV_FRAME_BODY_FRD,
                                       MAV_FRAME_LOCAL_FRD, MAV_FRAME_LOCAL_FLU};
     return std::ranges::find(local_frames, frame) != local_frames.end();
 }
@@ -52,8 +55,8 @@ Command command_of(const Client& from, const msg::CommandInt& m) {
     command.x = coordinate(m.x, local);
     command.y = coordinate(m.y, local);
     command.z = std::isfinite(m.z) ? double{m.z} : nan;
-    command.params = {m.param1, m.param2, m.param3, m.param4, static_cast<float>(command.x),
-                      static_cast<float>(command.y), m.z};
+    command.params = {
+        m.param1, m.param2, m.param3, m.param4, static_cast<float>(command.x), static_cast<float>(command.y), m.z};
     return command;
 }
 
@@ -81,7 +84,7 @@ double altitude_of(const Command& command, const Parts& parts) {
     }
 }
 
-std::span<const MessageId> Commands::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> Commands::handled() const noexcept { return command_messages; }
 
 void Commands::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
     if (id == msg::CommandLong::id) {
@@ -109,13 +112,58 @@ void Commands::acknowledge(const Client& to, std::uint16_t command, Result resul
                                                .target_component = to.id.component.value});
 }
 
-void Commands::finish(const Client& to, std::uint16_t command, Result result) { acknowledge(to, command, result, 100); }
+// --- Commands that take time
 
-void Commands::progress(const Client& to, std::uint16_t command, std::uint8_t percent) {
-    acknowledge(to, command, Result::in_progress, percent);
+Result Commands::begin(const Command& command, Nanoseconds length, bool (*may_go_on)(const Parts&), Moment now) {
+    const auto running = std::ranges::find(tasks_, command.id, &Task::command);
+    if (running != tasks_.end())
+        return running->client == command.from ? Result::in_progress : Result::temporarily_rejected;
+    tasks_.push_back({.client = command.from,
+                      .command = command.id,
+                      .begun = now.flight,
+                      .reports = now.flight + task_report_interval,
+                      .length = length,
+                      .may_go_on = may_go_on});
+    return Result::in_progress;
 }
 
-void Commands::cancel(const Client& from, std::uint16_t command) { acknowledge(from, command, Result::unsupported); }
+std::uint8_t Commands::Task::percent(FlightTime now) const noexcept {
+    return static_cast<std::uint8_t>(std::clamp<std::int64_t>(100 * (now - begun) / length, 0, 100));
+}
+
+FlightTime Commands::wakes_at() const noexcept {
+    FlightTime at = FlightTime::max();
+    for (const Task& task : tasks_) at = std::min(at, task.reports);
+    return at;
+}
+
+void Commands::pump(Moment now) {
+    std::erase_if(tasks_, [&](Task& task) { return task.reports <= now.flight && !move_on(task, now.flight); });
+}
+
+bool Commands::move_on(Task& task, FlightTime now) {
+    const bool is_done = now - task.begun >= task.length;
+    const bool has_failed = task.may_go_on != nullptr && !task.may_go_on(parts_);
+    const Result result = has_failed ? Result::failed : is_done ? Result::accepted : Result::in_progress;
+    acknowledge(task.client, task.command, result, task.percent(now));
+    task.reports = now + task_report_interval;
+    return result == Result::in_progress;
+}
+
+// The client that gave the command gets the answer, as well as the one that cancels it. A command that is over, or was
+// never begun, needs no answer.
+void Commands::cancel(const Client& from, std::uint16_t command) {
+    const auto task = std::ranges::find(tasks_, command, &Task::command);
+    if (task == tasks_.end()) return;
+    const Client client = task->client;
+    tasks_.erase(task);
+    acknowledge(client, command, Result::cancelled);
+    if (client != from) acknowledge(from, command, Result::cancelled);
+}
+
+void Commands::forget(LinkId link) {
+    std::erase_if(tasks_, [&](const Task& task) { return task.client.link == link; });
+}
 
 const CommandRow* find_command(std::uint16_t id, bool is_px4) noexcept {
     const KnownBy own = is_px4 ? KnownBy::px4 : KnownBy::ardupilot;

@@ -3,7 +3,8 @@
 // sim; single owner.
 //
 // Each command is a row of a table: its id, the function that carries it out, and whether PX4, ArduPilot or both know
-// it. A command without a row is UNSUPPORTED. A command that takes time answers IN_PROGRESS and finishes later.
+// it. A command without a row is UNSUPPORTED. A command that takes time answers IN_PROGRESS, repeats that with its progress
+// twice a second, and ends with ACCEPTED, FAILED, or CANCELLED if a client sent COMMAND_CANCEL.
 // Source: MAVLink guide, "Command Protocol".
 #pragma once
 
@@ -25,15 +26,20 @@ struct Parts;
 
 // Both forms of a command. Positions are in degrees, or metres in local frames; `nan` where the client gave none.
 struct Command {
-    Client from;
+    Client from{};
     std::uint16_t id = 0;
     std::array<float, 7> params{};  // as sent; 5 and 6 of COMMAND_INT are converted
     double x = nan, y = nan;        // params 5 and 6 in full precision
     double z = nan;
-    std::uint8_t frame = 0;         // MAV_FRAME; COMMAND_LONG has MAV_FRAME_GLOBAL
+    std::uint8_t frame = 0;  // MAV_FRAME; COMMAND_LONG has MAV_FRAME_GLOBAL
     bool is_int = false;
 
     [[nodiscard]] float param(std::size_t number) const noexcept { return params[number - 1]; }  // 1 to 7
+    // A parameter as a whole number in [0, most]. Empty: it is none.
+    [[nodiscard]] std::optional<std::uint32_t> whole(std::size_t number, double most = 0xffffffff) const noexcept {
+        const double value{param(number)};
+        return value >= 0 && value <= most ? std::optional(static_cast<std::uint32_t>(value)) : std::nullopt;
+    }
 };
 
 // The altitude of `z` above mean sea level, by the command's frame. `nan` stays `nan`.
@@ -52,16 +58,33 @@ public:
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
 
-    // Ends a command that answered IN_PROGRESS, or reports its progress (0 to 100).
-    void finish(const Client& to, std::uint16_t command, Result result);
-    void progress(const Client& to, std::uint16_t command, std::uint8_t percent);
+    [[nodiscard]] FlightTime wakes_at() const noexcept override;
+    void pump(Moment now) override;
+    void reboot() override { tasks_.clear(); }
+    void forget(LinkId link) override;
+
+    // Starts work that takes `length`. It fails as soon as `may_go_on` is false. A repeated command changes nothing.
+    Result begin(const Command& command, Nanoseconds length, bool (*may_go_on)(const Parts&), Moment now);
 
 private:
+    struct Task {
+        Client client;
+        std::uint16_t command = 0;
+        FlightTime begun{}, reports{};  // `reports`: when it reports its progress next
+        Nanoseconds length{};
+        bool (*may_go_on)(const Parts&) = nullptr;
+
+        [[nodiscard]] std::uint8_t percent(FlightTime now) const noexcept;
+    };
+
     void carry_out(const Command& command, Moment now);
     void cancel(const Client& from, std::uint16_t command);
+    // False: the task is over.
+    bool move_on(Task& task, FlightTime now);
     void acknowledge(const Client& to, std::uint16_t command, Result result, std::uint8_t progress = 0);
 
     Parts& parts_;
+    std::vector<Task> tasks_;
 };
 
 // The rows, by subject. Each file of command/ that carries out commands has one of these.

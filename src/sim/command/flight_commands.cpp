@@ -25,12 +25,6 @@ Outcome at_place(Parts& parts, const Command& command, Moment now) {
     return has_global_frame(command) ? carry_out(parts, command, now) : Result::unsupported_frame;
 }
 
-// A whole number in [0, most], as clients send it in a float. Empty: it is none.
-std::optional<std::uint32_t> whole(float value, double most = 0xffffffff) noexcept {
-    if (!(value >= 0 && double{value} <= most)) return std::nullopt;
-    return static_cast<std::uint32_t>(value);
-}
-
 double positive_or_nan(float value) noexcept { return std::isfinite(value) && value > 0 ? double{value} : nan; }
 
 // --- Arming
@@ -59,16 +53,16 @@ Outcome refuse_unknown_mode(Parts& parts) {
 
 // PX4: main mode and sub mode as small numbers. ArduPilot: the custom mode.
 Outcome set_mode(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto base_mode = whole(command.param(1), 0xff);
-    const auto main = whole(command.param(2));
-    const auto sub = std::isnan(command.param(3)) ? std::optional(0u) : whole(command.param(3));
+    const auto base_mode = command.whole(1, 0xff);
+    const auto main = command.whole(2);
+    const auto sub = std::isnan(command.param(3)) ? std::optional(0u) : command.whole(3);
     if (!base_mode || !main || !sub) return Result::denied;
     const ModeInfo* const mode = parts.firmware.requested_mode(static_cast<std::uint8_t>(*base_mode), *main, *sub);
     return mode == nullptr ? refuse_unknown_mode(parts) : parts.flight.set_mode(*mode, OrderedBy::client);
 }
 
 Outcome set_standard_mode(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto wanted = whole(command.param(1), 0xff);
+    const auto wanted = command.whole(1, 0xff);
     if (!wanted || *wanted == 0) return Result::denied;
     for (const ModeInfo& mode : parts.firmware.modes())
         if (mode.standard_mode == *wanted && mode.is_selectable())
@@ -118,7 +112,7 @@ Outcome return_home(Parts& parts, const Command& /*command*/, Moment /*now*/) { 
 // PX4 reads the yaw in radians. ArduPilot ignores it, and its clients send 0.
 Outcome reposition(Parts& parts, const Command& command, Moment /*now*/) {
     constexpr std::uint32_t change_mode = 1;  // MAV_DO_REPOSITION_FLAGS
-    const auto flags = whole(command.param(2));
+    const auto flags = command.whole(2);
     const Place place = place_of(command, parts);
     return parts.flight.reposition({.latitude = place.latitude,
                                     .longitude = place.longitude,
@@ -131,7 +125,7 @@ Outcome reposition(Parts& parts, const Command& command, Moment /*now*/) {
 
 // The fourth parameter is the angle to fly, in radians.
 Outcome orbit(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto yaw = whole(command.param(3), static_cast<double>(OrbitYaw::unchanged));
+    const auto yaw = command.whole(3, static_cast<double>(OrbitYaw::unchanged));
     if (!yaw && !std::isnan(command.param(3))) return Result::denied;
     const Place place = place_of(command, parts);
     const double angle = std::isfinite(command.param(4)) ? std::max(0.0, double{command.param(4)}) : 0;
@@ -150,7 +144,7 @@ Outcome pause_or_continue(Parts& parts, const Command& command, Moment /*now*/) 
 }
 
 Outcome change_altitude(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto frame = whole(command.param(2), 0xff);
+    const auto frame = command.whole(2, 0xff);
     if (!frame || !std::isfinite(command.param(1))) return Result::denied;
     Command with_altitude = command;
     with_altitude.frame = static_cast<std::uint8_t>(*frame);
@@ -161,7 +155,7 @@ Outcome change_altitude(Parts& parts, const Command& command, Moment /*now*/) {
 
 // A speed that is not positive means the usual one.
 Outcome change_speed(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto kind = whole(command.param(1), static_cast<double>(SpeedKind::descent));
+    const auto kind = command.whole(1, static_cast<double>(SpeedKind::descent));
     if (!kind || std::isinf(command.param(2))) return Result::denied;
     return parts.flight.change_speed(static_cast<SpeedKind>(*kind), positive_or_nan(command.param(2)));
 }
@@ -188,7 +182,7 @@ Outcome guided_altitude(Parts& parts, const Command& command, Moment /*now*/) {
 
 // The first parameter is HEADING_TYPE: 0 course over ground, 1 heading, 2 back to the usual.
 Outcome guided_heading(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto type = whole(command.param(1), 2);
+    const auto type = command.whole(1, 2);
     const double angle = double{command.param(2)};
     if (!type || (*type != 2 && !(angle >= -180 && angle <= 360))) return Result::denied;
     if (!steers_by_orders(parts)) return Result::failed;
@@ -201,7 +195,7 @@ Outcome guided_heading(Parts& parts, const Command& command, Moment /*now*/) {
 Outcome start_mission(Parts& parts, const Command& command, Moment /*now*/) {
     const float first = command.param(1);
     if (!parts.firmware.is_px4() || std::isnan(first) || first == -1) return parts.flight.start_mission(std::nullopt);
-    const auto seq = whole(first, 0xffff);
+    const auto seq = command.whole(1, 0xffff);
     return seq ? parts.flight.start_mission(static_cast<std::uint16_t>(*seq)) : Outcome(Result::denied);
 }
 
@@ -209,7 +203,7 @@ Outcome start_mission(Parts& parts, const Command& command, Moment /*now*/) {
 Outcome set_current_item(Parts& parts, const Command& command, Moment /*now*/) {
     const bool resets = command.param(2) == 1;
     const bool keeps = command.param(1) == -1;
-    const auto seq = whole(command.param(1), 0xffff);
+    const auto seq = command.whole(1, 0xffff);
     if (!keeps && !seq) return parts.firmware.is_px4() ? Result::failed : Result::denied;
     const std::optional item = keeps ? std::nullopt : std::optional(static_cast<std::uint16_t>(*seq));
     Outcome outcome = parts.flight.set_current_item(item, resets);
@@ -263,7 +257,7 @@ Outcome look_at_region(Parts& parts, const Command& command, Moment now) {
 
 // ArduPilot keeps the state of the fence in a parameter.
 Outcome enable_fence(Parts& parts, const Command& command, Moment /*now*/) {
-    const auto enabled = whole(command.param(1), 2);
+    const auto enabled = command.whole(1, 2);
     if (!enabled) return Result::denied;
     if (!parts.firmware.is_px4()) parts.put_parameter("FENCE_ENABLE", *enabled == 1 ? 1 : 0);
     return parts.flight.enable_fence(*enabled == 1);

@@ -25,7 +25,7 @@ void Radio::transmit(LinkId link, const wire::MessageInfo& info, ByteView payloa
     if (outlet == nullptr || silent_) return;
     auto& sequence = outlet->sequences[from.value];
     wire::Signing signing;
-    if (outlet->signer) signing = {&*outlet->signer, wire::SigningTime::from(utc_)};
+    if (outlet->signer) signing = {&*outlet->signer, std::max(wire::SigningTime::from(utc_), signing_start_)};
     wire::FrameBuffer buffer;
     const auto frame = wire::write_frame(buffer, {.sequence = sequence++, .source = {system_, from}}, info, payload,
                                          signing);

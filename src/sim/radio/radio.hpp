@@ -3,6 +3,7 @@
 // module sim; single owner. Sending allocates nothing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -58,6 +59,8 @@ public:
 
     // From now on every frame is signed with this key; empty: none. `now` is UTC.
     void sign_with(const std::optional<wire::SigningKey>& key, wire::SigningTime now);
+    // Timestamps of signatures continue from here, if UTC is behind.
+    void raise_signing_time(wire::SigningTime newest) noexcept { signing_start_ = std::max(signing_start_, newest); }
     void set_utc(WallTime now) noexcept { utc_ = now; }
     // While silent, nothing is sent: a vehicle that reboots.
     void set_silent(bool silent) noexcept { silent_ = silent; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Message signing of a vehicle: SETUP_SIGNING sets the key; from then on unsigned messages are refused, but for a few.
-// Private to module sim; single owner. Source: MAVLink guide, "Message Signing".
+// Message signing of a vehicle. SETUP_SIGNING sets the key. From then on the vehicle signs all frames, and drops unsigned
+// ones, but for a few kinds that radios and other vehicles send. Private to module sim; single owner. Source: MAVLink
+// guide, "Message Signing"; the exceptions are PX4's.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,10 @@ public:
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
 
 private:
+    void use(const std::optional<wire::SigningKey>& key, wire::SigningTime start);
+
     Parts& parts_;
+    std::optional<wire::SigningKey> key_;
     std::optional<wire::Verifier> verifier_;
     bool last_was_signed_ = false;  // the frame that `admits` looked at last
 };

@@ -31,6 +31,8 @@ public:
     [[nodiscard]] virtual FlightTime wakes_at() const noexcept { return FlightTime::max(); }
     // Sends the next piece of bulk transfers, repeats requests and ends what timed out.
     virtual void pump(Moment /*now*/) {}
+    // The vehicle boots again: drop whatever is in progress.
+    virtual void reboot() {}
     // A link closed: drop the state of its clients.
     virtual void forget(LinkId /*link*/) {}
 };

@@ -146,12 +146,13 @@ void ParameterService::announce(ParamIndex index) {
     for (const LinkId link : parts_.radio.links()) send_value(link, index);
 }
 
-void ParameterService::reset() {
+void ParameterService::reset(std::string_view prefix) {
     Parameters& parameters = parts_.parameters;
     for (ParamIndex i = 0; i < parameters.size(); ++i) {
         const ParamInfo& info = parameters.info(i);
+        if (!info.name.starts_with(prefix) || info.name == parts_.firmware.system_parameter()) continue;
         const std::uint32_t before = parameters.bits(i);
-        if (info.name != parts_.firmware.system_parameter()) parameters.set(i, info.initial);
+        parameters.set(i, info.initial);
         if (parameters.bits(i) != before) announce(i);
     }
     parts_.flight.retune();

@@ -23,12 +23,13 @@ public:
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
     [[nodiscard]] bool is_busy() const noexcept override { return !lists_.empty(); }
     void pump(Moment now) override;
+    void reboot() override { lists_.clear(); }
     void forget(LinkId link) override;
 
     // Sends the value of a parameter to all links.
     void announce(ParamIndex index);
-    // Sets all parameters to their initial values, but for the system id, and reports what changed.
-    void reset();
+    // Sets the parameters whose names begin so to their initial values, but for the system id, and reports what changed.
+    void reset(std::string_view prefix = {});
 
 private:
     struct List {
