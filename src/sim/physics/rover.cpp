@@ -12,7 +12,7 @@ namespace {
 
 constexpr double speed_lag = 0.25, steering_lag = 0.15;  // s
 constexpr double heading_gain = 2;                       // 1/s
-constexpr double sideways = 4;                           // m/s^2 that the tyres hold
+constexpr double tyre_grip = 4;                          // m/s^2 that the tyres hold
 constexpr double arrived = 0.3;                          // m
 constexpr double cruise_speed = 5;                       // m/s, at which the load is 1
 
@@ -106,7 +106,8 @@ Rover::Wish Rover::drive_around(const Setpoint& setpoint) const {
     const double asked = finite_or(setpoint.radius, 0, -1e4, 1e4);
     const double radius = std::copysign(std::max(std::abs(asked), limits_.turn_radius), asked);
     const Course course = course_on_circle(motion_, setpoint.position, radius, std::max(1.5, std::abs(speed_)));
-    return turn_to(course.angle, course.turn_rate, std::min(limits_.horizontal, std::sqrt(sideways * std::abs(radius))));
+    return turn_to(course.angle, course.turn_rate,
+                   std::min(limits_.horizontal, std::sqrt(tyre_grip * std::abs(radius))));
 }
 
 Rover::Wish Rover::turn(double turn_rate, double speed) const {
@@ -119,7 +120,7 @@ Rover::Wish Rover::turn(double turn_rate, double speed) const {
 // The farther the heading is off, the slower, so that the turn is tight.
 Rover::Wish Rover::turn_to(double course, double turn_rate, double speed) const {
     const double off = wrap_pi(course - heading_);
-    const double slow = std::sqrt(sideways * limits_.turn_radius) / 2;
+    const double slow = std::sqrt(tyre_grip * limits_.turn_radius) / 2;
     const double most = std::max(std::abs(speed) * std::cos(off), slow);
     Wish wish = turn(turn_rate + heading_gain * off, std::clamp(speed, -most, most));
     wish.course = course;
@@ -134,7 +135,7 @@ void Rover::move(const Wish& wish, double ground) {
     const double most = limits_.acceleration * step_s;
     speed_ += std::clamp((wish.speed - speed_) * (step_s / speed_lag), -most, most);
     if (wish.speed == 0 && std::abs(speed_) < 0.01) speed_ = 0;
-    const double tightest = std::min(1 / limits_.turn_radius, sideways / std::max(speed_ * speed_, 0.01));
+    const double tightest = std::min(1 / limits_.turn_radius, tyre_grip / std::max(speed_ * speed_, 0.01));
     curvature_ += (std::clamp(wish.curvature, -tightest, tightest) - curvature_) * (step_s / steering_lag);
     if (std::abs(curvature_) < 1e-9) curvature_ = 0;
     const Vector3 rates{0, 0, speed_ * curvature_};

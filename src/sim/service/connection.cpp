@@ -15,11 +15,11 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr std::array handled_ids{msg::Heartbeat::id, msg::Timesync::id, msg::Ping::id, msg::RadioStatus::id};
+constexpr std::array connection_ids{msg::Heartbeat::id, msg::Timesync::id, msg::Ping::id, msg::RadioStatus::id};
 
 }  // namespace
 
-std::span<const MessageId> Connection::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> Connection::handled() const noexcept { return connection_ids; }
 
 void Connection::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
     if (id == msg::Heartbeat::id) return on_heartbeat(from, payload, now);

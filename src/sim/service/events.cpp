@@ -21,7 +21,7 @@ namespace {
 
 using namespace msg;
 
-constexpr std::array handled_ids{RequestEvent::id};
+constexpr std::array event_ids{RequestEvent::id};
 
 // PX4's times.
 constexpr Nanoseconds sequence_interval = std::chrono::seconds{3};
@@ -76,7 +76,7 @@ void EventService::restart() {
     reported_.reset();
 }
 
-std::span<const MessageId> EventService::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> EventService::handled() const noexcept { return event_ids; }
 
 FlightTime EventService::wakes_at() const noexcept {
     return parts_.firmware.is_px4() ? std::min(next_sequence_, next_check_) : FlightTime::max();

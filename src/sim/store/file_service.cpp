@@ -20,7 +20,7 @@ namespace {
 
 using namespace msg;
 
-constexpr std::array handled_ids{FileTransferProtocol::id};
+constexpr std::array file_ids{FileTransferProtocol::id};
 constexpr Nanoseconds session_idle = std::chrono::seconds{10};
 // PX4's numbers: what it sends at once, and how many replies make a burst.
 constexpr unsigned pieces_at_once = 56, pieces_of_burst = 168;
@@ -30,7 +30,7 @@ constexpr unsigned pieces_at_once = 56, pieces_of_burst = 168;
 FileService::FileService(Parts& parts)
     : parts_(parts), tree_(parts.firmware, parts.log_service->logs(), parts.options.limits) {}
 
-std::span<const MessageId> FileService::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> FileService::handled() const noexcept { return file_ids; }
 
 std::string_view FileService::Request::text() const noexcept {
     const std::string_view all(reinterpret_cast<const char*>(data.data()), data.size());

@@ -20,7 +20,7 @@ namespace {
 
 using namespace msg;
 
-constexpr std::array handled_ids{LogRequestList::id, LogRequestData::id, LogRequestEnd::id,
+constexpr std::array log_ids{LogRequestList::id, LogRequestData::id, LogRequestEnd::id,
                                  LogErase::id,       LoggingAck::id,     RemoteLogBlockStatus::id};
 constexpr unsigned messages_at_once = 100;
 
@@ -31,7 +31,7 @@ LogService::LogService(Parts& parts)
       logs_(parts.options),
       streams_(parts.firmware.is_px4(), parts.options.system, parts.options.limits.clients, parts.radio) {}
 
-std::span<const MessageId> LogService::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> LogService::handled() const noexcept { return log_ids; }
 
 void LogService::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
     if (id == LogRequestList::id) return on_list(from, payload);

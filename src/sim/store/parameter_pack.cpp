@@ -39,9 +39,9 @@ Query query_of(std::string_view text) noexcept {
     return query;
 }
 
-class Packer {
+class PackWriter {
 public:
-    explicit Packer(bool with_defaults) noexcept : with_defaults_(with_defaults) {}
+    explicit PackWriter(bool with_defaults) noexcept : with_defaults_(with_defaults) {}
 
     void begin(std::uint16_t count, std::uint16_t total) {
         put(with_defaults_ ? magic_with_defaults : magic);
@@ -105,7 +105,7 @@ std::optional<std::vector<std::uint8_t>> parameter_pack(const Parameters& parame
     const Query query = mark == std::string_view::npos ? Query{} : query_of(path.substr(mark + 1));
     const ParamIndex total = parameters.size(), start = std::min(query.start, total);
     const auto count = std::min<ParamIndex>(query.count, static_cast<ParamIndex>(total - start));
-    Packer packer(query.with_defaults);
+    PackWriter packer(query.with_defaults);
     packer.begin(count, total);
     for (ParamIndex i = start; i < start + count; ++i) packer.add(parameters.info(i), parameters.value(i));
     return packer.take();

@@ -93,7 +93,7 @@ bool contains(std::span<const std::uint16_t> commands, std::uint16_t command) no
     return std::ranges::find(commands, command) != commands.end();
 }
 
-bool is_global(std::uint8_t frame) noexcept {
+bool has_position_frame(std::uint8_t frame) noexcept {
     constexpr std::array<std::uint8_t, 6> frames{MAV_FRAME_GLOBAL,
                                                  MAV_FRAME_GLOBAL_RELATIVE_ALT,
                                                  MAV_FRAME_GLOBAL_INT,
@@ -119,7 +119,7 @@ std::uint8_t variant_of(std::uint8_t frame, bool is_int) noexcept {
 }
 
 // Items without a place carry plain numbers in x and y.
-double scale_of(std::uint8_t frame) noexcept { return is_global(frame) ? 1e7 : 1; }
+double scale_of(std::uint8_t frame) noexcept { return has_position_frame(frame) ? 1e7 : 1; }
 
 bool is_set(std::int32_t coordinate) noexcept { return coordinate != Int32::min() && coordinate != Int32::max(); }
 
@@ -179,7 +179,7 @@ std::uint8_t check_place(const PlanItem& item, PlanType type) noexcept {
 std::uint8_t check_numbers(const PlanItem& item) noexcept {
     for (std::size_t i = 0; i < item.params.size(); ++i)
         if (std::isinf(item.params[i])) return static_cast<std::uint8_t>(MAV_MISSION_INVALID_PARAM1 + i);
-    const bool needs_height = is_global(item.frame) && contains(place_commands, item.command);
+    const bool needs_height = has_position_frame(item.frame) && contains(place_commands, item.command);
     return std::isinf(item.z) || (needs_height && std::isnan(item.z)) ? MAV_MISSION_INVALID_PARAM7
                                                                       : MAV_MISSION_ACCEPTED;
 }
@@ -241,10 +241,10 @@ msg::MissionItem float_form(const PlanItem& item, bool is_px4) noexcept {
 std::uint8_t check_item(const PlanItem& item, PlanType type, std::uint16_t count, bool is_px4) noexcept {
     if (!is_known(item, type, is_px4)) return MAV_MISSION_UNSUPPORTED;
     const bool needs_place = type != PlanType::mission || contains(place_commands, item.command);
-    if (!is_global(item.frame) && (needs_place || item.frame != MAV_FRAME_MISSION))
+    if (!has_position_frame(item.frame) && (needs_place || item.frame != MAV_FRAME_MISSION))
         return MAV_MISSION_UNSUPPORTED_FRAME;
     if (const auto result = check_numbers(item); result != MAV_MISSION_ACCEPTED) return result;
-    if (is_global(item.frame))
+    if (has_position_frame(item.frame))
         if (const auto result = check_place(item, type); result != MAV_MISSION_ACCEPTED) return result;
     return check_params(item, count);
 }

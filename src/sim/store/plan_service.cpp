@@ -28,21 +28,21 @@ namespace {
 
 using namespace msg;
 
-constexpr std::array handled_ids{MissionCount::id,
-                                 MissionItemInt::id,
-                                 MissionItem::id,
-                                 MissionRequestList::id,
-                                 MissionRequestInt::id,
-                                 MissionRequest::id,
-                                 MissionAck::id,
-                                 MissionClearAll::id,
-                                 MissionSetCurrent::id,
-                                 MissionWritePartialList::id,
-                                 MissionRequestPartialList::id};
+constexpr std::array plan_ids{MissionCount::id,
+                              MissionItemInt::id,
+                              MissionItem::id,
+                              MissionRequestList::id,
+                              MissionRequestInt::id,
+                              MissionRequest::id,
+                              MissionAck::id,
+                              MissionClearAll::id,
+                              MissionSetCurrent::id,
+                              MissionWritePartialList::id,
+                              MissionRequestPartialList::id};
 
 // PX4's times.
-constexpr Nanoseconds repeat_after = std::chrono::milliseconds{250};
-constexpr Nanoseconds give_up_after = std::chrono::seconds{5};
+constexpr Nanoseconds repeat_request_after = std::chrono::milliseconds{250};
+constexpr Nanoseconds transfer_timeout = std::chrono::seconds{5};
 constexpr int reached_repeats = 10;
 constexpr Nanoseconds reached_interval = std::chrono::seconds{1};
 
@@ -65,7 +65,7 @@ double altitude_of(const PlanItem& item, const Flight& flight) {
 
 }  // namespace
 
-std::span<const MessageId> PlanService::handled() const noexcept { return handled_ids; }
+std::span<const MessageId> PlanService::handled() const noexcept { return plan_ids; }
 
 void PlanService::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
     const auto on_form = [&](const auto& m) { on_item(from, {item_of(m), m.seq, m.current, m.mission_type}, now); };
@@ -334,13 +334,13 @@ void PlanService::pump(Moment now) {
 }
 
 bool PlanService::keep_alive(Transfer& transfer, Moment now) {
-    if (now.real - transfer.heard >= give_up_after) {
+    if (now.real - transfer.heard >= transfer_timeout) {
         if (transfer.stage != Stage::upload) return false;
         parts_.announcer.say(Severity::critical, "Mission sync timeout", now.flight);
         acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_OPERATION_CANCELLED);
         return false;
     }
-    if (now.real - transfer.sent < repeat_after) return true;
+    if (now.real - transfer.sent < repeat_request_after) return true;
     if (transfer.stage == Stage::upload) ask(transfer, now);
     if (transfer.stage == Stage::download && !transfer.was_asked) send_count(transfer, now);
     return true;
