@@ -30,6 +30,7 @@ struct Texts {
     std::string_view not_ready{}, no_position{}, not_landed{};  // refusals
     std::string_view mission_finished_landed{}, mission_finished_hold{}, no_mission{};
     std::string_view executing_mission{}, climb_to{};
+    std::string_view return_begins{}, return_lands{};
     std::string_view battery_low{}, battery_critical{}, battery_emergency{};
     std::string_view gcs_lost{}, gcs_regained{}, offboard_lost{}, manual_lost{}, fence_breached{};
     std::string_view unknown_mode{}, mode_refused{}, takeoff_too_low{}, offboard_without_setpoints{};

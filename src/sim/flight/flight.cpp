@@ -1,110 +1,162 @@
 // SPDX-License-Identifier: MIT
 #include "sim/flight/flight.hpp"
 
-#include "sim/firmware/firmware.hpp"
+#include "sim/flight/flight_impl.hpp"
 
 namespace mavloom::sim {
 
-class Flight::Impl {
-public:
-    Impl(const VehicleOptions& options, const Firmware& f, const Parameters& p, FlightObserver& o)
-        : firmware(f), parameters(p), observer(o), mode(&f.boot_mode()), airframe(make_airframe(options.kind)),
-          battery(options.battery), sensors(options.has_noise, options.seed),
-          frame({options.home.latitude_deg, options.home.longitude_deg, options.home.altitude_m}) {
-        airframe->place(Vector3::Zero(), to_radians(options.home.heading_deg));
-        home = position = frame.origin();
-        tuning = f.tuning(p);
+namespace {
+
+constexpr unsigned navigation_period = 5;  // steps; 50 Hz
+
+}  // namespace
+
+Flight::Impl::Impl(const VehicleOptions& options, const Firmware& firmware, const Parameters& values,
+                   FlightObserver& observer)
+    : parameters(values),
+      context{.options = options,
+              .firmware = firmware,
+              .observer = observer,
+              .craft = Craft(options),
+              .tuning = firmware.tuning(values),
+              .plans = {}},
+      navigator(context, inputs),
+      detector(context),
+      commander(context, inputs, navigator, detector),
+      fence(context),
+      failsafes(context, inputs, fence, commander) {
+    if (options.motion == Motion::random) begin_random_motion();
+    shown_ = shown();
+}
+
+void Flight::Impl::begin_random_motion() {
+    random_pilot.emplace(context.options.seed);
+    context.craft.place({0, 0, -RandomPilot::height}, to_radians(context.options.home.heading_deg));
+    context.armed = true;
+    context.landed = LandedState::in_air;
+}
+
+void Flight::Impl::step() {
+    if (steps_++ % navigation_period == 0) random_pilot ? steer_at_random() : supervise();
+    context.craft.step(navigator.guidance().setpoint(), context.armed);
+}
+
+void Flight::Impl::supervise() {
+    const Guidance& guidance = navigator.guidance();
+    detector.update({guidance.is_climbing(), guidance.is_landing(), navigator.is_home()});
+    commander.update();
+    failsafes.update();
+    if (const auto next = navigator.update()) (void)commander.enter(*next, OrderedBy::vehicle);
+    report_changes();
+}
+
+// Such a vehicle is always armed and in the air, and gets a new battery in flight.
+void Flight::Impl::steer_at_random() {
+    Craft& craft = context.craft;
+    context.armed = true;
+    context.landed = LandedState::in_air;
+    commander.update();
+    if (craft.battery().remaining() < 0.2) craft.battery().set_remaining(1);
+    navigator.guidance().follow(random_pilot->steer(craft.home_place(), craft.estimate().position));
+    report_changes();
+}
+
+void Flight::Impl::set_origin(const GeoPoint& origin) {
+    navigator.move_origin(context.craft.set_origin(origin));
+    fence.rebuild();
+}
+
+// The local frame begins where the vehicle boots.
+void Flight::Impl::reboot() {
+    const GeoPoint here = context.craft.position();
+    set_origin({here.latitude, here.longitude, context.craft.ground_altitude()});
+    context.craft.reboot();
+    inputs = {};
+    failsafes.reset();
+    detector.reset();
+    fence.enable(true);
+    commander.reboot();
+    navigator.mission().on_plan_changed();
+    report_changes();
+}
+
+Flight::Impl::Shown Flight::Impl::shown() const noexcept {
+    return {&commander.mode(), context.armed, commander.status(), context.landed};
+}
+
+void Flight::Impl::report_changes() {
+    if (const Shown now = shown(); now != shown_) {
+        shown_ = now;
+        context.observer.on_state_changed();
     }
-    const Firmware& firmware;
-    const Parameters& parameters;
-    FlightObserver& observer;
-    const ModeInfo* mode;
-    std::unique_ptr<Airframe> airframe;
-    Battery battery;
-    Sensors sensors;
-    LocalFrame frame;
-    GeoPoint position;
-    std::optional<GeoPoint> home, interest;
-    Tuning tuning;
-    Plans plans;
-    Setpoint setpoint;
-    Vector3 wind = Vector3::Zero();
-    std::optional<NavigationTarget> target;
-    FlightTime time{};
-    bool armed = false;
-};
+}
 
 Flight::Flight(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters,
                FlightObserver& observer)
     : impl_(std::make_unique<Impl>(options, firmware, parameters, observer)) {}
 Flight::~Flight() = default;
 
-void Flight::step() {
-    impl_->time += step_time;
-    impl_->airframe->step(impl_->setpoint, impl_->armed, {});
-    impl_->sensors.step(impl_->airframe->motion(), {}, true, 0, 1.2);
+void Flight::step() { impl_->step(); }
+void Flight::reboot() { impl_->reboot(); }
+void Flight::retune() { impl_->context.tuning = impl_->context.firmware.tuning(impl_->parameters); }
+
+void Flight::on_sticks(const Sticks& sticks) { impl_->inputs.sticks.put(bounded(sticks), since_boot()); }
+void Flight::on_offboard(const OffboardSetpoint& setpoint) {
+    if (const auto given = bounded(setpoint)) impl_->inputs.offboard.put(*given, since_boot());
 }
-void Flight::reboot() { impl_->time = {}; }
-void Flight::retune() { impl_->tuning = impl_->firmware.tuning(impl_->parameters); }
-Outcome Flight::arm(bool /*force*/, OrderedBy /*by*/) { impl_->armed = true; impl_->observer.on_state_changed(); return Result::accepted; }
-Outcome Flight::disarm(bool /*force*/, OrderedBy /*by*/) { impl_->armed = false; impl_->observer.on_state_changed(); return Result::accepted; }
-Outcome Flight::set_mode(const ModeInfo& mode, OrderedBy /*by*/) { impl_->mode = &mode; impl_->observer.on_state_changed(); return Result::accepted; }
-Outcome Flight::take_off(const TakeoffOrder& /*order*/) { return Result::unsupported; }
-Outcome Flight::land(const LandOrder& /*order*/) { return Result::unsupported; }
-Outcome Flight::return_home() { return Result::unsupported; }
-Outcome Flight::reposition(const RepositionOrder& /*order*/) { return Result::unsupported; }
-Outcome Flight::orbit(const OrbitOrder& /*order*/) { return Result::unsupported; }
-Outcome Flight::pause() { return Result::unsupported; }
-Outcome Flight::resume() { return Result::unsupported; }
-Outcome Flight::change_altitude(double /*altitude*/) { return Result::unsupported; }
-Outcome Flight::change_speed(SpeedKind /*kind*/, double /*speed*/) { return Result::unsupported; }
-Outcome Flight::turn_to(double /*yaw*/, double /*yaw_rate*/, bool /*relative*/) { return Result::unsupported; }
-Outcome Flight::look_at(const std::optional<GeoPoint>& point) { impl_->interest = point; return Result::accepted; }
-Outcome Flight::start_mission(std::optional<std::uint16_t> /*first*/) { return Result::unsupported; }
-Outcome Flight::set_current_item(std::optional<std::uint16_t> /*seq*/, bool /*resets*/) { return Result::unsupported; }
-Outcome Flight::set_home(const std::optional<GeoPoint>& /*point*/, double /*yaw*/) { return Result::unsupported; }
-Outcome Flight::set_origin(const GeoPoint& /*origin*/) { return Result::unsupported; }
-Outcome Flight::terminate() { return Result::unsupported; }
-Outcome Flight::enable_fence(bool /*enabled*/) { return Result::unsupported; }
-Outcome Flight::inject_failures(const SensorFailures& /*failures*/) { return Result::unsupported; }
-Outcome Flight::set_battery(double /*share*/) { return Result::unsupported; }
-void Flight::on_sticks(const Sticks& /*sticks*/) {  }
-void Flight::on_offboard(const OffboardSetpoint& /*setpoint*/) {  }
-void Flight::on_ground_station_heard() {  }
-void Flight::on_plan_changed(PlanType /*type*/) {  }
-void Flight::set_calibrating(bool /*calibrating*/) {  }
-FlightTime Flight::since_boot() const noexcept { return impl_->time; }
-bool Flight::armed() const noexcept { return impl_->armed; }
-const ModeInfo& Flight::mode() const noexcept { return *impl_->mode; }
-const ModeInfo& Flight::intended_mode() const noexcept { return *impl_->mode; }
-SystemStatus Flight::system_status() const noexcept { return impl_->armed ? SystemStatus::active : SystemStatus::standby; }
-LandedState Flight::landed() const noexcept { return LandedState::on_ground; }
-std::uint32_t Flight::unready() const noexcept { return 0; }
-bool Flight::has_failsafe() const noexcept { return false; }
-bool Flight::has_sticks() const noexcept { return false; }
-Sticks Flight::sticks() const noexcept { return {}; }
-const Tuning& Flight::tuning() const noexcept { return impl_->tuning; }
-const Kinematics& Flight::truth() const noexcept { return impl_->airframe->motion(); }
-const Estimate& Flight::estimate() const noexcept { return impl_->sensors.estimate(); }
-const Sensors& Flight::sensors() const noexcept { return impl_->sensors; }
-const Airframe& Flight::airframe() const noexcept { return *impl_->airframe; }
-const Battery& Flight::battery() const noexcept { return impl_->battery; }
-const Vector3& Flight::wind() const noexcept { return impl_->wind; }
-const Setpoint& Flight::setpoint() const noexcept { return impl_->setpoint; }
-const LocalFrame& Flight::frame() const noexcept { return impl_->frame; }
-bool Flight::has_origin() const noexcept { return true; }
-const std::optional<GeoPoint>& Flight::home() const noexcept { return impl_->home; }
-double Flight::home_yaw() const noexcept { return 0; }
-const GeoPoint& Flight::position() const { return impl_->position; }
-double Flight::ground_altitude() const noexcept { return impl_->frame.origin().altitude; }
-Plans& Flight::plans() noexcept { return impl_->plans; }
-const Plans& Flight::plans() const noexcept { return impl_->plans; }
-MissionProgress Flight::mission() const noexcept { return {}; }
-const std::optional<NavigationTarget>& Flight::target() const noexcept { return impl_->target; }
-std::optional<OrbitStatus> Flight::orbit_status() const { return std::nullopt; }
-const std::optional<GeoPoint>& Flight::region_of_interest() const noexcept { return impl_->interest; }
-FlightTime Flight::armed_at() const noexcept { return {}; }
-FlightTime Flight::took_off_at() const noexcept { return {}; }
-std::uint32_t Flight::flights() const noexcept { return 0; }
+void Flight::on_ground_station_heard() { impl_->inputs.ground_station.put({}, since_boot()); }
+void Flight::on_plan_changed(PlanType type) {
+    if (type == PlanType::mission) impl_->navigator.mission().on_plan_changed();
+    if (type == PlanType::fence) impl_->fence.rebuild();
+}
+void Flight::set_calibrating(bool calibrating) {
+    impl_->commander.set_calibrating(calibrating);
+    impl_->report_changes();
+}
+
+FlightTime Flight::since_boot() const noexcept { return impl_->context.now(); }
+bool Flight::armed() const noexcept { return impl_->context.armed; }
+const ModeInfo& Flight::mode() const noexcept { return impl_->commander.mode(); }
+const ModeInfo& Flight::intended_mode() const noexcept { return impl_->commander.intended_mode(); }
+SystemStatus Flight::system_status() const noexcept { return impl_->commander.status(); }
+LandedState Flight::landed() const noexcept { return impl_->context.landed; }
+std::uint32_t Flight::unready() const noexcept { return impl_->commander.unready(); }
+bool Flight::has_failsafe() const noexcept { return impl_->commander.has_failsafe(); }
+bool Flight::has_sticks() const noexcept {
+    return impl_->inputs.sticks.is_fresh(impl_->context.now(), impl_->context.tuning.manual_loss);
+}
+Sticks Flight::sticks() const noexcept { return impl_->inputs.sticks.value().value_or(Sticks{}); }
+const Tuning& Flight::tuning() const noexcept { return impl_->context.tuning; }
+
+const Kinematics& Flight::truth() const noexcept { return impl_->context.craft.truth(); }
+const Estimate& Flight::estimate() const noexcept { return impl_->context.craft.estimate(); }
+const Sensors& Flight::sensors() const noexcept { return impl_->context.craft.sensors(); }
+const Airframe& Flight::airframe() const noexcept { return impl_->context.craft.airframe(); }
+const Battery& Flight::battery() const noexcept { return impl_->context.craft.battery(); }
+const Vector3& Flight::wind() const noexcept { return impl_->context.craft.wind(); }
+const Setpoint& Flight::setpoint() const noexcept { return impl_->navigator.guidance().setpoint(); }
+
+const LocalFrame& Flight::frame() const noexcept { return impl_->context.craft.frame(); }
+bool Flight::has_origin() const noexcept { return impl_->context.craft.has_origin(); }
+const std::optional<GeoPoint>& Flight::home() const noexcept { return impl_->context.craft.home(); }
+double Flight::home_yaw() const noexcept { return impl_->context.craft.home_yaw(); }
+const GeoPoint& Flight::position() const { return impl_->context.craft.position(); }
+double Flight::ground_altitude() const noexcept { return impl_->context.craft.ground_altitude(); }
+
+Plans& Flight::plans() noexcept { return impl_->context.plans; }
+const Plans& Flight::plans() const noexcept { return impl_->context.plans; }
+MissionProgress Flight::mission() const noexcept { return impl_->navigator.mission().progress(); }
+const std::optional<NavigationTarget>& Flight::target() const noexcept { return impl_->navigator.guidance().target(); }
+std::optional<OrbitStatus> Flight::orbit_status() const {
+    const auto& circle = impl_->navigator.guidance().present_circle();
+    if (!circle || mode().behaviour != Behaviour::orbit || !armed()) return std::nullopt;
+    return OrbitStatus{frame().to_geo(circle->center), circle->radius};
+}
+const std::optional<GeoPoint>& Flight::region_of_interest() const noexcept {
+    return impl_->navigator.guidance().heading().interest();
+}
+FlightTime Flight::armed_at() const noexcept { return impl_->context.armed_at; }
+FlightTime Flight::took_off_at() const noexcept { return impl_->detector.took_off_at(); }
+std::uint32_t Flight::flights() const noexcept { return impl_->commander.flights(); }
 
 }  // namespace mavloom::sim

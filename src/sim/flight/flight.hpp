@@ -28,7 +28,7 @@ class Parameters;
 // MAV_SEVERITY.
 enum class Severity : std::uint8_t { emergency, alert, critical, error, warning, notice, info, debug };
 
-// What happens in flight. Called during `step` and orders. Implementations must not call Flight back.
+// Events of a flight. Called during `step` and orders. Implementations must not call Flight back.
 class FlightObserver {
 public:
     virtual ~FlightObserver() = default;
@@ -38,8 +38,7 @@ public:
     virtual void on_home_changed() = 0;
     virtual void on_mission_progress() = 0;
     virtual void on_item_reached(std::uint16_t seq) = 0;
-    virtual void on_waypoint_triggered_camera(std::uint16_t /*seq*/) {}
-    // The mission reached an item for the payload: gimbal, camera, gripper, relay or actuator.
+    // The mission reached an item that does not move the vehicle: gimbal, camera, gripper, relay, actuator and others.
     virtual void on_payload_item(const PlanItem& /*item*/) {}
 };
 
@@ -57,7 +56,14 @@ enum class SystemStatus : std::uint8_t {
 };
 
 // MISSION_STATE of MISSION_CURRENT.
-enum class MissionState : std::uint8_t { unknown = 0, no_mission = 1, not_started = 2, active = 3, paused = 4, complete = 5 };
+enum class MissionState : std::uint8_t {
+    unknown = 0,
+    no_mission = 1,
+    not_started = 2,
+    active = 3,
+    paused = 4,
+    complete = 5
+};
 
 // How far the vehicle is with its mission.
 struct MissionProgress {
@@ -160,7 +166,7 @@ public:
     [[nodiscard]] const Vector3& wind() const noexcept;
     [[nodiscard]] const Setpoint& setpoint() const noexcept;
 
-    // The frame of every local position in this class. SET_GPS_GLOBAL_ORIGIN replaces it.
+    // The frame of every local position in this class. SET_GPS_GLOBAL_ORIGIN and a boot replace it.
     [[nodiscard]] const LocalFrame& frame() const noexcept;
     [[nodiscard]] bool has_origin() const noexcept;
     [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept;
@@ -176,12 +182,13 @@ public:
     [[nodiscard]] std::optional<OrbitStatus> orbit_status() const;
     // Where nose and gimbal look; empty: nowhere.
     [[nodiscard]] const std::optional<GeoPoint>& region_of_interest() const noexcept;
-    [[nodiscard]] FlightTime armed_at() const noexcept;    // since boot; 0 if disarmed
+    [[nodiscard]] FlightTime armed_at() const noexcept;     // since boot; 0 if disarmed
     [[nodiscard]] FlightTime took_off_at() const noexcept;  // since boot; 0 if on the ground
     [[nodiscard]] std::uint32_t flights() const noexcept;
 
-private:
     class Impl;
+
+private:
     std::unique_ptr<Impl> impl_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace mavloom::sim {
 
-// What the vehicle does, independent of the firmware's name for it.
+// The vehicle's behaviour, independent of the firmware's name for it.
 enum class Behaviour : std::uint8_t {
     manual,      // sticks to actuators
     acro,        // sticks to body rates

@@ -36,7 +36,7 @@ struct Outcome {
     Outcome(Result r, std::string why = {}) : result(r), text(std::move(why)) {}  // NOLINT(google-explicit-constructor)
 };
 
-// Who gave an order, for texts such as "Armed by external command".
+// The source of an order, for texts such as "Armed by external command".
 enum class OrderedBy : std::uint8_t { client, operator_console, mission, failsafe, vehicle };
 
 struct TakeoffOrder {

@@ -9,7 +9,7 @@
 
 namespace mavloom::sim {
 
-// What a fail-safe does.
+// The action of a fail-safe.
 enum class FailsafeAction : std::uint8_t { none, warn, hold, return_home, land, terminate, disarm };
 
 struct Tuning {

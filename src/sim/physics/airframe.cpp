@@ -2,22 +2,10 @@
 #include "sim/physics/airframe.hpp"
 
 #include "sim/physics/fixed_wing.hpp"
+#include "sim/physics/multicopter/multicopter.hpp"
 #include "sim/physics/rover.hpp"
 
 namespace mavloom::sim {
-
-namespace {
-
-class Parked final : public Airframe {
-public:
-    void step(const Setpoint& /*setpoint*/, bool /*armed*/, const Surroundings& /*around*/) override {}
-    void place(const Vector3& position, double heading) override {
-        motion_.position = position;
-        motion_.attitude = to_quaternion({0, 0, heading});
-    }
-};
-
-}  // namespace
 
 void Airframe::integrate_step(const Vector3& acceleration, const Vector3& rates) {
     motion_.acceleration = acceleration;
@@ -30,7 +18,7 @@ void Airframe::integrate_step(const Vector3& acceleration, const Vector3& rates)
 std::unique_ptr<Airframe> make_airframe(Kind kind) {
     if (kind == Kind::plane) return std::make_unique<FixedWing>();
     if (kind == Kind::rover) return std::make_unique<Rover>();
-    return std::make_unique<Parked>();
+    return std::make_unique<Multicopter>();
 }
 
 }  // namespace mavloom::sim

@@ -52,6 +52,7 @@ struct SpeedLimits {
     double yaw_rate = to_radians(60);           // rad/s
     double air_minimum = 12, air_maximum = 25;  // m/s, airspeed; planes
     double turn_radius = 1.5;                   // m, smallest; rovers
+    double jerk = 4;                            // m/s^3; multicopters; 0: follow the set-point itself, without a ramp
 };
 
 struct Setpoint {
@@ -65,7 +66,7 @@ struct Setpoint {
     double thrust = nan;            // 0 to 1; rovers: -1 (full reverse) to 1
     std::array<double, 4> mixer{};  // roll, pitch, yaw -1 to 1; thrust as above
     bool touch_down = false;        // keep descending until the ground carries the vehicle
-    SpeedLimits limits;
+    SpeedLimits limits{};
 };
 
 // Air, ground and supply around the vehicle during one step.
@@ -76,12 +77,14 @@ struct Surroundings {
     double supply = 1;               // battery voltage relative to full; scales the thrust
 };
 
-// Targets of the inner loops, for ATTITUDE_TARGET and POSITION_TARGET_LOCAL_NED.
+// Targets of the inner loops, for ATTITUDE_TARGET and POSITION_TARGET_LOCAL_NED. `nan`: not controlled.
 struct InnerTargets {
     Quaternion attitude = Quaternion::Identity();
     Vector3 rates = Vector3::Zero();
     double thrust = 0;
     Vector3 velocity = Vector3::Zero(), acceleration = Vector3::Zero();
+    Vector3 position = no_vector;  // the point on the way to the goal where the vehicle shall be now
+    double yaw = nan, yaw_rate = nan;
 };
 
 struct Actuators {
@@ -117,8 +120,10 @@ public:
 
     // Advances by `step_s`.
     virtual void step(const Setpoint& setpoint, bool armed, const Surroundings& around) = 0;
-    // Puts the vehicle at rest on the ground.
+    // Puts the vehicle at rest, usually on the ground.
     virtual void place(const Vector3& position, double heading) = 0;
+    // The origin of the local frame moved: `by` is added to every position. The motion continues.
+    virtual void move_origin(const Vector3& by) { motion_.position += by; }
 
     [[nodiscard]] const Kinematics& motion() const noexcept { return motion_; }
     [[nodiscard]] const InnerTargets& targets() const noexcept { return targets_; }

@@ -11,6 +11,7 @@ namespace {
 constexpr double full_cell = 4.2, empty_cell = 3.5;  // V
 constexpr double cell_resistance = 0.004;            // ohm
 constexpr double average_tau = 10;                   // s
+constexpr double charge_rate = 0.05;                 // of the capacity, 1/s
 
 }  // namespace
 
@@ -18,6 +19,7 @@ Battery::Battery(const BatteryOptions& options) noexcept
     : capacity_mah_(options.capacity_mah),
       hover_current_(options.capacity_mah / 1000 * 60 / options.hover_minutes),
       used_mah_(options.capacity_mah * (1 - options.start_percent / 100)),
+      used_at_start_(used_mah_),
       cells_(options.cells) {}
 
 void Battery::step(double load, double dt) noexcept {
@@ -25,6 +27,14 @@ void Battery::step(double load, double dt) noexcept {
     average_current_ += (current_ - average_current_) * dt / average_tau;
     used_mah_ = std::min(used_mah_ + current_ * dt / 3.6, capacity_mah_);
     used_joule_ += current_ * voltage() * dt;
+}
+
+void Battery::set_remaining(double share) noexcept {
+    used_mah_ = used_at_start_ = capacity_mah_ * (1 - std::clamp(share, 0.0, 1.0));
+}
+
+void Battery::charge(double dt) noexcept {
+    used_mah_ = std::max(used_mah_ - charge_rate * capacity_mah_ * dt, std::min(used_mah_, used_at_start_));
 }
 
 double Battery::remaining() const noexcept { return std::max(0.0, 1 - used_mah_ / capacity_mah_); }
@@ -39,6 +49,6 @@ double Battery::seconds_left() const noexcept {
     return (capacity_mah_ - used_mah_) * 3.6 / average_current_;
 }
 
-double Battery::supply() const noexcept { return voltage() / (cells_ * full_cell); }
+double Battery::supply() const noexcept { return remaining() > 0 ? voltage() / (cells_ * full_cell) : 0; }
 
 }  // namespace mavloom::sim

@@ -34,8 +34,8 @@ private:
     double rate_, value_ = 0;
 };
 
-// First-order Gauss-Markov process: correlated over `tau` seconds, with steady standard deviation `sigma`. Exact for any
-// step. `derivative` is the rate of change over the last step, for a position whose velocity must agree with it.
+// First-order Gauss-Markov process: correlated over `tau` seconds, with steady standard deviation `sigma`. Exact for
+// any step. `derivative` is the rate of change over the last step, for a position whose velocity must agree with it.
 class GaussMarkov {
 public:
     GaussMarkov(double sigma, double tau, double dt) noexcept
@@ -51,6 +51,27 @@ public:
 
 private:
     double decay_, drive_, per_second_, value_ = 0, derivative_ = 0;
+};
+
+// A slow and smooth wander: a critically damped oscillator that white noise drives. `value` is exactly the sum of
+// `rate` times the step. The steady standard deviation of `value` is `sigma`, that of `rate` is `sigma` / `tau`.
+class SmoothWander {
+public:
+    SmoothWander(double sigma, double tau, double dt) noexcept
+        : dt_(dt),
+          pull_(dt / (tau * tau)),
+          damping_(2 * dt / tau),
+          drive_(2 * sigma * std::sqrt(dt / (tau * tau * tau))) {}
+    // `share` scales the noise; the wander then calms down or grows within a few `tau`.
+    void next(Random& random, double share = 1) noexcept {
+        rate_ += share * drive_ * random.normal() - pull_ * value_ - damping_ * rate_;
+        value_ += rate_ * dt_;
+    }
+    [[nodiscard]] double value() const noexcept { return value_; }
+    [[nodiscard]] double rate() const noexcept { return rate_; }
+
+private:
+    double dt_, pull_, damping_, drive_, value_ = 0, rate_ = 0;
 };
 
 // A disturbance that fades: each `kick` adds to it, and it decays with time constant `tau`.

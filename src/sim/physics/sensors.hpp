@@ -12,7 +12,7 @@
 
 namespace mavloom::sim {
 
-// What the vehicle believes of itself. Position and velocity agree: the first is the integral of the second.
+// The vehicle's estimate of its own motion. The position is the sum of the velocity times the step.
 struct Estimate {
     Vector3 position = Vector3::Zero(), velocity = Vector3::Zero(), acceleration = Vector3::Zero();
     Quaternion attitude = Quaternion::Identity();
@@ -29,8 +29,8 @@ struct ImuSample {
 };
 
 struct GpsFix {
-    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();  // local frame, as measured
-    std::uint8_t fix_type = 0;     // GPS_FIX_TYPE
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();  // local frame, as measured at 8 Hz
+    std::uint8_t fix_type = 0;                                       // GPS_FIX_TYPE
     std::uint8_t satellites = 0;
     double hdop = 0, vdop = 0;
     double horizontal_m = 0, vertical_m = 0, speed_m_s = 0;  // accuracies
@@ -46,9 +46,12 @@ class Sensors {
 public:
     Sensors(bool has_noise, std::uint64_t seed);
 
-    // Call it after each step of the airframe. `ground` is the altitude (AMSL, m) of the local origin.
+    // Call it after each step of the airframe, and once before the first. `origin_altitude` is the altitude (AMSL, m)
+    // of the local origin.
     void step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
               double air_density);
+    // As Airframe::move_origin.
+    void move_origin(const Vector3& by);
     void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
     [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
     // GPS has a fix from now on. Before, fix_type is 1.
@@ -65,14 +68,20 @@ public:
     [[nodiscard]] double vibration() const noexcept { return vibration_; }
 
 private:
-    void step_imu(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density);
+    using Wander3 = std::array<SmoothWander, 3>;
+
+    void step_imu(const Kinematics& truth);
+    void step_magnetometer(const Quaternion& attitude);
+    void step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density);
     void step_gps(const Kinematics& truth);
-    void step_estimate(const Kinematics& truth, bool at_rest);
+    void step_estimate(const Kinematics& truth, double share);
+    [[nodiscard]] Vector3 noise(const Vector3& sigma);
 
     Random random_;
     bool has_noise_, gps_acquired_ = false;
     SensorFailures failures_;
-    std::array<GaussMarkov, 3> position_wander_, attitude_wander_, gps_position_, gps_velocity_;
+    Wander3 position_wander_, attitude_wander_;
+    std::array<GaussMarkov, 3> gps_position_, gps_velocity_;
     Estimate estimate_;
     ImuSample imu_;
     GpsFix gps_;

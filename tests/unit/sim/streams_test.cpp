@@ -343,7 +343,7 @@ TEST(Streams, PingsOfALinkAreNumbered) {
 }
 
 TEST(Streams, LinkNodeStatusCountsTheTrafficOfItsLink) {
-    Rig rig({}, {.profile = Profile::px4_normal});
+    Rig rig({.ready_after = Nanoseconds{0}}, {.profile = Profile::px4_normal});
     rig.vehicle.open(LinkId{2}, {.profile = Profile::lite}, rig.now());
     for (int i = 0; i < 10; ++i) {
         rig.send(msg::Heartbeat{.type = msg::MAV_TYPE_GCS, .mavlink_version = 3});
