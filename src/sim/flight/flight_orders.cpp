@@ -19,9 +19,6 @@ Given given(double latitude, double longitude) noexcept {
     if (std::isnan(latitude) && std::isnan(longitude)) return Given::no;
     return std::abs(latitude) <= 90 && std::abs(longitude) <= 180 ? Given::yes : Given::wrong;
 }
-double bounded(double value, double most) noexcept {
-    return std::isfinite(value) ? std::clamp(value, -most, most) : nan;
-}
 bool is_valid(const GeoPoint& point) noexcept {
     return given(point.latitude, point.longitude) == Given::yes && std::abs(point.altitude) <= highest;
 }

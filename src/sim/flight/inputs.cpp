@@ -8,12 +8,9 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr double farthest = 1e6, fastest = 1e3;  // m; m/s, m/s^2 and rad/s
+constexpr double most_distance = 1e6, most_rate = 1e3;  // m; m/s, m/s^2 and rad/s
 
-double bounded(double value, double most) noexcept {
-    return std::isfinite(value) ? std::clamp(value, -most, most) : nan;
-}
-Vector3 bounded(const Vector3& vector, double most) noexcept {
+Vector3 each_bounded(const Vector3& vector, double most) noexcept {
     return {bounded(vector.x(), most), bounded(vector.y(), most), bounded(vector.z(), most)};
 }
 // North and east come together.
@@ -21,12 +18,16 @@ Vector3 paired(Vector3 vector) noexcept {
     if (std::isnan(vector.x()) || std::isnan(vector.y())) vector.x() = vector.y() = nan;
     return vector;
 }
-bool is_given(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
+bool has_any(const Vector3& vector) noexcept { return !vector.array().isNaN().all(); }
 double share(double value, double low, double fallback) noexcept {
     return std::isfinite(value) ? std::clamp(value, low, 1.0) : fallback;
 }
 
 }  // namespace
+
+double bounded(double value, double most) noexcept {
+    return std::isfinite(value) ? std::clamp(value, -most, most) : nan;
+}
 
 Sticks bounded(const Sticks& sticks) noexcept {
     return {.pitch = share(sticks.pitch, -1, 0),
@@ -37,12 +38,12 @@ Sticks bounded(const Sticks& sticks) noexcept {
 
 std::optional<OffboardSetpoint> bounded(const OffboardSetpoint& given) noexcept {
     OffboardSetpoint setpoint = given;
-    setpoint.position = paired(bounded(given.position, farthest));
-    setpoint.velocity = paired(bounded(given.velocity, fastest));
-    setpoint.acceleration = paired(bounded(given.acceleration, fastest));
+    setpoint.position = paired(each_bounded(given.position, most_distance));
+    setpoint.velocity = paired(each_bounded(given.velocity, most_rate));
+    setpoint.acceleration = paired(each_bounded(given.acceleration, most_rate));
     setpoint.yaw = bounded(given.yaw, 1e3);
-    setpoint.yaw_rate = bounded(given.yaw_rate, fastest);
-    setpoint.rates = bounded(given.rates, 20);
+    setpoint.yaw_rate = bounded(given.yaw_rate, most_rate);
+    setpoint.rates = each_bounded(given.rates, 20);
     setpoint.thrust = share(given.thrust, -1, 0);
     for (double& input : setpoint.mixer) input = share(input, -1, 0);
     const double length = given.attitude.norm();
@@ -50,12 +51,12 @@ std::optional<OffboardSetpoint> bounded(const OffboardSetpoint& given) noexcept 
     if (is_turn) setpoint.attitude.coeffs() /= length;
     switch (setpoint.steering) {
         case Steering::trajectory:
-            if (is_given(setpoint.position) || is_given(setpoint.velocity) || is_given(setpoint.acceleration))
+            if (has_any(setpoint.position) || has_any(setpoint.velocity) || has_any(setpoint.acceleration))
                 return setpoint;
             return std::nullopt;
         case Steering::attitude: return is_turn ? std::optional(setpoint) : std::nullopt;
         case Steering::rates:
-            if (!is_given(setpoint.rates)) return std::nullopt;
+            if (!has_any(setpoint.rates)) return std::nullopt;
             setpoint.rates = setpoint.rates.array().isNaN().select(0, setpoint.rates);
             return setpoint;
         case Steering::actuators: return setpoint;

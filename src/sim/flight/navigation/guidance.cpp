@@ -8,14 +8,14 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr double standing = 0.15;                        // m/s; slower than this, a vehicle has stopped
+constexpr double stopped_speed = 0.15;                   // m/s; slower than this, a vehicle has stopped
 constexpr double crawl_height = 0.6, crawl_speed = 0.3;  // m, m/s; the last part of a landing
 // A plane lands on a final of this length from this height, and lines up behind its beginning.
 constexpr double final_length = 350, final_height = 30, line_up = 250;  // m
-constexpr double glide = 12;         // metres ahead for each metre of height, when a plane lands straight ahead
+constexpr double glide_ratio = 12;   // metres ahead for each metre of height, when a plane lands straight ahead
 constexpr double far_away = 10'000;  // m, the end of a plane's climb-out
 
-double length_of(const Vector3& vector) noexcept { return std::hypot(vector.x(), vector.y()); }
+double horizontal_length(const Vector3& vector) noexcept { return std::hypot(vector.x(), vector.y()); }
 
 Vector3 along(double bearing, double distance) {
     return {std::cos(bearing) * distance, std::sin(bearing) * distance, 0};
@@ -70,7 +70,7 @@ void Guidance::land(const Vector3& spot, double yaw) {
     if (context_.kind() != Kind::plane) return begin(Manoeuvre::final, spot_, yaw);
     const Vector3& wind = context_.craft.wind();
     const Vector3 way = spot_ - context_.craft.estimate().position;
-    const bool has_wind = length_of(wind) > 2;
+    const bool has_wind = horizontal_length(wind) > 2;
     const double course = has_wind ? std::atan2(-wind.y(), -wind.x()) : std::atan2(way.y(), way.x());
     begin(Manoeuvre::approach, spot_ - along(course, final_length) - Vector3(0, 0, final_height), course);
 }
@@ -78,7 +78,7 @@ void Guidance::land(const Vector3& spot, double yaw) {
 void Guidance::land_ahead() {
     const Estimate& now = context_.craft.estimate();
     if (context_.kind() != Kind::plane) return land(now.position);
-    const double distance = std::max(200.0, glide * context_.craft.height());
+    const double distance = std::max(200.0, glide_ratio * context_.craft.height());
     spot_ = now.position + along(std::atan2(now.velocity.y(), now.velocity.x()), distance);
     spot_.z() = context_.craft.ground_z();
     begin(Manoeuvre::final, spot_);
@@ -121,7 +121,7 @@ bool Guidance::is_staying() const noexcept {
 
 bool Guidance::is_near_goal(double radius) const noexcept {
     const Vector3 rest = way(), leg = goal_ - from_;
-    if (length_of(rest) <= radius) return true;
+    if (horizontal_length(rest) <= radius) return true;
     const bool has_passed = rest.x() * leg.x() + rest.y() * leg.y() < 0;
     return context_.kind() == Kind::plane && manoeuvre_ == Manoeuvre::leg && has_passed;
 }
@@ -197,7 +197,8 @@ void Guidance::steer() {
 // It brakes at once; where it then stands is where it stays.
 void Guidance::steer_stop() {
     const Vector3& velocity = context_.craft.estimate().velocity;
-    if (length_of(velocity) < standing && (std::isfinite(goal_.z()) || std::abs(velocity.z()) < standing)) {
+    if (horizontal_length(velocity) < stopped_speed &&
+        (std::isfinite(goal_.z()) || std::abs(velocity.z()) < stopped_speed)) {
         const Vector3& here = context_.craft.estimate().position;
         goal_ = {here.x(), here.y(), std::isfinite(goal_.z()) ? goal_.z() : here.z()};
         setpoint_.position = goal_;
@@ -219,7 +220,7 @@ void Guidance::steer_circle() {
     setpoint_.radius = circle.radius;
     const Vector3 inwards = way(), velocity = context_.craft.estimate().velocity;
     const double bearing = std::atan2(inwards.y(), inwards.x()), side = circle.radius < 0 ? -1 : 1;
-    const double distance = std::max(length_of(inwards), 1.0);
+    const double distance = std::max(horizontal_length(inwards), 1.0);
     const bool is_on_circle = std::abs(distance - std::abs(circle.radius)) < 2 + 0.3 * std::abs(circle.radius);
     if (is_on_circle && std::isfinite(last_bearing_)) turned_ += side * wrap_pi(bearing - last_bearing_);
     last_bearing_ = is_on_circle ? bearing : nan;
@@ -246,7 +247,7 @@ void Guidance::steer_approach() {
     setpoint_.position = gate;
     setpoint_.radius = context_.tuning.loiter_radius;
     const Vector3 rest = gate - context_.craft.estimate().position;
-    const bool is_there = length_of(rest) < 1.3 * std::abs(setpoint_.radius) && std::abs(rest.z()) < 8;
+    const bool is_there = horizontal_length(rest) < 1.3 * std::abs(setpoint_.radius) && std::abs(rest.z()) < 8;
     const double course_error = wrap_pi(context_.craft.estimate().euler.yaw - yaw_);
     if (!is_there || std::abs(course_error) > 0.7) return;
     from_ = goal_;
@@ -280,8 +281,8 @@ void Guidance::report_target() {
     if (manoeuvre_ == Manoeuvre::stop && std::isfinite(goal_.z())) place.z() = goal_.z();
     double cross_track = 0;
     const Vector3 leg = goal_ - from_, done = context_.craft.estimate().position - from_;
-    if (manoeuvre_ == Manoeuvre::leg && length_of(leg) > 1)
-        cross_track = (leg.x() * done.y() - leg.y() * done.x()) / length_of(leg);
+    if (manoeuvre_ == Manoeuvre::leg && horizontal_length(leg) > 1)
+        cross_track = (leg.x() * done.y() - leg.y() * done.x()) / horizontal_length(leg);
     target_ = NavigationTarget{place, cross_track};
 }
 

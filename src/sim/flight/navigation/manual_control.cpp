@@ -12,8 +12,8 @@ constexpr double interval = 5 * step_s;  // s between two calls
 constexpr double tilt = to_radians(35), bank = to_radians(45), pitch_limit = to_radians(25);
 constexpr double turn_rate = to_radians(150);  // rad/s
 constexpr double acro_rate = to_radians(220), acro_yaw_rate = to_radians(100);
-constexpr double fastest = 10;  // m/s
-constexpr double jerk = 8;      // m/s^3
+constexpr double stick_speed = 10;  // m/s
+constexpr double jerk = 8;          // m/s^3
 constexpr double dead_zone = 0.1;
 
 // A stick in -1 to 1 without its dead zone.
@@ -24,8 +24,8 @@ double beyond_dead_zone(double stick) noexcept {
 // From a throttle stick in 0 to 1: up is positive.
 double climb_of(const Sticks& sticks) noexcept { return beyond_dead_zone(2 * sticks.throttle - 1); }
 
-// Forward and right, turned by the yaw.
-Vector3 turned(double forward, double right, double yaw) {
+// Forward and right, rotated by the yaw.
+Vector3 rotated(double forward, double right, double yaw) {
     const double c = std::cos(yaw), s = std::sin(yaw);
     return {forward * c - right * s, forward * s + right * c, nan};
 }
@@ -34,7 +34,7 @@ Vector3 turned(double forward, double right, double yaw) {
 
 SpeedLimits ManualControl::limits() const noexcept {
     const Tuning& tuning = context_.tuning;
-    return {.horizontal = std::min(fastest, tuning.max_speed),
+    return {.horizontal = std::min(stick_speed, tuning.max_speed),
             .up = tuning.climb_speed,
             .down = tuning.descent_speed,
             .acceleration = std::max(tuning.acceleration, 5.0),
@@ -72,9 +72,9 @@ Setpoint ManualControl::steer_quad(Behaviour behaviour, const Sticks& sticks) {
     const double forward = beyond_dead_zone(sticks.pitch), right = beyond_dead_zone(sticks.roll);
     const double heading = context_.craft.estimate().euler.yaw;
     if (behaviour == Behaviour::altitude) {
-        setpoint.acceleration = turned(forward, right, heading) * (gravity * std::tan(tilt));
+        setpoint.acceleration = rotated(forward, right, heading) * (gravity * std::tan(tilt));
     } else {
-        setpoint.velocity = turned(forward, right, heading) * setpoint.limits.horizontal;
+        setpoint.velocity = rotated(forward, right, heading) * setpoint.limits.horizontal;
     }
     setpoint.velocity.z() = up > 0 ? -up * setpoint.limits.up : -up * setpoint.limits.down;
     return setpoint;
@@ -120,7 +120,7 @@ Setpoint ManualControl::steer_rover(Behaviour behaviour, const Sticks& sticks) c
         return setpoint;
     }
     setpoint.steering = Steering::trajectory;
-    setpoint.velocity = turned(forward * setpoint.limits.horizontal, 0, context_.craft.estimate().euler.yaw);
+    setpoint.velocity = rotated(forward * setpoint.limits.horizontal, 0, context_.craft.estimate().euler.yaw);
     setpoint.velocity.z() = 0;
     setpoint.yaw_rate = right * context_.tuning.max_yaw_rate;
     return setpoint;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace msg;
 
-constexpr double farthest = 1e5;  // m; higher or lower places are at this height
+constexpr double most_height = 1e5;  // m; higher or lower places are at this height
 
 // Parameters may be NaN or infinite; a wait then lasts no time, or a day.
 double seconds_of(double value) noexcept { return std::isnan(value) ? 0 : std::clamp(value, 0.0, 86'400.0); }
@@ -221,7 +221,7 @@ double MissionRunner::altitude_z() const noexcept {
     const Craft& craft = context_.craft;
     const double height = double{item().z};
     if (!std::isfinite(height)) return guidance_.goal().z();
-    const double bounded = std::clamp(height, -farthest, farthest);
+    const double bounded = std::clamp(height, -most_height, most_height);
     switch (item().frame) {
         case MAV_FRAME_GLOBAL:
         case MAV_FRAME_GLOBAL_INT: return craft.frame().origin().altitude - bounded;

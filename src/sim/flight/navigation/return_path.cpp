@@ -10,6 +10,7 @@ namespace mavloom::sim {
 
 // The return altitude, or above it, where the vehicle is now. Near home a cone allows a lower one.
 double ReturnPath::return_z() const {
+    if (context_.kind() == Kind::rover) return home().z();
     const Tuning& tuning = context_.tuning;
     const Vector3 way = home() - context_.craft.estimate().position;
     const double distance = std::hypot(way.x(), way.y());
@@ -28,7 +29,8 @@ void ReturnPath::begin() {
     const double z = return_z();
     const double altitude = context_.craft.frame().origin().altitude - z;
     const std::string text = filled(context_.texts().return_begins, fmt::format("{:.0f}", altitude));
-    context_.say(Severity::info, filled(text, fmt::format("{:.0f}", home().z() - z)));
+    if (context_.kind() != Kind::rover)
+        context_.say(Severity::info, filled(text, fmt::format("{:.0f}", home().z() - z)));
     guidance_.stop(z);
     phase_ = Phase::climb;
     if (context_.kind() == Kind::quad) return;

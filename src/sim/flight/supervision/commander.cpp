@@ -8,7 +8,7 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr double standing = 0.5;  // m/s
+constexpr double standstill = 0.5;  // m/s
 
 // The sooner a behaviour brings the vehicle down, the higher.
 int urgency_of(Behaviour behaviour) noexcept {
@@ -114,7 +114,7 @@ Outcome Commander::arm(bool force, OrderedBy /*by*/) {
 }
 
 bool Commander::may_disarm() const noexcept {
-    return context_.is_on_ground() || (context_.kind() == Kind::rover && context_.craft.speed() < standing);
+    return context_.is_on_ground() || (context_.kind() == Kind::rover && context_.craft.speed() < standstill);
 }
 
 Outcome Commander::disarm(bool force, OrderedBy /*by*/) {
@@ -252,7 +252,7 @@ void Commander::disarm_if_standing() {
         detector_.seconds_landed() >= tuning.disarm_after_landing)
         return end_flight(texts.disarmed_by_landing);
     const double standing_for = std::min(context_.seconds_since(context_.armed_at), detector_.seconds_landed());
-    if ((!has_flown_ || takes_off) && tuning.disarm_without_takeoff > 0 && context_.craft.speed() < standing &&
+    if ((!has_flown_ || takes_off) && tuning.disarm_without_takeoff > 0 && context_.craft.speed() < standstill &&
         standing_for >= tuning.disarm_without_takeoff)
         end_flight(texts.disarmed_without_takeoff);
 }

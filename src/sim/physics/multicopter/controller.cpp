@@ -26,8 +26,8 @@ Vector3 clamped(const Vector3& value, const Vector3& limit) { return value.cwise
 Vector3 force_for(const Vector3& acceleration, double tilt) {
     Vector3 force = acceleration - Vector3(0, 0, gravity);
     force.z() = std::clamp(force.z(), -most_thrust * full_thrust, -least_thrust * gravity);
-    const double sideways = std::sqrt(std::pow(most_thrust * full_thrust, 2) - force.z() * force.z());
-    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * std::tan(tilt), sideways));
+    const double most_sideways = std::sqrt(std::pow(most_thrust * full_thrust, 2) - force.z() * force.z());
+    force.head<2>() = limited(Eigen::Vector2d(force.head<2>()), std::min(-force.z() * std::tan(tilt), most_sideways));
     return force;
 }
 

@@ -10,9 +10,9 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr double motor_lag = 0.03;  // s
-constexpr double lag_share = step_s / motor_lag;
-constexpr double drag = 0.2;  // 1/s at sea level
+constexpr double rotor_lag = 0.03;  // s
+constexpr double lag_share = step_s / rotor_lag;
+constexpr double body_drag = 0.2;  // 1/s at sea level
 constexpr double sea_level_density = 1.225;
 
 // Legs: a spring with damping that carries the weight at height 0, and friction.
@@ -101,7 +101,7 @@ Moments Multicopter::control_on_ground(const Setpoint& setpoint) {
 void Multicopter::move(const Surroundings& around) {
     const Moments& given = rotors_.given();
     Vector3 acceleration = motion_.attitude * Vector3(0, 0, -full_thrust * around.supply * given.thrust);
-    acceleration -= air_velocity_ * (drag * around.air_density / sea_level_density);
+    acceleration -= air_velocity_ * (body_drag * around.air_density / sea_level_density);
     acceleration.z() += gravity;
     const Vector3 moments = Vector3(given.roll, given.pitch, given.yaw).cwiseProduct(full_moment) * around.supply;
     const Vector3 rates = motion_.rates + moments * step_s;

@@ -5,21 +5,22 @@
 #include <cmath>
 
 #include "sim/physics/multicopter/shaping.hpp"
+#include "sim/physics/path.hpp"
 
 namespace mavloom::sim {
 
 namespace {
 
-constexpr double position_gain = 0.95, altitude_gain = 1.0;         // 1/s; MPC_XY_P and MPC_Z_P of PX4
+constexpr double position_gain = 0.95, height_gain = 1.0;           // 1/s; MPC_XY_P and MPC_Z_P of PX4
 constexpr double velocity_gain = 4;                                 // 1/s
 constexpr double braking_share = 0.5;                               // of the acceleration; the jerk takes the rest
 constexpr double up_acceleration = 4, down_acceleration = 3;        // m/s^2; MPC_ACC_UP_MAX and MPC_ACC_DOWN_MAX
 constexpr double yaw_gain = 2, yaw_acceleration = to_radians(120);  // 1/s, rad/s^2
 constexpr double patience = 2;                                      // m that the path may be ahead of the vehicle
 
-bool is_given(const Vector3& vector) noexcept { return std::isfinite(vector.x()) && std::isfinite(vector.y()); }
 bool accelerates_only(const Setpoint& setpoint) noexcept {
-    return is_given(setpoint.acceleration) && !is_given(setpoint.velocity) && !is_given(setpoint.position);
+    return has_horizontal(setpoint.acceleration) && !has_horizontal(setpoint.velocity) &&
+           !has_horizontal(setpoint.position);
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ void Trajectory::step_horizontal(const Setpoint& setpoint) {
 Trajectory::Wish Trajectory::horizontal_wish(const Setpoint& setpoint) const {
     const SpeedLimits& limits = setpoint.limits;
     if (setpoint.steering == Steering::circle) return circle_wish(setpoint);
-    if (is_given(setpoint.position)) {
+    if (has_horizontal(setpoint.position)) {
         const Vector2 way = setpoint.position.head<2>() - target_.position.head<2>();
         const double distance = way.norm();
         if (distance < 1e-6) return {};
@@ -89,7 +90,7 @@ Trajectory::Wish Trajectory::horizontal_wish(const Setpoint& setpoint) const {
         const double speed = std::min(closing_speed(distance, position_gain, braking), limits.horizontal);
         return {.velocity = way * (speed / distance)};
     }
-    if (is_given(setpoint.velocity))
+    if (has_horizontal(setpoint.velocity))
         return {.velocity = limited(Vector2(setpoint.velocity.head<2>()), limits.horizontal)};
     return {};
 }
@@ -126,7 +127,7 @@ double Trajectory::vertical_wish(const Setpoint& setpoint) const {
     double speed = 0;
     if (std::isfinite(setpoint.position.z())) {
         const double way = setpoint.position.z() - target_.position.z();
-        speed = closing_speed(way, altitude_gain, braking_share * down_acceleration);
+        speed = closing_speed(way, height_gain, braking_share * down_acceleration);
     } else if (std::isfinite(setpoint.velocity.z())) {
         speed = setpoint.velocity.z();
     }
