@@ -239,7 +239,7 @@ Outcome set_origin(Parts& parts, const Command& command, Moment /*now*/) {
 
 Outcome look_at_place(Parts& parts, const Command& command, Moment /*now*/) {
     const Place place = place_of(command, parts);
-    if (std::isnan(place.latitude)) return Result::denied;
+    if (std::isnan(place.latitude) || std::isnan(place.longitude)) return Result::denied;
     const double altitude = std::isnan(place.altitude) ? parts.flight.ground_altitude() : place.altitude;
     return parts.flight.look_at(GeoPoint{place.latitude, place.longitude, altitude});
 }

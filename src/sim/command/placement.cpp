@@ -8,9 +8,9 @@
 namespace mavloom::sim {
 
 Place place_of(const Command& command, const Parts& parts) {
-    const bool is_given = !std::isnan(command.x) && !std::isnan(command.y) && (command.x != 0 || command.y != 0);
-    return {.latitude = is_given ? command.x : nan,
-            .longitude = is_given ? command.y : nan,
+    const bool is_filler = command.x == 0 && command.y == 0;
+    return {.latitude = is_filler ? nan : command.x,
+            .longitude = is_filler ? nan : command.y,
             .altitude = altitude_of(command, parts)};
 }
 

@@ -214,6 +214,7 @@ TEST(FlightCommands, TakeOffToTheAltitudeThatQGroundControlSends) {
     EXPECT_EQ(bench.state().custom_mode, px4_takeoff) << "even while it is disarmed";
     ASSERT_EQ(bench.arm(), accepted);
     EXPECT_TRUE(bench.rig.run_until([&] { return bench.state().custom_mode == px4_hold; }, 30));
+    bench.rig.run(3.0);
     EXPECT_NEAR(bench.state().relative_altitude_m, 12, 0.6);
 }
 
@@ -222,6 +223,7 @@ TEST(FlightCommands, TakeOffWithoutAnAltitude) {
     EXPECT_EQ(bench.command(22, {nan_f, nan_f, nan_f, nan_f, nan_f, nan_f, nan_f}), accepted) << "MAVSDK";
     ASSERT_EQ(bench.arm(), accepted);
     EXPECT_TRUE(bench.rig.run_until([&] { return bench.state().custom_mode == px4_hold; }, 20));
+    bench.rig.run(3.0);
     EXPECT_NEAR(bench.state().relative_altitude_m, 2.5, 0.5) << "MIS_TAKEOFF_ALT";
 }
 
@@ -231,6 +233,7 @@ TEST(FlightCommands, TakeOffToAHeightAboveHome) {
     EXPECT_EQ(bench.command(22, {0, 0, 0, 0, 0, 0, 10}), accepted);
     ASSERT_EQ(bench.arm(), accepted);
     EXPECT_TRUE(bench.rig.run_until([&] { return bench.state().custom_mode == px4_hold; }, 30));
+    bench.rig.run(3.0);
     EXPECT_NEAR(bench.state().relative_altitude_m, 10, 0.5);
     EXPECT_NEAR(bench.north(), 0, 2) << "0/0 is here";
 }
