@@ -25,6 +25,7 @@
 #include "mavloom/msg/gimbal_manager_status.hpp"
 #include "mavloom/msg/global_position_int.hpp"
 #include "mavloom/msg/gnss_integrity.hpp"
+#include "mavloom/msg/gps_global_origin.hpp"
 #include "mavloom/msg/gps_raw_int.hpp"
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/highres_imu.hpp"
@@ -165,6 +166,7 @@ constexpr std::array rates_px4_normal{
     StreamRate{GlobalPositionInt::id, 50},
     StreamRate{ServoOutputRaw::id, 50},
     StreamRate{MissionCurrent::id, 1},
+    StreamRate{GpsGlobalOrigin::id, 1, When::once},
     StreamRate{NavControllerOutput::id, 1},
     StreamRate{RcChannels::id, 20, When::remote},
     StreamRate{VfrHud::id, 4},
@@ -209,6 +211,7 @@ constexpr std::array rates_px4_onboard{
     StreamRate{GlobalPositionInt::id, 50},
     StreamRate{ServoOutputRaw::id, 10},
     StreamRate{MissionCurrent::id, 1},
+    StreamRate{GpsGlobalOrigin::id, 1, When::once},
     StreamRate{NavControllerOutput::id, 10},
     StreamRate{RcChannels::id, 20, When::remote},
     StreamRate{VfrHud::id, 10},

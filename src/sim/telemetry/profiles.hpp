@@ -17,6 +17,7 @@ enum class When : std::uint8_t {
     wind,    // a wind is simulated, or the vehicle measures it
     remote,  // a remote control is simulated
     gimbal,  // a gimbal is simulated
+    once,    // until it was sent once
 };
 
 // One row of a profile. Rows for messages that the firmware does not know have no effect.
@@ -29,7 +30,7 @@ struct StreamRate {
 // The rows of a profile, in no particular order.
 [[nodiscard]] std::span<const StreamRate> rates_of(Profile profile) noexcept;
 
-// Condition that holds for the whole life of a vehicle. `armed` counts as held.
+// Condition that holds for the whole life of a vehicle. `armed` and `once` count as held.
 [[nodiscard]] bool holds(When when, const VehicleOptions& options) noexcept;
 
 // A group of messages that REQUEST_DATA_STREAM switches together (MAV_DATA_STREAM), as ArduPilot has them.

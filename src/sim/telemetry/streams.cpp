@@ -98,7 +98,7 @@ void Streams::fill(LinkStreams& link, FlightTime now) {
         const auto rank = static_cast<std::size_t>(std::ranges::count(link.streams, interval, &Stream::asked));
         const bool is_heartbeat = projection->info.id == heartbeat_id;
         const double phase = is_heartbeat ? phase_of(options_.system) : phase_of(options_.system, rank, interval);
-        link.streams.push_back({.projection = projection, .only_armed = rate.when == When::armed, .asked = interval});
+        link.streams.push_back({.projection = projection, .when = rate.when, .asked = interval});
         link.due.push_back(now + scaled(interval, phase));
     }
     limit(link, now);
@@ -140,8 +140,10 @@ void Streams::run(const View& view, FlightTime at, FlightTime now) {
         for (std::size_t i = 0; i < link.due.size(); ++i) {
             const FlightTime due = link.due[i];
             if (due > at) continue;
-            link.due[i] += link.streams[i].interval;
-            send(link.link, link.streams[i], own, due, now);
+            Stream& stream = link.streams[i];
+            link.due[i] += stream.interval;
+            const bool is_sent = send(link.link, stream, own, due, now);
+            if (is_sent && stream.when == When::once) end(link, i);
         }
         note_next(link);
     }
@@ -168,12 +170,13 @@ View Streams::view_of(const View& view, LinkStreams& link, FlightTime at) const 
     return own;
 }
 
-void Streams::send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now) {
+bool Streams::send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now) {
     std::array<std::uint8_t, wire::max_payload_length> payload;
     view.number = stream.number;
-    if ((stream.only_armed && !view.flight.armed()) || !stream.projection->write(view, payload)) {
+    const bool is_unwanted = stream.when == When::armed && !view.flight.armed();
+    if (is_unwanted || !stream.projection->write(view, payload)) {
         stream.pending += stream.interval;
-        return;
+        return false;
     }
     if (stream.sent == 0) {
         stream.first = now;
@@ -187,6 +190,12 @@ void Streams::send(LinkId link, Stream& stream, View& view, FlightTime due, Flig
     ++stream.number;
     stream.lateness.add(now - due);
     radio_.transmit(link, stream.projection->info, {payload.data(), stream.projection->info.max_length});
+    return true;
+}
+
+void Streams::end(LinkStreams& link, std::size_t index) noexcept {
+    link.streams[index].asked = link.streams[index].interval = Nanoseconds{0};
+    link.due[index] = FlightTime::max();
 }
 
 void Streams::send_now(const View& view, std::span<const MessageId> messages) {
@@ -219,9 +228,9 @@ bool Streams::set_interval(LinkId link, MessageId message, std::optional<Nanosec
     if (asked.count() != 0) asked = std::max(asked, shortest_interval);
     Stream& stream = stream_of(*of, *projection);
     const auto index = static_cast<std::size_t>(&stream - of->streams.data());
-    stream.only_armed = usual && usual->when == When::armed;
+    stream.when = usual ? usual->when : When::always;
     if (stream.asked == asked) return true;
-    stream = {.projection = projection, .only_armed = stream.only_armed, .number = stream.number, .asked = asked};
+    stream = {.projection = projection, .when = stream.when, .number = stream.number, .asked = asked};
     limit(*of, now);
     of->due[index] = stream.interval.count() == 0 ? FlightTime::max() : first_due(*of, index, now);
     note_next(*of);

@@ -56,7 +56,7 @@ private:
     // Deadlines stand in LinkStreams::due, so that the search for the next one reads few cache lines.
     struct Stream {
         const Projection* projection;
-        bool only_armed = false;
+        When when = When::always;
         std::uint32_t number = 0;  // messages sent so far
         Nanoseconds asked{};       // as the client or the profile wants it; 0: off
         Nanoseconds interval{};    // after the bandwidth limit; 0: off, or a service sends the message
@@ -89,7 +89,9 @@ private:
     Stream& stream_of(LinkStreams& link, const Projection& projection);
     [[nodiscard]] FlightTime first_due(const LinkStreams& link, std::size_t index, FlightTime now) const noexcept;
     [[nodiscard]] View view_of(const View& view, LinkStreams& link, FlightTime at) const noexcept;
-    void send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now);
+    // False: there is nothing to report.
+    bool send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now);
+    static void end(LinkStreams& link, std::size_t index) noexcept;
     static void limit(LinkStreams& link, FlightTime now);
     static void note_next(LinkStreams& link) noexcept;
     [[nodiscard]] static bool streams(const LinkStreams& link, MessageId message) noexcept;

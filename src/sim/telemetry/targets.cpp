@@ -31,17 +31,18 @@ bool has_trajectory(Steering steering) noexcept {
     return steering == Steering::trajectory || steering == Steering::waypoint || steering == Steering::circle;
 }
 
+// Inner loops that move a point along the path report it; otherwise the goal itself is the target.
 Trajectory trajectory_of(const Flight& flight) noexcept {
     const Setpoint& setpoint = flight.setpoint();
     const InnerTargets& inner = flight.airframe().targets();
     if (!flight.armed() || setpoint.steering == Steering::none) return at_rest(flight);
-    Trajectory trajectory{.position = setpoint.position,
+    const auto first = [](double a, double b, double c) { return !std::isnan(a) ? a : !std::isnan(b) ? b : c; };
+    Trajectory trajectory{.position = inner.position,
                           .velocity = inner.velocity,
                           .acceleration = inner.acceleration,
-                          .yaw = setpoint.yaw,
-                          .yaw_rate = std::isnan(setpoint.yaw_rate) ? 0 : setpoint.yaw_rate};
-    if (setpoint.steering == Steering::circle) trajectory.position = no_vector;
-    if (std::isnan(trajectory.yaw)) trajectory.yaw = yaw_of(inner.attitude);
+                          .yaw = first(inner.yaw, setpoint.yaw, yaw_of(inner.attitude)),
+                          .yaw_rate = first(inner.yaw_rate, setpoint.yaw_rate, 0)};
+    if (inner.position.hasNaN() && setpoint.steering != Steering::circle) trajectory.position = setpoint.position;
     return trajectory;
 }
 
