@@ -25,7 +25,6 @@ SetupResult<void> SharedMemory::open_page(const std::string& name) {
 }
 
 void SharedMemory::close() noexcept {
-    ring_link_ = {};
     ring_.reset();
     page_.reset();
 }

@@ -23,12 +23,13 @@ public:
     // A thread of the ring calls `ready` when `look_after` has something to do.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config, std::function<void()> ready);
     [[nodiscard]] SetupResult<void> open_page(const std::string& name);
-    void close() noexcept;
+    void close() noexcept;  // the counts stay
 
     // The link whose frames go into the ring; LinkId{} without a ring.
     [[nodiscard]] LinkId ring_link() const noexcept { return ring_link_; }
     [[nodiscard]] std::string ring_link_name() const { return "shm://" + ring_name_; }
     void write(const wire::FrameView& frame) noexcept {
+        if (!ring_) return;  // closed
         ++frames_;
         bytes_ += frame.size();
         ring_->write({frame, nullptr, ring_link_, {}, wall_now()}, route::Verdict::forwarded, false);

@@ -228,9 +228,8 @@ Exit simulate(const Common& common, const SimOptions& options) {
         say(common, fmt::format("metrics at port {}", port));
     say_what_flies(common, *scenario, **simulator);
     fly(*scenario, **simulator);
-    const Exit printed = print_report(options, *scenario, **simulator, Exit::done);
     (*simulator)->finish(sim_send_limit);
-    return Signals::status(printed);
+    return Signals::status(print_report(options, *scenario, **simulator, Exit::done));
 }
 
 }  // namespace
@@ -246,10 +245,10 @@ Run declare_sim(Arguments command, const Common& common) {
                     "send to udpout://, tcpout://, serial://, udpbcast://, udpmcast://, or shm://NAME, the inlet of a "
                     "router's ring; may be repeated (default: udpout://127.0.0.1:14550)")
         .type_name("ENDPOINT")
-        .expected(1, 1);
+        .one_value_each();
     command.add_option("--listen", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
         .type_name("ENDPOINT")
-        .expected(1, 1);
+        .one_value_each();
     for (std::size_t i = 0; i < std::size(key_options); ++i) {
         const KeyOption& option = key_options[i];
         if (option.type != nullptr)

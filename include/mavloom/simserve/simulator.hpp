@@ -102,7 +102,7 @@ public:
 
     // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.
     void turn(MonoTime deadline);
-    // Sends what is queued, for at most `limit`, and removes the ring.
+    // Sends what is queued, for at most `limit`, and removes the ring. Reports stay available.
     void finish(Nanoseconds limit);
 
     // Async-signal-safe.
