@@ -82,14 +82,17 @@ void Vehicle::advance(Moment now) {
     Parts& parts = *parts_;
     if (parts.is_silent(now.flight)) return parts.step_to(now);
     parts.streams.skip_missed(now.flight);
+    FlightTime reported = FlightTime::min();
     for (;;) {
         const FlightTime at = std::min(parts.streams.next_due(), parts.next_pump());
         if (at > now.flight) break;
+        reported = at;
         parts.step_to({.flight = at, .real = now.real});
         parts.report_changes();
         if (parts.next_pump() <= at) parts.pump({.flight = at, .real = now.real});
         parts.streams.run(parts.view(), at, now.flight);
     }
+    if (reported == now.flight) return;
     parts.step_to(now);
     parts.report_changes();
 }

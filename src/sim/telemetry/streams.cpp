@@ -91,7 +91,10 @@ void Streams::open(LinkId link, const LinkOptions& options, const View& view, Fl
 void Streams::fill(LinkStreams& link, FlightTime now) {
     link.streams.clear();
     link.due.clear();
-    for (const StreamRate& rate : rates_for(link.options)) {
+    const auto rates = rates_for(link.options);
+    link.streams.reserve(rates.size());
+    link.due.reserve(rates.size());
+    for (const StreamRate& rate : rates) {
         const Projection* const projection = find_projection(rate.message, firmware_.is_px4());
         if (projection == nullptr || !holds(rate.when, options_)) continue;
         const Nanoseconds interval = std::max(interval_of_rate(rate.hz), shortest_interval);
@@ -137,16 +140,23 @@ void Streams::run(const View& view, FlightTime at, FlightTime now) {
     for (LinkStreams& link : links_) {
         if (link.next > at) continue;
         View own = view_of(view, link, at);
-        for (std::size_t i = 0; i < link.due.size(); ++i) {
-            const FlightTime due = link.due[i];
-            if (due > at) continue;
-            Stream& stream = link.streams[i];
-            link.due[i] += stream.interval;
-            const bool is_sent = send(link.link, stream, own, due, now);
-            if (is_sent && stream.when == When::once) end(link, i);
+        FlightTime next = FlightTime::max();
+        for (std::size_t i = 0, count = link.due.size(); i < count; ++i) {
+            if (link.due[i] <= at) [[unlikely]]
+                run_stream(link, i, own, now);
+            next = std::min(next, link.due[i]);
         }
-        note_next(link);
+        link.next = next;
     }
+}
+
+void Streams::run_stream(LinkStreams& link, std::size_t index, View& view, FlightTime now) {
+    Stream& stream = link.streams[index];
+    const FlightTime due = std::exchange(link.due[index], link.due[index] + stream.interval);
+    const bool is_sent = send(link.link, stream, view, due, now);
+    if (!is_sent || stream.when != When::once) return;
+    stream.asked = stream.interval = Nanoseconds{0};
+    link.due[index] = FlightTime::max();
 }
 
 View Streams::view_of(const View& view, LinkStreams& link, FlightTime at) const noexcept {
@@ -191,11 +201,6 @@ bool Streams::send(LinkId link, Stream& stream, View& view, FlightTime due, Flig
     stream.lateness.add(now - due);
     radio_.transmit(link, stream.projection->info, {payload.data(), stream.projection->info.max_length});
     return true;
-}
-
-void Streams::end(LinkStreams& link, std::size_t index) noexcept {
-    link.streams[index].asked = link.streams[index].interval = Nanoseconds{0};
-    link.due[index] = FlightTime::max();
 }
 
 void Streams::send_now(const View& view, std::span<const MessageId> messages) {

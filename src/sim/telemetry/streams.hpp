@@ -89,9 +89,9 @@ private:
     Stream& stream_of(LinkStreams& link, const Projection& projection);
     [[nodiscard]] FlightTime first_due(const LinkStreams& link, std::size_t index, FlightTime now) const noexcept;
     [[nodiscard]] View view_of(const View& view, LinkStreams& link, FlightTime at) const noexcept;
+    void run_stream(LinkStreams& link, std::size_t index, View& view, FlightTime now);
     // False: there is nothing to report.
     bool send(LinkId link, Stream& stream, View& view, FlightTime due, FlightTime now);
-    static void end(LinkStreams& link, std::size_t index) noexcept;
     static void limit(LinkStreams& link, FlightTime now);
     static void note_next(LinkStreams& link) noexcept;
     [[nodiscard]] static bool streams(const LinkStreams& link, MessageId message) noexcept;
