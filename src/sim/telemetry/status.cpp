@@ -164,14 +164,16 @@ bool write_flight_information(const View& view, ByteSpan payload) {
                payload);
 }
 
+// ArduPilot's first item is home, which does not count.
 bool write_mission_current(const View& view, ByteSpan payload) {
     constexpr std::uint16_t no_mission = 0xffff;
     constexpr std::uint8_t in_mission = 1, suspended = 2;
     const Flight& flight = view.flight;
     const Plans& plans = flight.plans();
     const MissionProgress progress = flight.mission();
+    const int items = plans.mission().size() - (view.firmware.has_home_in_mission() ? 1 : 0);
     return put(MissionCurrent{.seq = progress.current,
-                              .total = plans.mission().empty() ? no_mission : plans.mission().size(),
+                              .total = items <= 0 ? no_mission : static_cast<std::uint16_t>(items),
                               .mission_state = static_cast<std::uint8_t>(progress.state),
                               .mission_mode = flight.mode().behaviour == Behaviour::mission ? in_mission : suspended,
                               .mission_id = plans.mission().id(),

@@ -71,6 +71,13 @@ void fill_trajectory(const Trajectory& trajectory, Message& message) noexcept {
     message.yaw_rate = as_float(trajectory.yaw_rate);
 }
 
+// Random motion has no goal. Such a vehicle reports where its velocity leads within 10 s.
+std::optional<NavigationTarget> navigation_target(const View& view) noexcept {
+    if (!view.flight.armed()) return std::nullopt;
+    if (view.options.motion == Motion::flight || view.flight.target()) return view.flight.target();
+    return NavigationTarget{view.flight.estimate().position + 10 * view.flight.estimate().velocity};
+}
+
 std::int16_t to_signed_degrees(double radians) noexcept {
     return saturated<std::int16_t>(to_degrees(wrap_pi(radians)));
 }
@@ -122,8 +129,8 @@ bool write_position_target_local_ned(const View& view, ByteSpan payload) {
 
 // The point that the vehicle navigates to. PX4 sets no bit of the mask.
 bool write_position_target_global_int(const View& view, ByteSpan payload) {
-    const auto& target = view.flight.target();
-    if (!target || !view.flight.armed()) return false;
+    const auto target = navigation_target(view);
+    if (!target) return false;
     const GeoPoint point = view.flight.frame().to_geo(target->position);
     PositionTargetGlobalInt message{.time_boot_ms = boot_ms(view),
                                     .coordinate_frame = MAV_FRAME_GLOBAL_INT,
@@ -135,8 +142,8 @@ bool write_position_target_global_int(const View& view, ByteSpan payload) {
 }
 
 bool write_nav_controller_output(const View& view, ByteSpan payload) {
-    const auto& target = view.flight.target();
-    if (!target || !view.flight.armed()) return false;
+    const auto target = navigation_target(view);
+    if (!target) return false;
     const InnerTargets& inner = view.flight.airframe().targets();
     const Euler attitude = to_euler(inner.attitude);
     const Vector3 way = target->position - view.flight.estimate().position;

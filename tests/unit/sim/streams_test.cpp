@@ -332,6 +332,33 @@ TEST(Streams, AConditionalStreamReportsTheRateOfTheTimeInWhichItRan) {
     EXPECT_EQ(report.skipped, 0u);
 }
 
+TEST(Streams, TheOriginIsSentOnceOnEveryLink) {
+    Rig rig({}, {.profile = Profile::px4_normal});
+    rig.run(20.0);
+    rig.vehicle.open(LinkId{2}, {.profile = Profile::px4_onboard}, rig.now());
+    rig.run(20.0);
+
+    EXPECT_EQ(count_of(rig, MessageId{49}), 1u);
+    EXPECT_EQ(count_of(rig, MessageId{49}, LinkId{2}), 1u);
+}
+
+// A real vehicle forgets intervals with its memory.
+TEST(Streams, ARebootRestoresTheProfile) {
+    Rig rig({}, {.profile = Profile::px4_normal});
+    rig.run(5.0);
+    set_interval(rig, msg::Attitude::id, 1'000'000);
+    rig.send(msg::CommandLong{.target_system = 1, .command = msg::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, .param1 = 1});
+    rig.forget();
+    rig.run(2.0);
+    EXPECT_TRUE(rig.sink.frames.empty());
+    rig.run(5.0);
+    rig.forget();
+    rig.run(10.0);
+
+    EXPECT_NEAR(static_cast<double>(count_of(rig, msg::Attitude::id)), 500, 1);
+    EXPECT_EQ(report_of(rig, msg::Attitude::id).skipped, 0u);
+}
+
 TEST(Streams, PingsOfALinkAreNumbered) {
     Rig rig({}, {.profile = Profile::px4_onboard});
     rig.run(3.5);

@@ -438,6 +438,26 @@ TEST_P(TelemetryOfEveryVehicle, MessagesOfAnInstantAgree) {
     EXPECT_EQ(rig.vehicle.status().landed == LandedState::in_air, kind != Kind::rover);
 }
 
+// The generator that came before this simulator sent everything from the start, in four classes.
+TEST(TelemetryOfRandomMotion, TheOriginalClassesComeCompleteAndAgree) {
+    Rig rig({.motion = Motion::random, .utc_at_start = WallTime{std::chrono::seconds{1'795'222'850}}},
+            {.profile = Profile::original});
+    rig.run(10.0);
+    rig.forget();
+    rig.run(20.0);
+    std::map<std::uint32_t, int> counts;
+    for (const Sent& sent : rig.sink.frames) ++counts[sent.frame().id().value];
+    for (const std::uint32_t id : {0, 1, 2, 36, 42, 65, 147, 231, 242, 245, 436}) EXPECT_NEAR(counts[id], 20, 1) << id;
+    for (const std::uint32_t id : {24, 29, 33, 62, 74, 87, 141, 230, 241}) EXPECT_NEAR(counts[id], 100, 1) << id;
+    for (const std::uint32_t id : {30, 32, 85}) EXPECT_NEAR(counts[id], 200, 1) << id;
+    for (const std::uint32_t id : {31, 83, 140}) EXPECT_NEAR(counts[id], 400, 1) << id;
+    for (int i = 0; i < 100 && !HasFailure(); ++i) {
+        rig.forget();
+        expect_coherent(Instant(rig));
+        rig.run(0.2);
+    }
+}
+
 struct TelemetryInFlight : testing::Test {
     void command(std::uint16_t id, float p1, float p2 = 0, float p4 = 0, float x = 0, float y = 0, float z = 0) {
         rig.send(msg::CommandLong{.target_system = 1,
