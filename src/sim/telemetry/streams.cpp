@@ -65,7 +65,7 @@ double hz_of(Nanoseconds interval) noexcept {
 }
 
 // The rows of the profile, with the link's own rates in their place.
-std::vector<StreamRate> rates_for(const LinkOptions& options) {
+std::vector<StreamRate> link_rates(const LinkOptions& options) {
     const auto rows = rates_of(options.profile);
     std::vector<StreamRate> rates(rows.begin(), rows.end());
     for (const MessageRate& own : options.rates) {
@@ -91,7 +91,7 @@ void Streams::open(LinkId link, const LinkOptions& options, const View& view, Fl
 void Streams::fill(LinkStreams& link, FlightTime now) {
     link.streams.clear();
     link.due.clear();
-    const auto rates = rates_for(link.options);
+    const auto rates = link_rates(link.options);
     link.streams.reserve(rates.size());
     link.due.reserve(rates.size());
     for (const StreamRate& rate : rates) {
@@ -256,7 +256,7 @@ FlightTime Streams::first_due(const LinkStreams& link, std::size_t index, Flight
 }
 
 std::optional<StreamRate> Streams::default_rate(const LinkOptions& options, MessageId message) const {
-    const auto rates = rates_for(options);
+    const auto rates = link_rates(options);
     const auto rate = std::ranges::find(rates, message, &StreamRate::message);
     return rate == rates.end() || !holds(rate->when, options_) ? std::nullopt : std::optional(*rate);
 }
