@@ -112,6 +112,9 @@ void read_px4_navigation(const Reader& read, Tuning& t) {
     t.return_land_delay = read.number("RTL_LAND_DELAY", 0, -1, longest);
     t.return_min_distance = read.number("RTL_MIN_DIST", t.return_min_distance, 0.5, longest);
     t.return_cone = to_radians(read.number("RTL_CONE_ANG", 45, 0, 90));
+    t.follow_distance = read.number("FLW_TGT_DST", t.follow_distance, 1, 1000);
+    t.follow_height = read.number("FLW_TGT_HT", t.follow_height, 1, 1000);
+    t.follow_angle = to_radians(read.number("FLW_TGT_FA", 180, -180, 180));
 }
 
 void read_px4_copter(const Reader& read, Tuning& t) {

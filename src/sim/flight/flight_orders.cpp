@@ -138,6 +138,23 @@ Outcome Flight::Impl::orbit(const OrbitOrder& order) {
     return Result::accepted;
 }
 
+// While the target stands, its course is unknown: the vehicle stays on the side where it is.
+void Flight::on_target(const GeoPoint& target, const Vector3& velocity) {
+    if (mode().behaviour != Behaviour::follow || !armed() || !is_valid(target)) return;
+    constexpr double standing = 0.5;  // m/s
+    const Tuning& t = tuning();
+    const Vector3 there = frame().to_local(target);
+    const Vector3 towards_us = estimate().position - there;
+    const double speed = std::hypot(velocity.x(), velocity.y());
+    const bool is_moving = std::isfinite(speed) && speed > standing;
+    const double side = is_moving ? std::atan2(velocity.y(), velocity.x()) + t.follow_angle
+                                  : std::atan2(towards_us.y(), towards_us.x());
+    const double ground = home() ? home()->altitude : ground_altitude();
+    const Vector3 place(there.x() + t.follow_distance * std::cos(side), there.y() + t.follow_distance * std::sin(side),
+                        frame().origin().altitude - ground - t.follow_height);
+    impl_->navigator.guidance().stay(place, wrap_pi(side + pi));
+}
+
 // ArduPilot pauses within its mode; PX4 changes to Hold.
 Outcome Flight::pause() {
     return impl_->carry_out([&]() -> Outcome {

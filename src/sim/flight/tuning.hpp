@@ -38,6 +38,8 @@ struct Tuning {
     FailsafeAction on_manual_loss = FailsafeAction::hold;
     double fence_radius = 0, fence_height = 0;  // m around home; 0: none
     FailsafeAction on_fence = FailsafeAction::hold;
+    double follow_distance = 8, follow_height = 8;  // m; from the target, and above home
+    double follow_angle = to_radians(180);          // rad; from the target's course to the vehicle
     bool may_inject_failures = true;
     bool needs_position_to_arm = true;
     double rover_turn_radius = 1.5;  // m

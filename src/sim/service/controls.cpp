@@ -267,8 +267,8 @@ void Controls::on_actuator_target(ByteView payload, Moment now) {
 
 void Controls::on_follow_target(ByteView payload) {
     const auto m = FollowTarget::decode(payload);
-    const GeoPoint target{from_degrees_e7(m.lat), from_degrees_e7(m.lon), double{m.alt}};
-    (void)target;
+    parts_.flight.on_target({from_degrees_e7(m.lat), from_degrees_e7(m.lon), double{m.alt}},
+                            {double{m.vel[0]}, double{m.vel[1]}, double{m.vel[2]}});
 }
 
 void Controls::on_origin(ByteView payload) {
