@@ -74,7 +74,6 @@ constexpr EventInfo infos[] = {
      problem,
      {},
      "The mode needs a global position."},
-    {event_id::no_home, error, arming, "check_modes_home_position", "Home position not set", problem},
     {event_id::no_offboard_signal,
      error,
      arming,

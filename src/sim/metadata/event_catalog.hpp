@@ -43,10 +43,10 @@ struct EventText {
 namespace event_id {
 inline constexpr std::uint32_t arming_check_summary = 27825120, health_summary = 18691879;
 inline constexpr std::uint32_t no_heading = 30203637, no_attitude = 27227279, no_local_position = 30612409,
-                               no_global_position = 26788467, no_home = 16856624, no_offboard_signal = 28241790,
-                               no_mission = 17154777, no_manual_control = 17231145, no_ground_station = 23579003,
-                               battery_low = 21826980, battery_critical = 19404811, battery_emergency = 28121863,
-                               terminated = 29532170, no_arming_in_mode = 18648929;
+                               no_global_position = 26788467, no_offboard_signal = 28241790, no_mission = 17154777,
+                               no_manual_control = 17231145, no_ground_station = 23579003, battery_low = 21826980,
+                               battery_critical = 19404811, battery_emergency = 28121863, terminated = 29532170,
+                               no_arming_in_mode = 18648929;
 inline constexpr std::uint32_t gps_offline = 20873969, gyro_missing = 20345936, accelerometer_missing = 25005055,
                                magnetometer_missing = 32165976, barometer_missing = 21872809;
 inline constexpr std::uint32_t log_opened = 17980399;

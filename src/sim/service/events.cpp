@@ -27,7 +27,7 @@ constexpr std::array event_ids{RequestEvent::id};
 constexpr Nanoseconds sequence_interval = std::chrono::seconds{3};
 constexpr Nanoseconds report_interval = std::chrono::seconds{2};
 constexpr Nanoseconds check_interval = std::chrono::milliseconds{500};
-constexpr Nanoseconds first_sequence = std::chrono::milliseconds{50}, first_check = std::chrono::seconds{1};
+constexpr Nanoseconds first_sequence = std::chrono::milliseconds{50}, first_check = std::chrono::seconds{2};
 
 // The numbers that a text has in the place of each `{}` of a pattern; empty if the text differs.
 std::optional<std::vector<double>> match(std::string_view text, std::string_view pattern) {

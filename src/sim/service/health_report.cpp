@@ -31,12 +31,18 @@ public:
         : parts_(parts), flight_(parts.flight), unready_(parts.flight.unready()) {}
 
     HealthReport examine() {
-        report_.present = health_absolute_pressure | health_motors | health_logging | health_battery |
-                          health_local_position | health_magnetometer | health_accelerometer | health_gyro;
+        report_.present = health_absolute_pressure | health_motors | health_battery | health_local_position |
+                          health_magnetometer | health_accelerometer | health_gyro;
+        // PX4 records from boot on, until the end of the first flight; later from arming to disarming.
+        if (flight_.armed() || flight_.flights() == 0) report_.present |= health_logging;
         if (parts_.announcer.has_audience()) report_.present |= health_communication;
-        const bool has_attitude = (unready_ & unready_booting) == 0;
-        const bool has_position = has_attitude && (unready_ & unready_position) == 0;
-        if (has_position || flight_.sensors().gps().fix_type >= 3) report_.present |= health_gps;
+        // The estimate of the attitude is ready with the first fix, that of the position at the end of the start.
+        constexpr std::uint8_t three_dimensions = 3;
+        const bool has_fix = flight_.sensors().gps().fix_type >= three_dimensions;
+        const bool is_booting = (unready_ & unready_booting) != 0;
+        const bool has_attitude = !is_booting || has_fix;
+        const bool has_position = !is_booting && flight_.sensors().has_position() && flight_.home().has_value();
+        if (has_fix) report_.present |= health_gps;
         find_runnable(has_attitude, has_position);
         find_problems(has_attitude, has_position);
         find_failures(flight_.sensors().failures());
@@ -61,14 +67,14 @@ private:
         if (!has_attitude) add(event_id::no_attitude, attitude_modes, health_attitude);
         if (!has_position) add(event_id::no_local_position, local_modes, health_local_position);
         if (!has_position) add(event_id::no_global_position, global_modes, health_global_position);
-        if (has_position && (unready_ & unready_home) != 0) add(event_id::no_home, all_modes, health_system);
         if (flight_.plans().mission().empty()) add(event_id::no_mission, mission_mode, health_system);
         if (!flight_.has_sticks()) add(event_id::no_manual_control, all_modes, health_remote_control);
         if (!parts_.announcer.has_audience()) add(event_id::no_ground_station, all_modes, health_communication);
         if ((unready_ & unready_terminated) != 0) add(event_id::terminated, all_modes, health_system);
-        if ((unready_ & unready_mode) != 0) add(event_id::no_arming_in_mode, all_modes, health_system);
+        if (has_position && (unready_ & unready_mode) != 0) add(event_id::no_arming_in_mode, all_modes, health_system);
         find_battery_problem(flight_.battery().remaining());
-        if ((unready_ & ~(unready_booting | unready_position)) != 0) report_.can_arm = 0;
+        constexpr std::uint32_t by_modes = unready_booting | unready_position | unready_home;  // in can_run already
+        if (has_position && (unready_ & ~by_modes) != 0) report_.can_arm = 0;
     }
 
     void find_battery_problem(double share) {

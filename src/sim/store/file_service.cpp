@@ -98,7 +98,10 @@ bool FileService::carry_out(Peer& peer, const Request& request, Reply& reply) {
         case MAV_FTP_OPCODE_CREATEFILE: open_for_writing(peer, request, reply, true, true); break;
         case MAV_FTP_OPCODE_OPENFILEWO: open_for_writing(peer, request, reply, true, false); break;
         case MAV_FTP_OPCODE_READFILE: read(peer, request, reply); break;
-        case MAV_FTP_OPCODE_BURSTREADFILE: begin_burst(peer, request, reply); return reply.error.is_error();
+        case MAV_FTP_OPCODE_BURSTREADFILE:
+            begin_burst(peer, request, reply);
+            if (!reply.error.is_error()) send_pieces(peer, request.now);
+            return reply.error.is_error();
         case MAV_FTP_OPCODE_WRITEFILE: write(peer, request, reply); break;
         case MAV_FTP_OPCODE_REMOVEFILE: change(request, reply, &FileTree::remove); break;
         case MAV_FTP_OPCODE_CREATEDIRECTORY: change(request, reply, &FileTree::make_directory); break;
@@ -287,6 +290,11 @@ bool FileService::send_piece(Peer& peer) {
     return true;
 }
 
+void FileService::send_pieces(Peer& peer, Moment now) {
+    for (unsigned i = 0; i < pieces_at_once && send_piece(peer); ++i)
+        if (Session* const session = find_session(peer, peer.burst.session)) session->used = now.real;
+}
+
 void FileService::send(Peer& peer, const Header& header, const Reply& reply) {
     FileTransferProtocol message{.target_system = peer.client.id.system.value,
                                  .target_component = peer.client.id.component.value};
@@ -344,8 +352,7 @@ bool FileService::is_busy() const noexcept {
 
 void FileService::pump(Moment now) {
     for (Peer& peer : peers_) {
-        for (unsigned i = 0; i < pieces_at_once && send_piece(peer); ++i)
-            if (Session* const session = find_session(peer, peer.burst.session)) session->used = now.real;
+        send_pieces(peer, now);
         std::erase_if(peer.sessions, [&](const Session& session) { return now.real - session.used >= session_idle; });
     }
 }

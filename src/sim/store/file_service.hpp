@@ -77,7 +77,7 @@ private:
     };
 
     void answer(Peer& peer, const Request& request);
-    // False: there is no single reply; a burst follows.
+    // False: there is no single reply; a burst has begun.
     [[nodiscard]] bool carry_out(Peer& peer, const Request& request, Reply& reply);
     void end_session(Peer& peer, const Request& request, Reply& reply);
     void list(const Request& request, Reply& reply, bool with_time);
@@ -95,6 +95,7 @@ private:
     void send(Peer& peer, const Header& header, const Reply& reply);
     // False: the burst is over, or the link has no room.
     [[nodiscard]] bool send_piece(Peer& peer);
+    void send_pieces(Peer& peer, Moment now);
     [[nodiscard]] std::size_t read_session(const Session& session, std::uint32_t offset, ByteSpan out) const;
 
     // Null: there are too many clients.

@@ -21,7 +21,7 @@ namespace {
 using namespace msg;
 
 constexpr std::array log_ids{LogRequestList::id, LogRequestData::id, LogRequestEnd::id,
-                                 LogErase::id,       LoggingAck::id,     RemoteLogBlockStatus::id};
+                             LogErase::id,       LoggingAck::id,     RemoteLogBlockStatus::id};
 constexpr unsigned messages_at_once = 100;
 
 }  // namespace
@@ -80,6 +80,13 @@ bool LogService::begin(const Download& download) {
     stop(download.client);
     if (downloads_.size() >= parts_.options.limits.clients) return false;
     downloads_.push_back(download);
+    if (!advance(downloads_.back())) downloads_.pop_back();
+    return true;
+}
+
+bool LogService::advance(Download& download) {
+    for (unsigned i = 0; i < messages_at_once && parts_.radio.has_room(download.client.link); ++i)
+        if (!send_next(download)) return false;
     return true;
 }
 
@@ -115,11 +122,7 @@ bool LogService::send_next(Download& download) {
 }
 
 void LogService::pump(Moment now) {
-    std::erase_if(downloads_, [&](Download& download) {
-        for (unsigned i = 0; i < messages_at_once && parts_.radio.has_room(download.client.link); ++i)
-            if (!send_next(download)) return true;
-        return false;
-    });
+    std::erase_if(downloads_, [&](Download& download) { return !advance(download); });
     streams_.pump(now);
 }
 

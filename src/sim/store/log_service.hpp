@@ -47,8 +47,9 @@ private:
     void stop(const Client& client);
     void send_entry(const Client& to, std::uint32_t index);
     void send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset);
-    // Sends the next piece. False: the download is complete.
+    // Both false: the download is complete.
     [[nodiscard]] bool send_next(Download& download);
+    [[nodiscard]] bool advance(Download& download);  // by as many messages as may be sent at once
 
     Parts& parts_;
     RecordedLogs logs_;

@@ -347,8 +347,8 @@ TEST_F(FileService, EndsABurstAfter168RepliesAsPx4Does) {
 
 TEST_F(FileService, ReadsAGapWhileABurstRuns) {
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_OPENFILERO, "/etc/extras/parameters.json.xz").is_ack());
-    ftp.send(MAV_FTP_OPCODE_BURSTREADFILE, {}, 0, 0, 239);
     rig.sink.queued[1] = 100'000;
+    ftp.send(MAV_FTP_OPCODE_BURSTREADFILE, {}, 0, 0, 239);
     rig.run(0.1);
     rig.forget();
 

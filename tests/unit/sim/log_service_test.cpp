@@ -161,9 +161,11 @@ TEST(LogService, ANewRequestReplacesTheOldOneOfItsClientOnly) {
     const Peer other{LinkId{2}, {SystemId{245}, ComponentId{190}}};
     Rig rig(options_with(1));
     rig.vehicle.open(LinkId{2}, {}, rig.now());
+    rig.sink.queued[1] = rig.sink.queued[2] = 100'000;
     request_data(rig, 0, 0, 0xffffffff);
     request_data(rig, 0, 900, 90, other);
     request_data(rig, 0, 9000, 180);
+    rig.sink.queued.clear();
     rig.run(1.0);
 
     EXPECT_EQ(rig.all<LogData>().size(), 2u);
