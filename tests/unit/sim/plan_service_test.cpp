@@ -14,12 +14,15 @@
 #include "mavloom/msg/mission_ack.hpp"
 #include "mavloom/msg/mission_clear_all.hpp"
 #include "mavloom/msg/mission_count.hpp"
+#include "mavloom/msg/mission_current.hpp"
 #include "mavloom/msg/mission_item.hpp"
 #include "mavloom/msg/mission_item_int.hpp"
+#include "mavloom/msg/mission_item_reached.hpp"
 #include "mavloom/msg/mission_request.hpp"
 #include "mavloom/msg/mission_request_int.hpp"
 #include "mavloom/msg/mission_request_list.hpp"
 #include "mavloom/msg/mission_request_partial_list.hpp"
+#include "mavloom/msg/mission_set_current.hpp"
 #include "mavloom/msg/mission_write_partial_list.hpp"
 #include "mavloom/msg/statustext.hpp"
 #include "unit/sim/rig.hpp"
@@ -73,6 +76,7 @@ constexpr std::uint32_t recorded_plan_id = 1102882919;  // what PX4 answered
 
 class PlanService : public testing::Test {
 protected:
+    explicit PlanService(const VehicleOptions& options = {}) : rig(options) {}
     void announce(std::uint16_t count, std::uint8_t type = MAV_MISSION_TYPE_MISSION, const Peer& peer = {}) {
         rig.send(MissionCount{.target_system = 1, .target_component = 1, .count = count, .mission_type = type}, peer);
     }
@@ -646,6 +650,180 @@ TEST_F(PlanService, EqualPlansHaveEqualIds) {
 
     upload(recorded_plan());
     EXPECT_EQ(rig.last<MissionAck>()->opaque_id, first);
+}
+
+// --- Flight
+
+TEST_F(PlanService, SetsTheCurrentItemAndReportsItAtOnce) {
+    upload(recorded_plan());
+    rig.run(0.1);
+    rig.forget();
+
+    rig.send(MissionSetCurrent{.target_system = 1, .target_component = 1, .seq = 99});
+
+    EXPECT_FALSE(rig.last<MissionAck>()) << "clients would take it for the end of a transfer";
+    EXPECT_TRUE(rig.last<MissionCurrent>());
+}
+
+TEST_F(PlanService, ReportsANewPlanAtOnce) {
+    rig.run(0.5);
+    rig.forget();
+    upload(recorded_plan());
+
+    ASSERT_TRUE(rig.last<MissionCurrent>());
+    EXPECT_EQ(rig.last<MissionCurrent>()->mission_id, recorded_plan_id);
+    EXPECT_EQ(rig.last<MissionCurrent>()->total, 6);
+    rig.send(MissionClearAll{.target_system = 1, .target_component = 1});
+    EXPECT_EQ(rig.last<MissionCurrent>()->mission_id, 0u);
+}
+
+TEST_F(PlanService, BeginsWithTheItemThatTheClientMarked) {
+    auto plan = recorded_plan();
+    plan[0].current = 0;
+    plan[3].current = 1;
+    upload(plan);
+
+    request(3);
+    EXPECT_EQ(rig.last<MissionItemInt>()->current, 1);
+    request(0);
+    EXPECT_EQ(rig.last<MissionItemInt>()->current, 0);
+}
+
+TEST_F(PlanService, RepeatsTheItemThatWasReachedTenTimesASecondApart) {
+    rig.run(4.0);
+    std::vector<MissionItemInt> plan{waypoint(0), waypoint(1)};
+    plan[0].command = MAV_CMD_NAV_TAKEOFF;
+    plan[1].command = MAV_CMD_NAV_LOITER_UNLIM;
+    upload(plan);
+    ASSERT_TRUE(rig.vehicle.set_mode("Mission"));
+    ASSERT_TRUE(rig.vehicle.arm(false));
+    ASSERT_TRUE(rig.run_until([&] { return rig.last<MissionItemReached>().has_value(); }, 60));
+    rig.run(30.0);
+
+    std::vector<FlightTime> times;
+    for (const auto& sent : rig.sink.frames)
+        if (sent.frame().id() == MissionItemReached::id && MissionItemReached::decode(sent.frame().payload()).seq == 0)
+            times.push_back(sent.at);
+    ASSERT_EQ(times.size(), 11u);
+    for (std::size_t i = 1; i < times.size(); ++i)
+        EXPECT_NEAR(static_cast<double>((times[i] - times[i - 1]).count()), 1e9, 3e7);
+}
+
+// --- ArduPilot
+
+class ArduPilotPlanService : public PlanService {
+protected:
+    static VehicleOptions ardupilot() {
+        VehicleOptions options;
+        options.autopilot = Autopilot::ardupilot;
+        return options;
+    }
+    ArduPilotPlanService() : PlanService(ardupilot()) { rig.run(5.0); }
+};
+
+TEST_F(ArduPilotPlanService, ReturnsHomeAsItemZero) {
+    upload({waypoint(0, 1, 2, 3), waypoint(1), waypoint(2)});
+    ASSERT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+
+    request_list();
+    EXPECT_EQ(rig.last<MissionCount>()->count, 3);
+    request(0);
+    const auto item = rig.last<MissionItemInt>();
+    EXPECT_EQ(item->command, MAV_CMD_NAV_WAYPOINT);
+    EXPECT_EQ(item->frame, MAV_FRAME_GLOBAL);
+    EXPECT_NEAR(item->x, 473977420, 100);
+    EXPECT_NEAR(item->y, 85455940, 100);
+    EXPECT_NEAR(item->z, 489.4, 1);
+    request(1);
+    EXPECT_EQ(rig.last<MissionItemInt>()->frame, MAV_FRAME_GLOBAL_RELATIVE_ALT_INT) << "as it was uploaded";
+}
+
+TEST_F(ArduPilotPlanService, ReplacesAPartOfThePlan) {
+    upload({waypoint(0), waypoint(1, 100), waypoint(2, 200), waypoint(3, 300)});
+    const auto write = [&](int first, int last) {
+        rig.send(MissionWritePartialList{.target_system = 1,
+                                         .target_component = 1,
+                                         .start_index = static_cast<std::int16_t>(first),
+                                         .end_index = static_cast<std::int16_t>(last)});
+    };
+    rig.forget();
+    write(2, 2);
+    ASSERT_TRUE(rig.last<MissionRequestInt>());
+    EXPECT_EQ(rig.last<MissionRequestInt>()->seq, 2);
+    rig.send(waypoint(2, 222));
+    EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+    EXPECT_EQ(count(), 4);
+    request(2);
+    EXPECT_EQ(rig.last<MissionItemInt>()->x, 222);
+    request(3);
+    EXPECT_EQ(rig.last<MissionItemInt>()->x, 300);
+
+    for (const auto& [first, last] : {std::pair{-1, 2}, {3, 2}, {0, 5}, {-32768, 32767}}) {
+        rig.forget();
+        write(first, last);
+        EXPECT_EQ(last_result(), MAV_MISSION_ERROR) << first << " " << last;
+    }
+    write(4, 4);
+    rig.send(waypoint(4, 400));
+    EXPECT_EQ(count(), 5) << "one item may be appended";
+}
+
+TEST_F(ArduPilotPlanService, ReportsItemsOutOfSequence) {
+    announce(3);
+    rig.send(waypoint(2));
+    EXPECT_EQ(last_result(), MAV_MISSION_INVALID_SEQUENCE);
+    rig.send(waypoint(0));
+    rig.send(waypoint(1));
+    rig.send(waypoint(2));
+    EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+}
+
+TEST_F(ArduPilotPlanService, KnowsItsOwnCommands) {
+    auto yaw = waypoint(1);
+    yaw.command = MAV_CMD_CONDITION_YAW;
+    upload({waypoint(0), yaw});
+    EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+    auto gate = waypoint(1);
+    gate.command = MAV_CMD_CONDITION_GATE;
+    upload({waypoint(0), gate});
+    EXPECT_EQ(last_result(), MAV_MISSION_UNSUPPORTED);
+}
+
+TEST_F(ArduPilotPlanService, FliesToAnItemThatIsAnOrder) {
+    ASSERT_TRUE(rig.vehicle.set_mode("GUIDED"));
+    ASSERT_TRUE(rig.vehicle.arm(false));
+    ASSERT_TRUE(rig.vehicle.take_off(15));
+    rig.run(15.0);
+
+    auto order = waypoint(0, 473980000, 85455939, 15);
+    order.frame = MAV_FRAME_GLOBAL_RELATIVE_ALT;
+    order.current = 2;
+    rig.send(order);
+    EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+    rig.run(25.0);
+    EXPECT_NEAR(rig.vehicle.status().latitude_deg, 47.398, 2e-5);
+    EXPECT_EQ(count(), 0) << "it is no part of a plan";
+
+    order.current = 3;
+    order.z = 25;
+    rig.send(order);
+    EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+    rig.run(15.0);
+    EXPECT_NEAR(rig.vehicle.status().relative_altitude_m, 25, 1);
+
+    order.current = 2;
+    order.z = not_given;
+    rig.send(order);
+    EXPECT_EQ(last_result(), MAV_MISSION_ERROR);
+}
+
+TEST_F(ArduPilotPlanService, RefusesAnOrderOutsideGuided) {
+    ASSERT_TRUE(rig.vehicle.set_mode("LOITER"));
+    auto order = waypoint(0);
+    order.current = 2;
+    rig.send(order);
+
+    EXPECT_EQ(last_result(), MAV_MISSION_ERROR);
 }
 
 }  // namespace
