@@ -3,8 +3,8 @@
 // sim; single owner.
 //
 // Each command is a row of a table: its id, the function that carries it out, and whether PX4, ArduPilot or both know
-// it. A command without a row is UNSUPPORTED. A command that takes time answers IN_PROGRESS, repeats that with its progress
-// twice a second, and ends with ACCEPTED, FAILED, or CANCELLED if a client sent COMMAND_CANCEL.
+// it. A command without a row is UNSUPPORTED. A command that takes time answers IN_PROGRESS and repeats that with its
+// progress twice a second. It ends with ACCEPTED or FAILED, or with CANCELLED if a client sent COMMAND_CANCEL.
 // Source: MAVLink guide, "Command Protocol".
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Commands that fly the vehicle. They translate parameters into orders; Flight obeys or refuses. Meaning of parameters:
-// MAVLink common.xml. Where PX4 and ArduPilot differ, a comment says how.
+// MAVLink common.xml. Comments state where PX4 and ArduPilot differ.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names, types and units are those of ArduPilot 4.6. Lengths of a copter's parameters are in cm, angles in hundredths of
-// a degree.
+// Names, types and units are those of ArduPilot 4.6. A copter's parameters have lengths in cm and angles in hundredths
+// of a degree.
 #include <array>
 
 #include "sim/firmware/tables.hpp"

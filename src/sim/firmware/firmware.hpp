@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What differs between PX4 and ArduPilot, and between kinds of vehicles: modes, parameters, numbers and texts. Private to
-// module sim. A Firmware is immutable and shared by all vehicles; any thread may read it.
+// The differences between PX4 and ArduPilot, and between kinds of vehicles: modes, parameters, numbers and texts.
+// Private to module sim. A Firmware is immutable and shared by all vehicles; any thread may read it.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ struct VersionInfo {
     std::uint16_t vendor = 0, product = 0;
 };
 
-// What a vehicle says. `{}` stands for a number or a mode's name. A firmware that is silent has an empty text.
+// The texts that a vehicle sends. `{}` stands for a number or a mode's name. Where a firmware sends nothing, the text is
+// empty.
 struct Texts {
     std::string_view banner{};  // name and version, for a client that connects
     std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};

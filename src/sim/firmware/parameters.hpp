@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parameters of a vehicle: definitions that all vehicles of a firmware share, and the values of this one. Private to
-// module sim; single owner. Setting a value allocates nothing.
+// The parameters of a vehicle: definitions that all vehicles of a firmware share, and the values of this one. Private
+// to module sim; single owner. Setting a value allocates nothing.
 #pragma once
 
 #include <cstdint>

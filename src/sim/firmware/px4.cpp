@@ -86,8 +86,8 @@ const ModeInfo* Px4::requested_mode(std::uint8_t base_mode, std::uint32_t main, 
     return mode != nullptr && mode->is_selectable() ? mode : nullptr;
 }
 
-// Texts and texts of events that PX4 1.17 sends, without the tab at their ends: by it PX4 marks a text that it also sends
-// as an event, and ground stations do not show it.
+// Texts and texts of events that PX4 1.17 sends. The tab at their ends is missing here: PX4 marks by it a text that it
+// also sends as an event.
 constexpr Texts px4_texts_table{
     .armed = "Armed by external command",
     .disarmed = "Disarmed by external command",

@@ -67,7 +67,7 @@ constexpr Px4Modes px4_quad_modes{
     external_mode(18),
 };
 
-// PX4 lists the same modes for all kinds of vehicles. What they do differs.
+// PX4 lists the same modes for all kinds of vehicles; their behaviours differ.
 constexpr Px4Modes with_behaviour(Px4Modes modes, std::string_view name, Behaviour behaviour, std::uint8_t base_mode) {
     const auto at = std::ranges::find(modes, name, &ModeInfo::name);
     at->behaviour = behaviour;

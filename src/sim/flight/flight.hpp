@@ -139,8 +139,8 @@ public:
     // --- Inputs that must be repeated; see Tuning for their time-outs.
     void on_sticks(const Sticks& sticks);
     void on_offboard(const OffboardSetpoint& setpoint);
-    // In a follow mode the vehicle keeps its place relative to the target; see Tuning. The altitude of the target does not
-    // matter. `velocity` gives its course.
+    // In a follow mode the vehicle keeps its place relative to the target; see Tuning. The altitude of the target does
+    // not matter. `velocity` gives its course.
     void on_target(const GeoPoint& target, const Vector3& velocity);
     void on_ground_station_heard();
     // A plan was replaced.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Messages by which clients steer the vehicle directly: sticks, set-points, a target to follow, home and origin. Private
-// to module sim; single owner. Source: MAVLink common.xml; PX4 guide, "Offboard Mode"; ArduPilot's developer guide,
-// "Copter Commands in Guided Mode".
+// Messages by which clients steer the vehicle directly: sticks, set-points, a target to follow, home and origin.
+// Private to module sim; single owner. Source: MAVLink common.xml; PX4 guide, "Offboard Mode"; ArduPilot's developer
+// guide, "Copter Commands in Guided Mode".
 //
-// A field that its mask leaves out, or that is NaN, is not given. A message that gives nothing, or something infinite, has
-// no effect; the vehicle says so, at most once a second.
+// A field that its mask leaves out, or that is NaN, is not given. A message that gives nothing, or something infinite,
+// has no effect; the vehicle reports that by a text, at most once a second.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ private:
     void on_origin(ByteView payload);
     void on_home(ByteView payload);
 
-    // ArduPilot can be told to listen to one ground station only.
+    // A parameter of ArduPilot can limit this to one ground station, and one of PX4 can turn it off.
     [[nodiscard]] bool may_steer(const Client& from) const noexcept;
     [[nodiscard]] Sticks sticks_of_channels() const noexcept;
     [[nodiscard]] double channel(std::string_view map) const noexcept;

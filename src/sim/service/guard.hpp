@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Message signing of a vehicle. SETUP_SIGNING sets the key. From then on the vehicle signs all frames, and drops unsigned
-// ones, but for a few kinds that radios and other vehicles send. Private to module sim; single owner. Source: MAVLink
-// guide, "Message Signing"; the exceptions are PX4's.
+// Message signing of a vehicle. SETUP_SIGNING sets the key. From then on the vehicle signs all frames, and drops
+// unsigned ones, but for a few kinds that radios and other vehicles send. Private to module sim; single owner. Source:
+// MAVLink guide, "Message Signing"; the exceptions are PX4's.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PX4's shell over SERIAL_CONTROL, with the few commands that a simulated vehicle can answer. Private to module sim; single
-// owner.
+// PX4's shell over SERIAL_CONTROL, with the few commands that a simulated vehicle can answer. Private to module sim;
+// single owner.
 #pragma once
 
 #include <string>

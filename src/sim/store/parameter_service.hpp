@@ -28,7 +28,8 @@ public:
 
     // Sends the value of a parameter to all links.
     void announce(ParamIndex index);
-    // Sets the parameters whose names begin so to their initial values, but for the system id, and reports what changed.
+    // Sets the parameters whose names begin so to their initial values, and reports those that changed. The system id
+    // stays.
     void reset(std::string_view prefix = {});
 
 private:

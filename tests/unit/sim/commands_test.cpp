@@ -516,7 +516,7 @@ TEST(Commands, UnknownOnesAreUnsupportedInBothForms) {
     EXPECT_EQ(bench.command(84, {}), unsupported);
 }
 
-// Each command with every parameter NaN, infinite, huge or negative: an answer, and a vehicle that goes on.
+// Each command with every parameter NaN, infinite, huge or negative: an answer, and a vehicle that still works.
 TEST(Commands, SurviveAnyParameters) {
     for (const Autopilot autopilot : {Autopilot::px4, Autopilot::ardupilot}) {
         for (const float value : {nan_f, inf_f, -inf_f, 1e38f, -1e38f, 4e9f, -1.f}) {

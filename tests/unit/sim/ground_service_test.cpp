@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Calibration, signing and the shell. Sources: MAVLink guide, "Message Signing"; texts of calibrations as ground stations
-// and MAVSDK parse them.
+// Calibration, signing and the shell. Sources: MAVLink guide, "Message Signing"; texts of calibrations as ground
+// stations and MAVSDK parse them.
 #include <gmock/gmock.h>
 
 #include <cstring>
