@@ -9,8 +9,6 @@ namespace mavloom::sim {
 
 namespace {
 
-using enum FailsafeAction;
-
 // Clients may store any value, NaN and infinity included. The vehicle then flies by the nearest one that makes sense.
 class Reader {
 public:
@@ -35,6 +33,7 @@ private:
 constexpr double fastest = 60, longest = 1e6;  // m/s; s and m
 
 FailsafeAction px4_gcs_loss(int value) noexcept {
+    using enum FailsafeAction;
     switch (value) {
         case 1: return hold;
         case 2: return return_home;
@@ -47,6 +46,7 @@ FailsafeAction px4_gcs_loss(int value) noexcept {
 
 // The vehicle holds first. 2 (Return) is the default; without a remote control, PX4 stays in Hold.
 FailsafeAction px4_manual_loss(int value) noexcept {
+    using enum FailsafeAction;
     switch (value) {
         case 3: return land;
         case 5: return terminate;
@@ -57,6 +57,7 @@ FailsafeAction px4_manual_loss(int value) noexcept {
 
 // The modes 0 to 2 need a remote control. Without one, PX4 returns.
 FailsafeAction px4_offboard_loss(int value) noexcept {
+    using enum FailsafeAction;
     switch (value) {
         case 4: return land;
         case 5: return hold;
@@ -67,6 +68,7 @@ FailsafeAction px4_offboard_loss(int value) noexcept {
 }
 
 FailsafeAction px4_fence(int value) noexcept {
+    using enum FailsafeAction;
     switch (value) {
         case 0: return none;
         case 1: return warn;
@@ -78,6 +80,7 @@ FailsafeAction px4_fence(int value) noexcept {
 }
 
 void read_px4_battery(const Reader& read, Tuning& t) {
+    using enum FailsafeAction;
     t.battery_low = read.number("BAT_LOW_THR", t.battery_low, 0, 1);
     t.battery_critical = read.number("BAT_CRIT_THR", t.battery_critical, 0, 1);
     t.battery_emergency = read.number("BAT_EMERGEN_THR", t.battery_emergency, 0, 1);
@@ -157,6 +160,7 @@ void read_px4_rover(const Reader& read, Tuning& t) {
 
 // ArduPilot has two levels, with an action each. Without thresholds in mAh the vehicle only warns.
 FailsafeAction ardupilot_battery_action(int value) noexcept {
+    using enum FailsafeAction;
     switch (value) {
         case 1: return land;
         case 2:
@@ -178,6 +182,7 @@ void read_ardupilot_battery(const Reader& read, Tuning& t) {
 }
 
 FailsafeAction ardupilot_gcs_loss(Kind kind, int enabled, int action) noexcept {
+    using enum FailsafeAction;
     if (enabled == 0) return none;
     if (kind == Kind::quad) return enabled == 5 ? land : return_home;
     if (kind == Kind::plane) return action == 0 ? none : return_home;
@@ -186,6 +191,7 @@ FailsafeAction ardupilot_gcs_loss(Kind kind, int enabled, int action) noexcept {
 
 // The bits of FENCE_TYPE: 1 greatest altitude, 2 circle around home, 4 polygons.
 void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
+    using enum FailsafeAction;
     const int type = read.choice("FENCE_ENABLE", 0) == 1 ? read.choice("FENCE_TYPE", 7) : 0;
     if ((type & 1) != 0 && kind != Kind::rover) t.fence_height = read.number("FENCE_ALT_MAX", 100, 0, longest);
     if ((type & 2) != 0) t.fence_radius = read.number("FENCE_RADIUS", 300, 0, longest);
@@ -199,6 +205,7 @@ void read_ardupilot_fence(const Reader& read, Kind kind, Tuning& t) {
 
 // In Guided, ArduPilot does not leave the mode when set-points end: the vehicle stops.
 void read_ardupilot_safety(const Reader& read, Kind kind, Tuning& t) {
+    using enum FailsafeAction;
     t.gcs_loss = kind == Kind::plane ? read.number("FS_LONG_TIMEOUT", 5, 1, longest)
                                      : read.number("FS_GCS_TIMEOUT", 5, 1, longest);
     const int enabled = kind == Kind::plane ? read.choice("FS_GCS_ENABL", 0) : read.choice("FS_GCS_ENABLE", 0);

@@ -26,10 +26,10 @@ namespace {
 using namespace std::chrono_literals;
 using namespace test;
 
-constexpr std::int32_t not_given = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t no_coordinate = std::numeric_limits<std::int32_t>::max();
 constexpr std::uint32_t px4_hold = 0x03040000, px4_takeoff = 0x02040000, px4_mission = 0x04040000,
                         px4_return = 0x05040000, px4_land = 0x06040000, px4_orbit = 0x01030000;
-constexpr Peer other_client{LinkId{1}, {SystemId{245}, ComponentId{190}}};
+constexpr Peer second_client{LinkId{1}, {SystemId{245}, ComponentId{190}}};
 
 // --- Arming
 
@@ -209,7 +209,7 @@ TEST(FlightCommands, RefusePositionsThatDoNotExist) {
 
 // QGroundControl pauses by a position of NaN, which becomes an integer on its way.
 TEST(FlightCommands, RepositionToNowhereStops) {
-    for (const std::int32_t nothing : {not_given, std::numeric_limits<std::int32_t>::min(), 0x7ff80000}) {
+    for (const std::int32_t nothing : {no_coordinate, std::numeric_limits<std::int32_t>::min(), 0x7ff80000}) {
         Bench bench;
         ASSERT_TRUE(bench.fly());
         (void)bench.command_int(192, 6, {-1, 1, 0, nan_f}, 474'000'000, 85'460'000, 10);
@@ -362,7 +362,7 @@ TEST(FlightCommands, SetTheOriginAndReportItOnAllLinks) {
         EXPECT_EQ(bench.rig.last<msg::GpsGlobalOrigin>(link)->latitude, 473'970'000);
         EXPECT_EQ(bench.rig.last<msg::GpsGlobalOrigin>(link)->altitude, 400'000);
     }
-    EXPECT_EQ(bench.command_int(611, 0, {}, not_given, 85'450'000, 400), denied);
+    EXPECT_EQ(bench.command_int(611, 0, {}, no_coordinate, 85'450'000, 400), denied);
 }
 
 TEST(FlightCommands, LookAtARegionOfInterest) {
@@ -482,7 +482,7 @@ TEST(MaintenanceCommands, AutomaticTuningReportsItsProgress) {
     ASSERT_TRUE(bench.fly());
     EXPECT_EQ(bench.command(212, {1}), in_progress);
     EXPECT_EQ(bench.command(212, {1}), in_progress) << "a repeated command";
-    EXPECT_EQ(bench.command(212, {1}, other_client), temporarily_rejected);
+    EXPECT_EQ(bench.command(212, {1}, second_client), temporarily_rejected);
     bench.rig.forget();
     bench.rig.run(15.0);
 
@@ -524,8 +524,9 @@ TEST(Commands, SurviveAnyParameters) {
             for (int id = 0; id < 700; ++id) {
                 if (id == 246) continue;
                 EXPECT_NE(bench.command(id, {value, value, value, value, value, value, value}), none) << id;
-                EXPECT_NE(bench.command_int(id, id % 16, {value, value, value, value}, not_given, -not_given, value),
-                          none);
+                EXPECT_NE(
+                    bench.command_int(id, id % 16, {value, value, value, value}, no_coordinate, -no_coordinate, value),
+                    none);
             }
             for (const int id : {2000, 2500, 2510, 2511, 3000, 5300, 42428, 42429, 42600, 43000, 43001, 43002})
                 EXPECT_NE(bench.command(id, {value, value, value, value, value, value, value}), none) << id;

@@ -15,8 +15,8 @@ namespace {
 constexpr Kind all_kinds[] = {Kind::quad, Kind::plane, Kind::rover};
 constexpr Autopilot all_autopilots[] = {Autopilot::px4, Autopilot::ardupilot};
 
-const Firmware& px4() { return Firmware::of(Autopilot::px4, Kind::quad); }
-const Firmware& copter() { return Firmware::of(Autopilot::ardupilot, Kind::quad); }
+const Firmware& px4_quad() { return Firmware::of(Autopilot::px4, Kind::quad); }
+const Firmware& ardupilot_copter() { return Firmware::of(Autopilot::ardupilot, Kind::quad); }
 
 // As PX4 lists its modes: custom mode, standard mode, properties.
 TEST(Firmware, ListsTheModesOfPx4InItsOrder) {
@@ -44,7 +44,7 @@ TEST(Firmware, ListsTheModesOfPx4InItsOrder) {
 }
 
 TEST(Firmware, ReportsTheBaseModesOfPx4) {
-    const auto base = [](std::string_view name) { return int{px4().find_mode(name)->base_mode}; };
+    const auto base = [](std::string_view name) { return int{px4_quad().find_mode(name)->base_mode}; };
     EXPECT_EQ(base("Hold"), 29);
     EXPECT_EQ(base("Mission"), 29);
     EXPECT_EQ(base("Return"), 29);
@@ -56,8 +56,8 @@ TEST(Firmware, ReportsTheBaseModesOfPx4) {
     EXPECT_EQ(base("Acro"), 65);
     EXPECT_EQ(base("Offboard"), 17);
     EXPECT_EQ(int{Firmware::of(Autopilot::px4, Kind::plane).find_mode("Manual")->base_mode}, 65);
-    EXPECT_EQ(int{copter().find_mode("STABILIZE")->base_mode}, 81);
-    EXPECT_EQ(int{copter().find_mode("GUIDED")->base_mode}, 89);
+    EXPECT_EQ(int{ardupilot_copter().find_mode("STABILIZE")->base_mode}, 81);
+    EXPECT_EQ(int{ardupilot_copter().find_mode("GUIDED")->base_mode}, 89);
 }
 
 std::uint32_t requested(const Firmware& firmware, int base, std::uint32_t main, std::uint32_t sub) {
@@ -67,33 +67,33 @@ std::uint32_t requested(const Firmware& firmware, int base, std::uint32_t main, 
 constexpr std::uint32_t refused = 0xffffffff;
 
 TEST(Firmware, FindsTheModeThatAClientOfPx4AsksFor) {
-    EXPECT_EQ(requested(px4(), 1, 4, 4), 0x04040000u);
-    EXPECT_EQ(requested(px4(), 29, 4, 3), 0x03040000u);
-    EXPECT_EQ(requested(px4(), 1, 4, 0), 0x04040000u) << "auto without a sub mode is the mission";
-    EXPECT_EQ(requested(px4(), 1, 3, 1), 0x01030000u);
-    EXPECT_EQ(requested(px4(), 1, 0x06040000, 0), 0x06040000u) << "the packed mode in one parameter";
-    EXPECT_EQ(requested(px4(), 1, 4, 99), refused);
-    EXPECT_EQ(requested(px4(), 1, 0, 0), refused);
-    EXPECT_EQ(requested(px4(), 1, 4, 11), refused) << "no external mode is registered";
-    EXPECT_EQ(requested(px4(), 1, 4, 20), refused) << "Descend is not selectable";
-    EXPECT_EQ(requested(px4(), 1, 10, 0), refused) << "Termination is not selectable";
+    EXPECT_EQ(requested(px4_quad(), 1, 4, 4), 0x04040000u);
+    EXPECT_EQ(requested(px4_quad(), 29, 4, 3), 0x03040000u);
+    EXPECT_EQ(requested(px4_quad(), 1, 4, 0), 0x04040000u) << "auto without a sub mode is the mission";
+    EXPECT_EQ(requested(px4_quad(), 1, 3, 1), 0x01030000u);
+    EXPECT_EQ(requested(px4_quad(), 1, 0x06040000, 0), 0x06040000u) << "the packed mode in one parameter";
+    EXPECT_EQ(requested(px4_quad(), 1, 4, 99), refused);
+    EXPECT_EQ(requested(px4_quad(), 1, 0, 0), refused);
+    EXPECT_EQ(requested(px4_quad(), 1, 4, 11), refused) << "no external mode is registered";
+    EXPECT_EQ(requested(px4_quad(), 1, 4, 20), refused) << "Descend is not selectable";
+    EXPECT_EQ(requested(px4_quad(), 1, 10, 0), refused) << "Termination is not selectable";
 }
 
 // Old clients set flags of the base mode only, such as pymavlink's set_mode_manual() and set_mode_fbwa().
 TEST(Firmware, FindsTheModeOfPx4ByBaseModeAlone) {
-    EXPECT_EQ(requested(px4(), 4 | 8 | 16, 0, 0), 0x04040000u);
-    EXPECT_EQ(requested(px4(), 64 | 8 | 16, 0, 0), 0x00030000u);
-    EXPECT_EQ(requested(px4(), 64 | 16, 0, 0), 0x00070000u);
-    EXPECT_EQ(requested(px4(), 64, 0, 0), 0x00010000u);
-    EXPECT_EQ(requested(px4(), 0, 4, 3), refused);
+    EXPECT_EQ(requested(px4_quad(), 4 | 8 | 16, 0, 0), 0x04040000u);
+    EXPECT_EQ(requested(px4_quad(), 64 | 8 | 16, 0, 0), 0x00030000u);
+    EXPECT_EQ(requested(px4_quad(), 64 | 16, 0, 0), 0x00070000u);
+    EXPECT_EQ(requested(px4_quad(), 64, 0, 0), 0x00010000u);
+    EXPECT_EQ(requested(px4_quad(), 0, 4, 3), refused);
 }
 
 TEST(Firmware, FindsTheModeThatAClientOfArduPilotAsksFor) {
-    EXPECT_EQ(requested(copter(), 1, 4, 0), 4u);
-    EXPECT_EQ(requested(copter(), 1, 6, 0), 6u);
-    EXPECT_EQ(requested(copter(), 1, 8, 0), refused);
-    EXPECT_EQ(requested(copter(), 1, 99, 0), refused);
-    EXPECT_EQ(requested(copter(), 0, 4, 0), refused) << "only custom modes";
+    EXPECT_EQ(requested(ardupilot_copter(), 1, 4, 0), 4u);
+    EXPECT_EQ(requested(ardupilot_copter(), 1, 6, 0), 6u);
+    EXPECT_EQ(requested(ardupilot_copter(), 1, 8, 0), refused);
+    EXPECT_EQ(requested(ardupilot_copter(), 1, 99, 0), refused);
+    EXPECT_EQ(requested(ardupilot_copter(), 0, 4, 0), refused) << "only custom modes";
     EXPECT_EQ(requested(Firmware::of(Autopilot::ardupilot, Kind::plane), 1, 17, 0), refused) << "not a VTOL";
 }
 
@@ -102,13 +102,13 @@ TEST(Firmware, HasAModeForItsOwnActions) {
         const ModeInfo* const mode = firmware.mode_for(behaviour);
         return mode == nullptr ? std::string_view{} : mode->name;
     };
-    EXPECT_EQ(name_for(px4(), Behaviour::hold), "Hold");
-    EXPECT_EQ(name_for(px4(), Behaviour::brake), "Hold");
-    EXPECT_EQ(name_for(px4(), Behaviour::land), "Land");
-    EXPECT_EQ(name_for(px4(), Behaviour::position), "Position");
-    EXPECT_EQ(name_for(copter(), Behaviour::hold), "LOITER");
-    EXPECT_EQ(name_for(copter(), Behaviour::offboard), "GUIDED");
-    EXPECT_EQ(name_for(copter(), Behaviour::return_home), "RTL");
+    EXPECT_EQ(name_for(px4_quad(), Behaviour::hold), "Hold");
+    EXPECT_EQ(name_for(px4_quad(), Behaviour::brake), "Hold");
+    EXPECT_EQ(name_for(px4_quad(), Behaviour::land), "Land");
+    EXPECT_EQ(name_for(px4_quad(), Behaviour::position), "Position");
+    EXPECT_EQ(name_for(ardupilot_copter(), Behaviour::hold), "LOITER");
+    EXPECT_EQ(name_for(ardupilot_copter(), Behaviour::offboard), "GUIDED");
+    EXPECT_EQ(name_for(ardupilot_copter(), Behaviour::return_home), "RTL");
     EXPECT_EQ(name_for(Firmware::of(Autopilot::ardupilot, Kind::plane), Behaviour::hold), "LOITER");
     EXPECT_EQ(name_for(Firmware::of(Autopilot::ardupilot, Kind::rover), Behaviour::hold), "HOLD");
     EXPECT_EQ(name_for(Firmware::of(Autopilot::px4, Kind::rover), Behaviour::takeoff), "");
@@ -140,7 +140,7 @@ TEST(Firmware, TablesOfParametersAreWellFormed) {
 
 // Defaults that a client or a flight depends on.
 TEST(Firmware, DefaultsAreThoseOfTheSimulatedAirframes) {
-    const Parameters parameters(px4().parameters());
+    const Parameters parameters(px4_quad().parameters());
     EXPECT_EQ(parameters.get("MIS_TAKEOFF_ALT"), 2.5);
     EXPECT_EQ(parameters.get("RTL_RETURN_ALT"), 30);
     EXPECT_EQ(parameters.get("RTL_DESCEND_ALT"), 10);
@@ -151,14 +151,14 @@ TEST(Firmware, DefaultsAreThoseOfTheSimulatedAirframes) {
 }
 
 TEST(Firmware, ParametersTuneTheVehicle) {
-    Parameters parameters(px4().parameters());
-    EXPECT_EQ(px4().tuning(parameters).cruise_speed, 5);
-    EXPECT_EQ(px4().tuning(parameters).on_gcs_loss, FailsafeAction::none);
+    Parameters parameters(px4_quad().parameters());
+    EXPECT_EQ(px4_quad().tuning(parameters).cruise_speed, 5);
+    EXPECT_EQ(px4_quad().tuning(parameters).on_gcs_loss, FailsafeAction::none);
     parameters.put("MPC_XY_CRUISE", 8);
     parameters.put("NAV_DLL_ACT", 3);
     parameters.put("GF_MAX_HOR_DIST", 120);
     parameters.put("COM_LOW_BAT_ACT", 0);
-    const Tuning tuning = px4().tuning(parameters);
+    const Tuning tuning = px4_quad().tuning(parameters);
     EXPECT_EQ(tuning.cruise_speed, 8);
     EXPECT_EQ(tuning.on_gcs_loss, FailsafeAction::land);
     EXPECT_EQ(tuning.fence_radius, 120);
@@ -166,11 +166,11 @@ TEST(Firmware, ParametersTuneTheVehicle) {
 }
 
 TEST(Firmware, ArduPilotCountsInCentimetres) {
-    Parameters parameters(copter().parameters());
+    Parameters parameters(ardupilot_copter().parameters());
     parameters.put("WPNAV_SPEED", 700);
     parameters.put("RTL_ALT", 2000);
     parameters.put("FENCE_ENABLE", 1);
-    const Tuning tuning = copter().tuning(parameters);
+    const Tuning tuning = ardupilot_copter().tuning(parameters);
     EXPECT_EQ(tuning.cruise_speed, 7);
     EXPECT_EQ(tuning.return_altitude, 20);
     EXPECT_EQ(tuning.land_speed, 0.5);
