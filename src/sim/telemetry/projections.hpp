@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The functions behind the table of projections, by subject. Each writes one payload and returns true, or returns false
-// when there is nothing to report. Private to module sim.
+// The functions behind the table of projections, by subject; each subject has a file in messages/. Private to module
+// sim. Each function writes one payload and returns true, or returns false when there is nothing to report.
 #pragma once
 
 #include "sim/telemetry/telemetry.hpp"
