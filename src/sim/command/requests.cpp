@@ -8,10 +8,12 @@
 #include "mavloom/msg/available_modes.hpp"
 #include "mavloom/msg/component_information.hpp"
 #include "mavloom/msg/component_metadata.hpp"
+#include "mavloom/msg/enums/tune_format.hpp"
 #include "mavloom/msg/gimbal_device_information.hpp"
 #include "mavloom/msg/gimbal_manager_information.hpp"
 #include "mavloom/msg/mission_current.hpp"
 #include "mavloom/msg/protocol_version.hpp"
+#include "mavloom/msg/supported_tunes.hpp"
 #include "sim/metadata/metadata.hpp"
 #include "sim/parts.hpp"
 #include "sim/payload/gimbal.hpp"
@@ -98,6 +100,11 @@ Result send_component_information(Parts& parts, LinkId link, double /*index*/) {
     return Result::accepted;
 }
 
+Result send_supported_tunes(Parts& parts, LinkId link, double /*index*/) {
+    parts.radio.send(link, SupportedTunes{.format = TUNE_FORMAT_QBASIC1_1});
+    return Result::accepted;
+}
+
 struct Request {
     MessageId message;
     Result (*send)(Parts& parts, LinkId link, double index);
@@ -109,6 +116,7 @@ constexpr std::array requests{
     Request{ComponentInformation::id, send_component_information},
     Request{ComponentMetadata::id, send_component_metadata},
     Request{AvailableModes::id, send_available_modes},
+    Request{SupportedTunes::id, send_supported_tunes},
 };
 
 }  // namespace

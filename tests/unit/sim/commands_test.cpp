@@ -17,7 +17,9 @@
 #include "mavloom/msg/param_request_read.hpp"
 #include "mavloom/msg/param_set.hpp"
 #include "mavloom/msg/param_value.hpp"
+#include "mavloom/msg/play_tune_v2.hpp"
 #include "mavloom/msg/set_mode.hpp"
+#include "mavloom/msg/supported_tunes.hpp"
 #include "unit/sim/bench.hpp"
 
 namespace mavloom::sim {
@@ -514,6 +516,16 @@ TEST(Commands, UnknownOnesAreUnsupportedInBothForms) {
     EXPECT_EQ(bench.command_int(31999, 0, {}, 0, 0, 0), unsupported);
     EXPECT_EQ(bench.command(3000, {3}), unsupported) << "not a VTOL";
     EXPECT_EQ(bench.command(84, {}), unsupported);
+}
+
+TEST(Commands, TunesArePlayedSilentlyAndTheirFormatIsReported) {
+    Bench bench;
+    bench.rig.forget();
+    bench.rig.send(msg::PlayTuneV2{.target_system = 1, .target_component = 1, .format = 1});
+    EXPECT_TRUE(bench.rig.sink.frames.empty());
+    EXPECT_EQ(bench.command(512, {401}), accepted);
+    ASSERT_TRUE(bench.rig.last<msg::SupportedTunes>());
+    EXPECT_EQ(bench.rig.last<msg::SupportedTunes>()->format, 1u) << "QBasic";
 }
 
 // Each command with every parameter NaN, infinite, huge or negative: an answer, and a vehicle that still works.
