@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as the messages of several clients to a simulated vehicle, with time passing between them. The vehicle
-// neither crashes nor floods its links, its state stays sane, and its telemetry goes on.
+// neither crashes nor floods its links, its state stays sane, and its telemetry continues.
 //
-// An input begins with a byte of options (see `options_from`). Then come steps: a byte of which the low four bits choose the
-// kind, and its arguments. A message is: index of its id, client, length, payload.
+// An input begins with a byte of options (see `options_from`). Then come steps: a byte of which the low four bits
+// choose the kind, and its arguments. A message is: index of its id, client, length, payload.
 #include <algorithm>
 #include <array>
 #include <cmath>

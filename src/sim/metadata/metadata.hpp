@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Component metadata: JSON files from which ground stations learn the names and ranges of parameters, the texts of events
-// and the outputs of actuators. Private to module sim.
+// Component metadata: JSON files from which ground stations learn the names and ranges of parameters, the texts of
+// events and the outputs of actuators. Private to module sim.
 //
 // All vehicles of a firmware share the files. They are made at their first use and never change; any thread may use
 // them. PX4 serves them by MAVLink FTP, ArduPilot has none. Source: MAVLink guide, "Component Metadata Protocol".
@@ -17,7 +17,7 @@ namespace mavloom::sim {
 
 class Firmware;
 
-// What COMPONENT_METADATA and COMPONENT_INFORMATION report of the general file, which lists the others.
+// The general file, which lists the others, as COMPONENT_METADATA and COMPONENT_INFORMATION report it.
 struct GeneralMetadata {
     std::string_view uri;        // mftp://...
     std::uint32_t file_crc = 0;  // of the JSON before compression, as PX4 has it

@@ -2,8 +2,8 @@
 // The events interface: EVENT, CURRENT_EVENT_SEQUENCE, REQUEST_EVENT. Private to module sim; single owner. Source:
 // MAVLink guide, "Events Interface".
 //
-// Only PX4 sends events. They go to all links; the last 20 can be asked for again. The arming checks and the health of the
-// components are a report of several events, which is sent when it changes and when a client asks.
+// Only PX4 sends events. They go to all links; the last 20 can be asked for again. The arming checks and the health of
+// the components are a report of several events, which is sent when it changes and when a client asks.
 #pragma once
 
 #include <array>

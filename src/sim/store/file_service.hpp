@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // MAVLink FTP. Private to module sim; single owner. Source: MAVLink guide, "File Transfer Protocol (FTP)".
 //
-// Sessions belong to a client and have the number that the client gave when it opened the file: QGroundControl takes the
-// number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated byte by
-// byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
+// Sessions belong to a client and have the number that the client gave when it opened the file: QGroundControl takes
+// the number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated
+// byte by byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
 #pragma once
 
 #include <array>
@@ -67,7 +67,7 @@ private:
         Moment now{};
         [[nodiscard]] std::string_view text() const noexcept;  // a path; ends at the first NUL
     };
-    // What a request brings: an error, or data for an ACK.
+    // The outcome of a request: an error, or data for an ACK.
     struct Reply {
         FileError error{};
         std::uint8_t size = 0;

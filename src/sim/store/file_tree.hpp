@@ -46,8 +46,8 @@ struct DirectoryEntry {
     std::uint32_t modified = 0;  // Unix seconds; 0 if unknown
 };
 
-// A path as clients write it, without "mftp://", component, slashes at both ends and `.`; @MAV_LOG becomes the folder of
-// logs. Empty if the path climbs above the root.
+// A path as clients write it, without "mftp://", component, slashes at both ends and `.`; @MAV_LOG becomes the folder
+// of logs. Empty if the path climbs above the root.
 [[nodiscard]] std::optional<std::string> normal_path(std::string_view path, const RecordedLogs& logs);
 
 class FileTree {

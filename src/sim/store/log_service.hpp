@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Download of recorded logs, and streaming of the log that is being written. Private to module sim; single owner. Source:
-// MAVLink guide, "Log transfer protocol".
+// Download of recorded logs, and streaming of the log that is being written. Private to module sim; single owner.
+// Source: MAVLink guide, "Log transfer protocol".
 //
 // A client downloads one thing at a time; a new request replaces the running one. Data is sent as the link takes it.
 #pragma once

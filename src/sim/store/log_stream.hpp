@@ -2,8 +2,8 @@
 // The log that the vehicle writes now, sent to clients while it grows. Private to module sim; single owner.
 //
 // PX4 sends the header in LOGGING_DATA_ACKED, each of which waits for its LOGGING_ACK, and the rest in LOGGING_DATA.
-// ArduPilot sends REMOTE_LOG_DATA_BLOCKs and repeats those that the client misses. Sources: MAVLink guide, "Log transfer
-// protocol"; MAVLink common.xml and ardupilotmega.xml.
+// ArduPilot sends REMOTE_LOG_DATA_BLOCKs and repeats those that the client misses. Sources: MAVLink guide, "Log
+// transfer protocol"; MAVLink common.xml and ardupilotmega.xml.
 #pragma once
 
 #include <cstdint>

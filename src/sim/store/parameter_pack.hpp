@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// ArduPilot's file @PARAM/param.pck: all parameters in one file, so that a client reads them by FTP in a second. Private to
-// module sim; a pure function. Source: ArduPilot's developer documentation, "AP_Filesystem".
+// ArduPilot's file @PARAM/param.pck: all parameters in one file, so that a client reads them by FTP in a second.
+// Private to module sim; a pure function. Source: ArduPilot's developer documentation, "AP_Filesystem".
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 
 namespace mavloom::sim {
 
-// `path` may end with a query: ?withdefaults=1, ?start=INDEX, ?count=NUMBER, joined by &. Empty: not the path of this file.
+// `path` may end with a query: ?withdefaults=1, ?start=INDEX, ?count=NUMBER, joined by &. Empty: not the path of this
+// file.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> parameter_pack(const Parameters& parameters,
                                                                       std::string_view path);
 

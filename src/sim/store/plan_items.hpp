@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Items of plans on the wire: their two forms, and which of them a vehicle accepts. Private to module sim; pure functions.
+// Items of plans on the wire: their two forms, and which of them a vehicle accepts. Private to module sim; pure
+// functions.
 //
-// MISSION_ITEM_INT and MISSION_ITEM carry the same item; the latter has x and y as float degrees. Sources: MAVLink guide,
-// "Mission Protocol"; PX4 1.17.
+// MISSION_ITEM_INT and MISSION_ITEM carry the same item; the latter has x and y as float degrees. Sources: MAVLink
+// guide, "Mission Protocol"; PX4 1.17.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +22,8 @@ namespace mavloom::sim {
 // Degrees are rounded to the nearest 1e-7. A NaN becomes INT32_MAX, which means "not set".
 [[nodiscard]] PlanItem item_of(const msg::MissionItem& message) noexcept;
 
-// The fields of an item without target, seq, type and `current`. PX4 reports a global frame in the variant of the message
-// (MAV_FRAME_GLOBAL_INT for MISSION_ITEM_INT); ArduPilot returns the frame that was uploaded.
+// The fields of an item without target, seq, type and `current`. PX4 reports a global frame in the variant of the
+// message (MAV_FRAME_GLOBAL_INT for MISSION_ITEM_INT); ArduPilot returns the frame that was uploaded.
 [[nodiscard]] msg::MissionItemInt int_form(const PlanItem& item, bool is_px4) noexcept;
 [[nodiscard]] msg::MissionItem float_form(const PlanItem& item, bool is_px4) noexcept;
 

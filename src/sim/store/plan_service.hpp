@@ -2,9 +2,10 @@
 // The mission protocol: upload and download of missions, fences and rally points. Private to module sim; single owner.
 // Source: MAVLink guide, "Mission Protocol".
 //
-// A transfer belongs to a client and a type of plan. One client at a time may upload a type; items arrive in a buffer that
-// replaces the plan only at the end. While an upload waits for an item, the service repeats its request every 250 ms; 5 s
-// after the client's last message it gives up, and the old plan stays. Downloads need no order and no final MISSION_ACK.
+// A transfer belongs to a client and a type of plan. One client at a time may upload a type; items arrive in a buffer
+// that replaces the plan only at the end. While an upload waits for an item, the service repeats its request every 250
+// ms; 5 s after the client's last message it gives up, and the old plan stays. Downloads need no order and no final
+// MISSION_ACK.
 #pragma once
 
 #include <optional>

@@ -19,7 +19,7 @@ namespace mavloom::sim {
 class LogImage {
 public:
     LogImage(bool is_px4, SystemId system, std::uint16_t number) noexcept;
-    // A log that is still being written: it goes on for ever, one record every `record_interval`.
+    // A log that is still being written: it never ends, with one record every `record_interval`.
     [[nodiscard]] static LogImage endless(bool is_px4, SystemId system) noexcept;
     static constexpr Nanoseconds record_interval = std::chrono::milliseconds{20};
 

@@ -22,7 +22,7 @@
 #include "mavloom/msg/vision_speed_estimate.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::ignored_tests {
 namespace {
 
 using test::Rig;
@@ -99,4 +99,4 @@ INSTANTIATE_TEST_SUITE_P(Firmwares, IgnoredMessages, testing::Values(Autopilot::
                          [](const auto& test) { return std::string(autopilot_names[static_cast<int>(test.param)]); });
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::ignored_tests

@@ -20,7 +20,7 @@
 #include "sim/store/log_stream.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::log_tests {
 namespace {
 
 using namespace msg;
@@ -416,4 +416,4 @@ TEST_F(RemoteLog, EndsWhenTheClientStopsOrFallsSilent) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::log_tests

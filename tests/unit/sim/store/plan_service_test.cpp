@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mission protocol as a client sees it. Expected answers: MAVLink guide, "Mission Protocol", and the session with PX4
-// in tests/data/px4_gcs_session.tlog.
+// The mission protocol as a client sees it. Expected answers: MAVLink guide, "Mission Protocol", and the session with
+// PX4 in tests/data/px4_gcs_session.tlog.
 #include <gmock/gmock.h>
 
 #include <bit>
@@ -27,7 +27,7 @@
 #include "mavloom/msg/statustext.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::plan_tests {
 namespace {
 
 using namespace msg;
@@ -827,4 +827,4 @@ TEST_F(ArduPilotPlanService, RefusesAnOrderOutsideGuided) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::plan_tests

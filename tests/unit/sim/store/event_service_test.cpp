@@ -20,7 +20,7 @@
 #include "sim/metadata/event_catalog.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::event_tests {
 namespace {
 
 using namespace msg;
@@ -250,4 +250,4 @@ TEST_F(EventService, SendsTheEventOfAText) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::event_tests

@@ -12,7 +12,7 @@
 #include "sim/checksum.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::file_tests {
 namespace {
 
 using namespace msg;
@@ -548,4 +548,4 @@ TEST(FileServiceOfArduPilot, PacksItsParametersIntoOneFile) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::file_tests

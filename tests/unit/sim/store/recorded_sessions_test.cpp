@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Recorded sessions of ground stations with a real PX4, played to a simulated vehicle: every request gets an answer of the
-// same kind, in the same order, that PX4 gave. tests/data/README.md describes the recordings.
+// Recorded sessions of ground stations with a real PX4, played to a simulated vehicle: every request gets an answer of
+// the same kind, in the same order, that PX4 gave. tests/data/README.md describes the recordings.
 //
 // Requests are sent at their recorded times. Answers are compared within a service: command, parameters, plans, files,
-// logs, time, texts, events. Between services the order is PX4's timing only, because it acknowledges commands 3 to 16 ms
-// later. Runs of equal kinds count once: a file's pieces, the values of a list. Differences that are kept on purpose stand
-// in each test with their reason.
+// logs, time, texts, events. Between services the order is PX4's timing only, because it acknowledges commands 3 to 16
+// ms later. Runs of equal kinds count once: a file's pieces, the values of a list. Differences that are kept on purpose
+// stand in each test with their reason.
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@
 #include "mavloom/msg/timesync.hpp"
 #include "unit/sim/rig.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::session_tests {
 namespace {
 
 using namespace msg;
@@ -109,7 +109,7 @@ Answer answer_of(const wire::FrameView& frame) {
     if (frame.id() == Ping::id && Ping::decode(payload).target_system != 0) return {"time", "PING"};
     if (frame.id() == Statustext::id) {
         const std::string text = text_of(Statustext::decode(payload).text);
-        return {"texts", text.starts_with("[logger]") ? "[logger]" : text};  // a path with the time of the start follows
+        return {"texts", text.starts_with("[logger]") ? "[logger]" : text};  // a path with the time follows
     }
     if (frame.id() == Event::id) return {"events", fmt::format("{}", Event::decode(payload).id_)};
     return {};
@@ -209,4 +209,4 @@ TEST(RecordedSessions, QGroundControlWithFilledCachesTakesOffAndLands) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::session_tests

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Component metadata as a ground station reads it. Expected forms: the schemas in the MAVLink guide, "Component Metadata
-// Protocol", and the files that PX4 1.17 served.
+// Component metadata as a ground station reads it. Expected forms: the schemas in the MAVLink guide, "Component
+// Metadata Protocol", and the files that PX4 1.17 served.
 #include <gmock/gmock.h>
 #include <lzma.h>
 
@@ -12,7 +12,7 @@
 #include "sim/metadata/event_catalog.hpp"
 #include "sim/metadata/metadata.hpp"
 
-namespace mavloom::sim {
+namespace mavloom::sim::metadata_tests {
 namespace {
 
 using Json = nlohmann::json;
@@ -100,7 +100,7 @@ TEST(Metadata, KindsOfVehiclesHaveFilesOfTheirOwn) {
     EXPECT_NE(metadata_file(px4(), 1).data(), metadata_file(plane, 1).data());
 }
 
-// What QGroundControl needs for its page of arming checks.
+// QGroundControl needs these entries for its page of arming checks.
 TEST(Metadata, EventsDescribeTheArmingChecks) {
     const Json json = json_of("all_events");
     EXPECT_EQ(json["version"], 2);
@@ -152,4 +152,4 @@ TEST(Metadata, ActuatorsNameTheMotors) {
 }
 
 }  // namespace
-}  // namespace mavloom::sim
+}  // namespace mavloom::sim::metadata_tests
