@@ -132,6 +132,7 @@ class Bench:
     def __init__(self, options):
         self.program, self.tools, self.quick = options.program, options.tools, options.quick
         self.as_json, self.rounds, self.lost = options.json, 1 if options.quick else options.rounds, 0
+        self.warm_up_s = 0.5 if options.quick else 4  # longer than a vehicle takes to be ready
 
     def sim(self, *options):
         return [self.program, "sim", "--name", f"bench-{os.getpid()}", *options]
@@ -157,7 +158,7 @@ class Bench:
         receiver = Receiver()
         with running(self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--profile", PROFILE)):
             receiver.wait()
-            receiver.run(3)
+            receiver.run(self.warm_up_s)
             receiver.datagrams.clear()
             receiver.run(seconds)
         self.check(receiver)
@@ -173,7 +174,7 @@ class Bench:
         receiver = Receiver()
         with running([str(part).replace("PORT", str(receiver.port)) for part in command]) as process:
             receiver.wait()
-            receiver.run(3)
+            receiver.run(self.warm_up_s)
             before, count, began = cpu_seconds(process.pid), len(receiver.datagrams), time.monotonic()
             receiver.run(seconds)
             spent, took = cpu_seconds(process.pid) - before, time.monotonic() - began
@@ -182,7 +183,7 @@ class Bench:
         return 100 * spent / took, arrived
 
     def cpu(self):
-        seconds = 2 if self.quick else 10
+        seconds = 1 if self.quick else 10
         with tempfile.TemporaryDirectory() as folder:
             path, datagrams, frames = self.schedule(folder, seconds)
             ours, bare = [], []
@@ -201,7 +202,7 @@ class Bench:
     # ---- rates
 
     def rates(self):
-        seconds = 5 if self.quick else 60
+        seconds = 2 if self.quick else 60
         receiver = Receiver()
         command = self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--profile", PROFILE, "--for",
                            f"{seconds + 2}s", "--report", "--json")
@@ -241,7 +242,7 @@ class Bench:
         taken = []
         with running(self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--profile", PROFILE)):
             receiver.wait()
-            receiver.run(3)
+            receiver.run(self.warm_up_s)
             for _ in range(count):
                 receiver.datagrams.clear()
                 message = mavlink.MAVLink_command_long_message(1, 1, 512, 0, AUTOPILOT_VERSION, 0, 0, 0, 0, 0, 0)
@@ -334,7 +335,7 @@ class Bench:
             receiver = Receiver()
             with running(self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--vehicles", str(vehicles))) as process:
                 receiver.wait()
-                receiver.run(4)
+                receiver.run(self.warm_up_s)
                 sizes.append(anonymous_kib(process.pid))
             receiver.close()
         each = (sizes[1] - sizes[0]) / 50

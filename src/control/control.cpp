@@ -35,7 +35,7 @@ ino_t inode_of(const std::filesystem::path& path) noexcept {
 tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
     return setup_error(
         SetupCode::in_use,
-        fmt::format("{} is served by a router that runs; --name gives this one another name", socket.string()));
+        fmt::format("{} is served by a running program; --name gives this one another name", socket.string()));
 }
 
 // Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock

@@ -238,8 +238,9 @@ std::string text_of(const std::vector<LinkReport>& reports, double speed) {
                        "achieved Hz", "sent", "skipped", "median, ms", "99 %, ms");
         for (const auto& stream : report.streams) {
             const Row row = row_of(stream, speed);
-            fmt::format_to(out, "  {:>3}  {:<32} {:>10.3f} {:>12.3f} {:>9} {:>8} {:>12.3f} {:>12.3f}\n",
-                           stream.system.value, stream.name, row.asked_hz, row.achieved_hz, stream.sent, stream.skipped,
+            fmt::format_to(out, "  {:>3}  {:<32} {:>10.3f} {:>12} {:>9} {:>8} {:>12.3f} {:>12.3f}\n",
+                           stream.system.value, stream.name, row.asked_hz,
+                           stream.sent < 2 ? "-" : fmt::format("{:.3f}", row.achieved_hz), stream.sent, stream.skipped,
                            row.median_ms, row.p99_ms);
         }
     }
