@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/physics/multicopter/plain_setpoint.hpp"
 #include "sim/physics/multicopter/shaping.hpp"
 
 namespace mavloom::sim {
@@ -56,7 +57,7 @@ void Multicopter::move_origin(const Vector3& by) {
 
 void Multicopter::step(const Setpoint& setpoint, bool armed, const Surroundings& around) {
     air_velocity_ = motion_.velocity - around.wind;
-    rotors_.step(armed ? control(setpoint) : Moments{}, lag_share);
+    rotors_.step(armed ? control(is_plain(setpoint) ? setpoint : made_plain(setpoint)) : Moments{}, lag_share);
     if (!armed) ground_thrust_ = 0;
     steering_ = setpoint.steering;
     move(around);
