@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/flight/plan.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -50,7 +51,9 @@ std::optional<GeoPoint> position_of(const PlanItem& item) {
     using Range = std::numeric_limits<std::int32_t>;
     const auto given = [](std::int32_t v) { return v != Range::min() && v != Range::max(); };
     if (!is_global(item.frame) || !given(item.x) || !given(item.y) || (item.x == 0 && item.y == 0)) return std::nullopt;
-    return GeoPoint{from_degrees_e7(item.x), from_degrees_e7(item.y), double{item.z}};
+    const GeoPoint point{from_degrees_e7(item.x), from_degrees_e7(item.y), double{item.z}};
+    const bool is_on_earth = std::abs(point.latitude) <= 90 && std::abs(point.longitude) <= 180;
+    return is_on_earth ? std::optional(point) : std::nullopt;
 }
 
 void Plan::replace(std::vector<PlanItem> items) {

@@ -27,7 +27,8 @@ struct PlanItem {
     float z = 0;
 };
 
-// Latitude and longitude of an item, if it has a position. INT32_MIN, INT32_MAX and 0/0 mean that it has none.
+// Latitude, longitude and z of an item, if it has a position on earth. INT32_MIN, INT32_MAX and 0/0 mean that it has
+// none.
 [[nodiscard]] std::optional<GeoPoint> position_of(const PlanItem& item);
 
 class Plan {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "unit/sim/any_setpoint.hpp"
+#include "unit/sim/support/any_setpoint.hpp"
 
 namespace mavloom::sim {
 namespace {

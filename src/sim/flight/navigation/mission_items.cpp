@@ -208,7 +208,7 @@ void MissionRunner::set_home() {
 Vector3 MissionRunner::place() const {
     const double z = altitude_z();
     const auto point = position_of(item());
-    if (!point || std::abs(point->latitude) > 90) {
+    if (!point) {
         const bool is_here = item().command != MAV_CMD_NAV_WAYPOINT || context_.is_on_ground();
         const Vector3& base = is_here ? context_.craft.estimate().position : guidance_.goal();
         return {base.x(), base.y(), z};

@@ -14,7 +14,7 @@ const Vector3 position_gains{0.95, 0.95, 1.0};  // 1/s
 const Vector3 velocity_gains{1.8, 1.8, 4.0};    // 1/s
 const Vector3 learning_gains{0.4, 0.4, 2.0};    // 1/s^2
 const Vector3 attitude_gains{6.5, 6.5, 2.8};    // 1/s
-const Vector3 rate_gains{20, 20, 8};            // 1/s
+const Vector3 rate_gains{20, 20, 14};           // 1/s
 const Vector3 fastest_rates{3.84, 3.84, 3.49};  // rad/s; MC_ROLLRATE_MAX 220 deg/s, MC_YAWRATE_MAX 200 deg/s
 constexpr double most_learned = 4;              // m/s^2
 constexpr double least_thrust = 0.1;            // of gravity: the vehicle keeps some thrust, so that it can steer

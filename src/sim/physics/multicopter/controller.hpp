@@ -11,7 +11,7 @@ namespace mavloom::sim {
 // Full thrust in relation to weight: the vehicle hovers at half of it.
 inline constexpr double full_thrust = 2 * gravity;  // m/s^2
 // Turning acceleration of a full moment about each axis, rad/s^2.
-inline const Vector3 full_moment{120, 120, 12};
+inline const Vector3 full_moment{120, 120, 20};
 
 class Controller {
 public:

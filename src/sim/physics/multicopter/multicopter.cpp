@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/physics/multicopter/plain_setpoint.hpp"
 #include "sim/physics/multicopter/shaping.hpp"
 
 namespace mavloom::sim {
@@ -56,11 +57,12 @@ void Multicopter::move_origin(const Vector3& by) {
 
 void Multicopter::step(const Setpoint& setpoint, bool armed, const Surroundings& around) {
     air_velocity_ = motion_.velocity - around.wind;
-    rotors_.step(armed ? control(setpoint) : Moments{}, lag_share);
-    if (!armed) ground_thrust_ = 0;
+    const bool has_power = armed && around.supply > 0;
+    rotors_.step(has_power ? control(is_plain(setpoint) ? setpoint : made_plain(setpoint)) : Moments{}, lag_share);
+    if (!has_power) ground_thrust_ = 0;
     steering_ = setpoint.steering;
     move(around);
-    report();
+    report(around.supply);
 }
 
 Moments Multicopter::control(const Setpoint& setpoint) {
@@ -137,9 +139,9 @@ Vector3 Multicopter::rates_after(double push) const {
     return -levelling * tilt;
 }
 
-void Multicopter::report() {
+void Multicopter::report(double supply) {
     const Moments& given = rotors_.given();
-    const double hover_share = given.thrust * full_thrust / gravity;
+    const double hover_share = given.thrust * supply * full_thrust / gravity;
     thrust_ = given.thrust;
     load_ = hover_share * std::sqrt(std::max(hover_share, 0.0));
     targets_ = controller_.targets();

@@ -21,7 +21,7 @@ private:
     // The acceleration with the push of the legs, and the rates that they leave.
     [[nodiscard]] Vector3 legs(double push, double depth, const Vector3& acceleration) const;
     [[nodiscard]] Vector3 rates_after(double push) const;
-    void report();
+    void report(double supply);
 
     Trajectory trajectory_;
     Controller controller_;

@@ -11,12 +11,12 @@ namespace mavloom::sim {
 
 namespace {
 
-constexpr double position_gain = 0.95, height_gain = 1.0;           // 1/s; MPC_XY_P and MPC_Z_P of PX4
-constexpr double velocity_gain = 4;                                 // 1/s
-constexpr double braking_share = 0.5;                               // of the acceleration; the jerk takes the rest
-constexpr double up_acceleration = 4, down_acceleration = 3;        // m/s^2; MPC_ACC_UP_MAX and MPC_ACC_DOWN_MAX
-constexpr double yaw_gain = 2, yaw_acceleration = to_radians(120);  // 1/s, rad/s^2
-constexpr double patience = 2;                                      // m that the path may be ahead of the vehicle
+constexpr double position_gain = 0.95, height_gain = 1.0;          // 1/s; MPC_XY_P and MPC_Z_P of PX4
+constexpr double velocity_gain = 4;                                // 1/s
+constexpr double braking_share = 0.5;                              // of the acceleration; the jerk takes the rest
+constexpr double up_acceleration = 4, down_acceleration = 3;       // m/s^2; MPC_ACC_UP_MAX and MPC_ACC_DOWN_MAX
+constexpr double yaw_gain = 2, yaw_acceleration = to_radians(90);  // 1/s, rad/s^2
+constexpr double patience = 2;                                     // m that the path may be ahead of the vehicle
 
 bool accelerates_only(const Setpoint& setpoint) noexcept {
     return has_horizontal(setpoint.acceleration) && !has_horizontal(setpoint.velocity) &&
@@ -81,8 +81,8 @@ void Trajectory::step_horizontal(const Setpoint& setpoint) {
 
 Trajectory::Wish Trajectory::horizontal_wish(const Setpoint& setpoint) const {
     const SpeedLimits& limits = setpoint.limits;
-    if (setpoint.steering == Steering::circle) return circle_wish(setpoint);
     if (has_horizontal(setpoint.position)) {
+        if (setpoint.steering == Steering::circle) return circle_wish(setpoint);
         const Vector2 way = setpoint.position.head<2>() - target_.position.head<2>();
         const double distance = way.norm();
         if (distance < 1e-6) return {};
@@ -140,7 +140,7 @@ void Trajectory::step_yaw(const Setpoint& setpoint) {
     if (std::isfinite(setpoint.yaw))
         rate += closing_speed(wrap_pi(setpoint.yaw - target_.yaw), yaw_gain, yaw_acceleration);
     rate = std::clamp(rate, -fastest, fastest);
-    target_.yaw_rate = moved_towards(target_.yaw_rate, rate, 2 * yaw_acceleration * step_s);
+    target_.yaw_rate = moved_towards(target_.yaw_rate, rate, yaw_acceleration * step_s);
     target_.yaw = wrap_pi(target_.yaw + target_.yaw_rate * step_s);
 }
 
