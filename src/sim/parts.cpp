@@ -33,7 +33,7 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       parameters(firmware.parameters()),
       flight(options, firmware, parameters, *this),
       radio(options.system, sink),
-      streams(options, firmware, radio),
+      streams(options, firmware, parameters, radio),
       announcer(radio),
       commands(*this),
       gimbal(options.has_gimbal ? std::make_unique<Gimbal>(*this) : nullptr),
@@ -128,9 +128,14 @@ void Parts::pump(Moment moment) {
     report_changes();
 }
 
+void Parts::retune() {
+    flight.retune();
+    streams.retune(now.flight);
+}
+
 void Parts::put_parameter(std::string_view name, double value) {
     parameters.put(name, value);
-    flight.retune();
+    retune();
     if (const auto index = parameters.find(name)) parameter_service->announce(*index);
 }
 

@@ -77,6 +77,8 @@ struct Parts final : FlightObserver {
     [[nodiscard]] FlightTime next_pump() const noexcept;
     void pump(Moment moment);
 
+    // Call it after a parameter changed.
+    void retune();
     // Sets a parameter on the vehicle's own account, and reports it to all links.
     void put_parameter(std::string_view name, double value);
     // After the present call: silent for some seconds, then as after boot. Without `restarts`: silent for good.

@@ -100,7 +100,7 @@ void ParameterService::change(const Client& from, ParamIndex index, std::uint8_t
     } else {
         parts_.parameters.set(index, double{value});
     }
-    parts_.flight.retune();
+    parts_.retune();
     announce(index);
 }
 
@@ -155,7 +155,7 @@ void ParameterService::reset(std::string_view prefix) {
         parameters.set(i, info.initial);
         if (parameters.bits(i) != before) announce(i);
     }
-    parts_.flight.retune();
+    parts_.retune();
 }
 
 void ParameterService::send_value(LinkId link, ParamIndex index) {

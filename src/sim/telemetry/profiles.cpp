@@ -258,12 +258,13 @@ constexpr std::array group_extra3{SystemTime::id,  Ahrs::id,          msg::Wind:
                                   Rangefinder::id, TerrainReport::id, BatteryStatus::id, EkfStatusReport::id,
                                   Vibration::id};
 constexpr std::array group_table{
-    StreamGroup{1, group_raw_sensors}, StreamGroup{2, group_extended_status}, StreamGroup{3, group_rc_channels},
-    StreamGroup{6, group_position},    StreamGroup{10, group_extra1},         StreamGroup{11, group_extra2},
-    StreamGroup{12, group_extra3},
+    StreamGroup{1, "SR0_RAW_SENS", group_raw_sensors}, StreamGroup{2, "SR0_EXT_STAT", group_extended_status},
+    StreamGroup{3, "SR0_RC_CHAN", group_rc_channels},  StreamGroup{6, "SR0_POSITION", group_position},
+    StreamGroup{10, "SR0_EXTRA1", group_extra1},       StreamGroup{11, "SR0_EXTRA2", group_extra2},
+    StreamGroup{12, "SR0_EXTRA3", group_extra3},
 };
 
-// ArduPilot's simulation streams every group at 4 Hz before anybody asks.
+// ArduPilot's simulation streams every group at 4 Hz before anybody asks. Its parameters may change that.
 constexpr auto rates_ardupilot = [] {
     constexpr std::size_t rows = group_raw_sensors.size() + group_extended_status.size() + group_rc_channels.size() +
                                  group_position.size() + group_extra1.size() + group_extra2.size() + group_extra3.size();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "mavloom/base/ids.hpp"
 #include "mavloom/sim/options.hpp"
@@ -36,6 +37,7 @@ struct StreamRate {
 // A group of messages that REQUEST_DATA_STREAM switches together (MAV_DATA_STREAM), as ArduPilot has them.
 struct StreamGroup {
     std::uint8_t id;
+    std::string_view parameter;  // sets the group's rate, in Hz
     std::span<const MessageId> messages;
 };
 [[nodiscard]] std::span<const StreamGroup> stream_groups() noexcept;

@@ -64,18 +64,6 @@ double hz_of(Nanoseconds interval) noexcept {
     return interval.count() == 0 ? 0 : 1e9 / static_cast<double>(interval.count());
 }
 
-// The rows of the profile, with the link's own rates in their place.
-std::vector<StreamRate> link_rates(const LinkOptions& options) {
-    const auto rows = rates_of(options.profile);
-    std::vector<StreamRate> rates(rows.begin(), rows.end());
-    for (const MessageRate& own : options.rates) {
-        if (own.message == heartbeat_id) continue;
-        std::erase_if(rates, [&](const StreamRate& rate) { return rate.message == own.message; });
-        if (own.hz > 0) rates.push_back({own.message, own.hz});
-    }
-    return rates;
-}
-
 }  // namespace
 
 void Streams::open(LinkId link, const LinkOptions& options, const View& view, FlightTime now) {
@@ -91,7 +79,8 @@ void Streams::open(LinkId link, const LinkOptions& options, const View& view, Fl
 void Streams::fill(LinkStreams& link, FlightTime now) {
     link.streams.clear();
     link.due.clear();
-    const auto rates = link_rates(link.options);
+    const auto rates = rates_of_link(link.options);
+    link.group_hz = group_rates(link.options);
     link.streams.reserve(rates.size());
     link.due.reserve(rates.size());
     for (const StreamRate& rate : rates) {
@@ -105,6 +94,41 @@ void Streams::fill(LinkStreams& link, FlightTime now) {
         link.due.push_back(now + scaled(interval, phase));
     }
     limit(link, now);
+}
+
+// The rows of the profile, with the rates of groups from parameters, and the link's own rates in their place.
+std::vector<StreamRate> Streams::rates_of_link(const LinkOptions& options) const {
+    const auto rows = rates_of(options.profile);
+    std::vector<StreamRate> rates(rows.begin(), rows.end());
+    const auto put = [&](MessageId message, double hz) {
+        if (message == heartbeat_id) return;
+        std::erase_if(rates, [&](const StreamRate& rate) { return rate.message == message; });
+        if (hz > 0) rates.push_back({message, hz});
+    };
+    const auto hz = group_rates(options);
+    for (std::size_t i = 0; i < hz.size(); ++i)
+        for (const MessageId message : stream_groups()[i].messages) put(message, hz[i]);
+    for (const MessageRate& own : options.rates) put(own.message, own.hz);
+    return rates;
+}
+
+std::vector<double> Streams::group_rates(const LinkOptions& options) const {
+    constexpr double usual = 4;
+    std::vector<double> rates;
+    if (options.profile != Profile::ardupilot) return rates;
+    for (const StreamGroup& group : stream_groups()) rates.push_back(parameters_.get(group.parameter, usual));
+    return rates;
+}
+
+void Streams::retune(FlightTime now) {
+    for (LinkStreams& link : links_) {
+        const auto before = std::exchange(link.group_hz, group_rates(link.options));
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (link.group_hz[i] == before[i]) continue;
+            for (const MessageId message : stream_groups()[i].messages)
+                (void)set_interval(link.link, message, std::nullopt, now);
+        }
+    }
 }
 
 void Streams::close(LinkId link) {
@@ -256,7 +280,7 @@ FlightTime Streams::first_due(const LinkStreams& link, std::size_t index, Flight
 }
 
 std::optional<StreamRate> Streams::default_rate(const LinkOptions& options, MessageId message) const {
-    const auto rates = link_rates(options);
+    const auto rates = rates_of_link(options);
     const auto rate = std::ranges::find(rates, message, &StreamRate::message);
     return rate == rates.end() || !holds(rate->when, options_) ? std::nullopt : std::optional(*rate);
 }

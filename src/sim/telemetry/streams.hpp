@@ -21,14 +21,16 @@ namespace mavloom::sim {
 class Streams {
 public:
     // The arguments must outlive the object.
-    Streams(const VehicleOptions& options, const Firmware& firmware, Radio& radio) noexcept
-        : options_(options), firmware_(firmware), radio_(radio) {}
+    Streams(const VehicleOptions& options, const Firmware& firmware, const Parameters& parameters, Radio& radio) noexcept
+        : options_(options), firmware_(firmware), parameters_(parameters), radio_(radio) {}
 
     // Starts the streams of the link's profile, and sends the first HEARTBEAT.
     void open(LinkId link, const LinkOptions& options, const View& view, FlightTime now);
     void close(LinkId link);
     // All streams back to the profiles, as after a boot.
     void reset(FlightTime now);
+    // Call it after a parameter changed: some of ArduPilot's set the rates of groups of its profile.
+    void retune(FlightTime now);
 
     [[nodiscard]] FlightTime next_due() const noexcept;
     // Skips all but the newest missed instant of each stream.
@@ -81,9 +83,12 @@ private:
         std::vector<FlightTime> due{};  // as streams; FlightTime::max(): never
         FlightTime next{};
         Meter meter{};
+        std::vector<double> group_hz{};  // as stream_groups(), for the profile with groups
     };
     [[nodiscard]] LinkStreams* find(LinkId link) noexcept;
     [[nodiscard]] const LinkStreams* find(LinkId link) const noexcept;
+    [[nodiscard]] std::vector<StreamRate> rates_of_link(const LinkOptions& options) const;
+    [[nodiscard]] std::vector<double> group_rates(const LinkOptions& options) const;
     [[nodiscard]] std::optional<StreamRate> default_rate(const LinkOptions& options, MessageId message) const;
     void fill(LinkStreams& link, FlightTime now);
     Stream& stream_of(LinkStreams& link, const Projection& projection);
@@ -99,6 +104,7 @@ private:
 
     const VehicleOptions& options_;
     const Firmware& firmware_;
+    const Parameters& parameters_;
     Radio& radio_;
     std::vector<LinkStreams> links_;
 };

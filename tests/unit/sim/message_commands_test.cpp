@@ -285,6 +285,21 @@ TEST_F(ArduPilotStreams, ARequestChangesItsGroupOnly) {
     EXPECT_EQ(rate<Attitude>(), 0);
 }
 
+TEST_F(ArduPilotStreams, ParametersSetTheRatesOfGroups) {
+    ASSERT_TRUE(vehicle.vehicle.set_parameter("SR0_EXTRA1", 10));
+    EXPECT_NEAR(rate<Attitude>(), 10, 0.1);
+    EXPECT_NEAR(rate<VfrHud>(), 4, 0.1);
+    ASSERT_TRUE(vehicle.vehicle.set_parameter("SR0_EXTRA1", 0));
+    EXPECT_EQ(rate<Attitude>(), 0);
+    ASSERT_TRUE(vehicle.vehicle.set_parameter("SR0_EXTRA1", -7));
+    EXPECT_EQ(rate<Attitude>(), 0);
+    vehicle.vehicle.open(LinkId{2}, {.profile = Profile::ardupilot}, vehicle.now());
+    vehicle.forget();
+    vehicle.run(5.0);
+    EXPECT_TRUE(vehicle.all<Attitude>(LinkId{2}).empty()) << "also on links that open later";
+    EXPECT_NEAR(static_cast<double>(vehicle.all<VfrHud>(LinkId{2}).size()), 20, 1);
+}
+
 TEST_F(ArduPilotStreams, ARequestChangesItsLinkOnly) {
     vehicle.vehicle.open(LinkId{2}, {.profile = Profile::ardupilot}, vehicle.now());
     request(MAV_DATA_STREAM_ALL, 20);

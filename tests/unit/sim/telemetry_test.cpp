@@ -20,8 +20,11 @@
 #include "mavloom/msg/command_ack.hpp"
 #include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/current_mode.hpp"
+#include "mavloom/msg/enums/failure_type.hpp"
+#include "mavloom/msg/enums/failure_unit.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/esc_status.hpp"
+#include "mavloom/msg/estimator_status.hpp"
 #include "mavloom/msg/extended_sys_state.hpp"
 #include "mavloom/msg/global_position_int.hpp"
 #include "mavloom/msg/gps_global_origin.hpp"
@@ -252,8 +255,8 @@ TEST(TelemetryAtRest, MessagesComeAtTheRatesOfPx4ForACompanionComputer) {
 // All messages that describe one instant: requested one after the other, so that they show the same state.
 struct Instant {
     explicit Instant(Rig& rig) {
-        for (const std::uint32_t id :
-             {0, 1, 24, 26, 29, 30, 31, 32, 33, 36, 49, 74, 85, 105, 115, 141, 147, 242, 245, 291, 331, 375, 436, 2})
+        for (const std::uint32_t id : {230, 0,   1,   24,  26,  29,  30,  31,  32,  33,  36,  49, 74,
+                                       85,  105, 115, 141, 147, 242, 245, 291, 331, 375, 436, 2})
             rig.send(msg::CommandLong{
                 .target_system = 1, .command = msg::MAV_CMD_REQUEST_MESSAGE, .param1 = static_cast<float>(id)});
         for (const Sent& sent : rig.sink.frames) frames[sent.frame().id().value] = sent.bytes;
@@ -366,6 +369,8 @@ void expect_states_agree(const Instant& now) {
         EXPECT_NEAR(escs.rpm[0], 10'000 * std::sqrt(outputs.actuator[0]), 0.51);
     }
     EXPECT_EQ(servos.servo5_raw, 900);
+    EXPECT_EQ(now.get<msg::SysStatus>().onboard_control_sensors_health, 0x1320c83fu) << "also in flight, as PX4";
+    EXPECT_EQ(now.get<msg::EstimatorStatus>().flags, landed == 1 ? 0x3ff : 0x37f);
 }
 
 // Sensors: the accelerometer in two scales, and pressure that belongs to the altitude (standard atmosphere).
@@ -509,6 +514,31 @@ TEST_F(TelemetryInFlight, AllMessagesOfAnInstantAgree) {
     EXPECT_GT(highest, 14'000);
     EXPECT_GT(fastest, 3);
     EXPECT_FALSE(rig.vehicle.status().armed) << "it has landed";
+}
+
+TEST_F(TelemetryInFlight, AFailedReceiverShowsInAllItsMessagesUntilItWorksAgain) {
+    rig.run(4.0);
+    ASSERT_TRUE(rig.vehicle.take_off(10));
+    rig.run(15.0);
+    const auto fail = [&](float type) { command(msg::MAV_CMD_INJECT_FAILURE, msg::FAILURE_UNIT_SENSOR_GPS, type); };
+    fail(msg::FAILURE_TYPE_OFF);
+    rig.run(0.5);
+    rig.forget();
+    {
+        const Instant now(rig);
+        EXPECT_LT(now.get<msg::GpsRawInt>().fix_type, 2);
+        EXPECT_EQ(now.get<msg::GpsRawInt>().eph, 0xffff);
+        EXPECT_EQ(now.get<msg::SysStatus>().onboard_control_sensors_health & 32u, 0u);
+        const unsigned flags = now.get<msg::EstimatorStatus>().flags;
+        EXPECT_EQ(flags & (16u | 512u), 0u) << "no absolute position";
+        EXPECT_NE(flags & 128u, 0u) << "a constant one";
+    }
+    fail(msg::FAILURE_TYPE_OK);
+    rig.run(0.5);
+    rig.forget();
+    const Instant now(rig);
+    EXPECT_EQ(now.get<msg::GpsRawInt>().fix_type, 3);
+    EXPECT_NE(now.get<msg::SysStatus>().onboard_control_sensors_health & 32u, 0u);
 }
 
 // LOCAL_POSITION_NED at every step of the vehicle: the position is the sum of the velocity times the step.
