@@ -97,8 +97,10 @@ void Parts::step_to(Moment moment) {
 
 void Parts::report_changes() {
     using namespace msg;
-    if (std::exchange(state_changed_, false))
+    if (std::exchange(state_changed_, false)) {
+        parameters.put("COM_FLIGHT_UUID", flight.flights());
         streams.send_now(view(), std::array{Heartbeat::id, ExtendedSysState::id, CurrentMode::id});
+    }
     if (std::exchange(home_changed_, false)) streams.send_now(view(), std::array{HomePosition::id});
     if (std::exchange(mission_changed_, false)) streams.send_now(view(), std::array{MissionCurrent::id});
     if (wanted_silence_.count() != 0) begin_silence();
@@ -130,8 +132,7 @@ void Parts::pump(Moment moment) {
 
 void Parts::put_parameter(std::string_view name, double value) {
     parameters.put(name, value);
-    flight.retune();
-    if (const auto index = parameters.find(name)) parameter_service->announce(*index);
+    if (const auto index = parameters.find(name)) parameter_service->apply(*index);
 }
 
 void Parts::begin_silence() {

@@ -6,6 +6,7 @@
 
 #include "sim/parts.hpp"
 #include "sim/service/guard.hpp"
+#include "sim/telemetry/data_streams.hpp"
 
 namespace mavloom::sim {
 
@@ -50,6 +51,7 @@ Vehicle::~Vehicle() = default;
 void Vehicle::open(LinkId link, const LinkOptions& options, Moment now) {
     parts_->radio.open(link);
     parts_->streams.open(link, options, parts_->view(), now.flight);
+    if (options.profile == Profile::ardupilot) DataStreams::on_open(*parts_, link, now.flight);
 }
 
 void Vehicle::close(LinkId link) {

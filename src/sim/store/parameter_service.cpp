@@ -15,6 +15,7 @@
 #include "mavloom/msg/param_set.hpp"
 #include "mavloom/msg/param_value.hpp"
 #include "sim/parts.hpp"
+#include "sim/telemetry/data_streams.hpp"
 
 namespace mavloom::sim {
 
@@ -100,7 +101,13 @@ void ParameterService::change(const Client& from, ParamIndex index, std::uint8_t
     } else {
         parts_.parameters.set(index, double{value});
     }
+    apply(index);
+}
+
+void ParameterService::apply(ParamIndex index) {
+    const Parameters& parameters = parts_.parameters;
     parts_.flight.retune();
+    DataStreams::on_parameter(parts_, parameters.info(index).name, parameters.value(index), parts_.now.flight);
     announce(index);
 }
 
@@ -153,9 +160,8 @@ void ParameterService::reset(std::string_view prefix) {
         if (!info.name.starts_with(prefix) || info.name == parts_.firmware.system_parameter()) continue;
         const std::uint32_t before = parameters.bits(i);
         parameters.set(i, info.initial);
-        if (parameters.bits(i) != before) announce(i);
+        if (parameters.bits(i) != before) apply(i);
     }
-    parts_.flight.retune();
 }
 
 void ParameterService::send_value(LinkId link, ParamIndex index) {

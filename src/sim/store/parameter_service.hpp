@@ -28,6 +28,8 @@ public:
 
     // Sends the value of a parameter to all links.
     void announce(ParamIndex index);
+    // A parameter changed: it acts, and all links hear of it.
+    void apply(ParamIndex index);
     // Sets the parameters whose names begin so to their initial values, and reports those that changed. The system id
     // stays.
     void reset(std::string_view prefix = {});

@@ -3,6 +3,8 @@
 // the message. Private to module sim; single owner. Source: MAVLink common.xml, REQUEST_DATA_STREAM, MAV_DATA_STREAM.
 #pragma once
 
+#include <string_view>
+
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
@@ -15,6 +17,11 @@ public:
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+
+    // A parameter of ArduPilot changed. SR0_EXTRA1 and its relatives are rates of groups, for all links.
+    static void on_parameter(Parts& parts, std::string_view name, double value, FlightTime now);
+    // A link with ArduPilot's profile opened: parameters that were set before act on it.
+    static void on_open(Parts& parts, LinkId link, FlightTime now);
 
 private:
     Parts& parts_;
