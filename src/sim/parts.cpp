@@ -97,8 +97,10 @@ void Parts::step_to(Moment moment) {
 
 void Parts::report_changes() {
     using namespace msg;
-    if (std::exchange(state_changed_, false))
+    if (std::exchange(state_changed_, false)) {
+        parameters.put("COM_FLIGHT_UUID", flight.flights());
         streams.send_now(view(), std::array{Heartbeat::id, ExtendedSysState::id, CurrentMode::id});
+    }
     if (std::exchange(home_changed_, false)) streams.send_now(view(), std::array{HomePosition::id});
     if (std::exchange(mission_changed_, false)) streams.send_now(view(), std::array{MissionCurrent::id});
     if (wanted_silence_.count() != 0) begin_silence();

@@ -7,11 +7,13 @@
 #include <set>
 #include <string>
 
+#include "mavloom/msg/attitude.hpp"
 #include "mavloom/msg/param_error.hpp"
 #include "mavloom/msg/param_request_list.hpp"
 #include "mavloom/msg/param_request_read.hpp"
 #include "mavloom/msg/param_set.hpp"
 #include "mavloom/msg/param_value.hpp"
+#include "mavloom/msg/vfr_hud.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim {
@@ -327,6 +329,35 @@ TEST(ParameterService, ArduPilotKnowsNoHash) {
     ASSERT_FALSE(values.empty());
     EXPECT_EQ(values[0].param_index, 0);
     EXPECT_EQ(values.size(), values[0].param_count);
+}
+
+TEST(ParameterService, RatesOfArduPilotsGroupsActOnAllLinks) {
+    Rig rig(ardupilot, {.profile = Profile::ardupilot});
+    rig.send(set_of("SR0_EXTRA1", 10, real32_type));
+    rig.vehicle.open(LinkId{2}, {.profile = Profile::ardupilot}, rig.now());
+    rig.forget();
+    rig.run(5.0);
+
+    for (const LinkId link : {LinkId{1}, LinkId{2}}) {
+        EXPECT_NEAR(static_cast<double>(rig.all<msg::Attitude>(link).size()), 50, 1);
+        EXPECT_NEAR(static_cast<double>(rig.all<msg::VfrHud>(link).size()), 20, 1) << "another group";
+    }
+    rig.send(set_of("SR0_EXTRA1", 0, real32_type));
+    rig.forget();
+    rig.run(2.0);
+    EXPECT_TRUE(rig.all<msg::Attitude>().empty());
+}
+
+TEST(ParameterService, CountsFlights) {
+    Rig rig(VehicleOptions{.ready_after = 0ms});
+    rig.run(1.0);
+    ASSERT_TRUE(rig.vehicle.arm(false).has_value());
+    ASSERT_TRUE(rig.vehicle.disarm(false).has_value());
+    rig.run(1.0);
+    rig.forget();
+    rig.send(read_of("COM_FLIGHT_UUID"));
+
+    EXPECT_EQ(int_of(rig.last<msg::ParamValue>()->param_value), 1);
 }
 
 TEST(ParameterService, SystemIdIsTheVehiclesOwn) {
