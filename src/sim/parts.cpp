@@ -87,6 +87,7 @@ View Parts::view() const {
 
 void Parts::step_to(Moment moment) {
     now = moment;
+    flight.set_real_time(moment.real);
     radio.set_utc(utc_at(moment.flight));
     if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
     for (; stepped + step_time <= moment.flight; stepped += step_time) {

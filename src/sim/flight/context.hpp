@@ -3,6 +3,7 @@
 // module sim; single owner.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "sim/firmware/firmware.hpp"
@@ -22,9 +23,13 @@ struct FlightContext {
     bool armed = false;
     FlightTime armed_at{};
     LandedState landed = LandedState::on_ground;
+    // The real time, if the owner passes it.
+    std::optional<Nanoseconds> real{};
 
     [[nodiscard]] Kind kind() const noexcept { return options.kind; }
     [[nodiscard]] FlightTime now() const noexcept { return craft.since_boot(); }
+    // The clock of what clients must repeat. They repeat it in real time, however fast the vehicle flies.
+    [[nodiscard]] Nanoseconds input_time() const noexcept { return real.value_or(now()); }
     [[nodiscard]] double seconds_since(FlightTime time) const noexcept {
         return std::chrono::duration<double>(now() - time).count();
     }

@@ -97,14 +97,15 @@ Flight::Flight(const VehicleOptions& options, const Firmware& firmware, const Pa
 Flight::~Flight() = default;
 
 void Flight::step() { impl_->step(); }
+void Flight::set_real_time(MonoTime now) noexcept { impl_->context.real = now.time_since_epoch(); }
 void Flight::reboot() { impl_->reboot(); }
 void Flight::retune() { impl_->context.tuning = impl_->context.firmware.tuning(impl_->parameters); }
 
-void Flight::on_sticks(const Sticks& sticks) { impl_->inputs.sticks.put(bounded(sticks), since_boot()); }
+void Flight::on_sticks(const Sticks& sticks) { impl_->inputs.sticks.put(bounded(sticks), impl_->context.input_time()); }
 void Flight::on_offboard(const OffboardSetpoint& setpoint) {
-    if (const auto given = bounded(setpoint)) impl_->inputs.offboard.put(*given, since_boot());
+    if (const auto given = bounded(setpoint)) impl_->inputs.offboard.put(*given, impl_->context.input_time());
 }
-void Flight::on_ground_station_heard() { impl_->inputs.ground_station.put({}, since_boot()); }
+void Flight::on_ground_station_heard() { impl_->inputs.ground_station.put({}, impl_->context.input_time()); }
 void Flight::on_plan_changed(PlanType type) {
     if (type == PlanType::mission) impl_->navigator.mission().on_plan_changed();
     if (type == PlanType::fence) impl_->fence.rebuild();
@@ -123,7 +124,7 @@ LandedState Flight::landed() const noexcept { return impl_->context.landed; }
 std::uint32_t Flight::unready() const noexcept { return impl_->commander.unready(); }
 bool Flight::has_failsafe() const noexcept { return impl_->commander.has_failsafe(); }
 bool Flight::has_sticks() const noexcept {
-    return impl_->inputs.sticks.is_fresh(impl_->context.now(), impl_->context.tuning.manual_loss);
+    return impl_->inputs.sticks.is_fresh(impl_->context.input_time(), impl_->context.tuning.manual_loss);
 }
 Sticks Flight::sticks() const noexcept { return impl_->inputs.sticks.value().value_or(Sticks{}); }
 const Tuning& Flight::tuning() const noexcept { return impl_->context.tuning; }

@@ -105,6 +105,9 @@ public:
 
     // Advances by one step of 4 ms.
     void step();
+    // The real time of the steps and inputs that follow: time-outs of repeated inputs run by it. Without it they run by
+    // the flight time.
+    void set_real_time(MonoTime now) noexcept;
     // Boots again where the vehicle stands: disarmed, not ready, default mode. Plans stay.
     void reboot();
     // Call it after a parameter changed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs that clients must repeat, and when they last came. Private to module sim; single owner; plain values.
+// Inputs that clients must repeat, and when they last came by FlightContext::input_time(). Private to module sim; single
+// owner; plain values.
 #pragma once
 
 #include <optional>
@@ -13,20 +14,20 @@ namespace mavloom::sim {
 template <class Value>
 class Repeated {
 public:
-    void put(const Value& value, FlightTime now) noexcept {
+    void put(const Value& value, Nanoseconds now) noexcept {
         value_ = value;
         at_ = now;
     }
     void forget() noexcept { value_.reset(); }
     [[nodiscard]] bool was_heard() const noexcept { return value_.has_value(); }
-    [[nodiscard]] bool is_fresh(FlightTime now, double seconds) const noexcept {
+    [[nodiscard]] bool is_fresh(Nanoseconds now, double seconds) const noexcept {
         return value_ && std::chrono::duration<double>(now - at_).count() <= seconds;
     }
     [[nodiscard]] const std::optional<Value>& value() const noexcept { return value_; }
 
 private:
     std::optional<Value> value_;
-    FlightTime at_{};
+    Nanoseconds at_{};
 };
 
 struct GroundStationSign {};

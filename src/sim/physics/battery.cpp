@@ -7,9 +7,10 @@ namespace mavloom::sim {
 
 namespace {
 
-// A lithium-polymer cell: 4.2 V full to 3.5 V empty at rest, and its resistance.
+// A lithium-polymer cell: 4.2 V full to 3.5 V empty at rest, and its loss at the hover current. A battery of any size
+// and endurance lifts its vehicle.
 constexpr double full_cell = 4.2, empty_cell = 3.5;  // V
-constexpr double cell_resistance = 0.004;            // ohm
+constexpr double loss_at_hover = 0.06;               // V
 constexpr double average_tau = 10;                   // s
 constexpr double charge_rate = 0.05;                 // of the capacity, 1/s
 
@@ -41,7 +42,7 @@ double Battery::remaining() const noexcept { return std::max(0.0, 1 - used_mah_ 
 
 double Battery::voltage() const noexcept {
     const double at_rest = empty_cell + (full_cell - empty_cell) * remaining();
-    return cells_ * (at_rest - current_ * cell_resistance);
+    return cells_ * (at_rest - current_ / hover_current_ * loss_at_hover);
 }
 
 double Battery::seconds_left() const noexcept {

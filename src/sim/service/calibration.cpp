@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "mavloom/msg/command_ack.hpp"
 #include "mavloom/msg/command_long.hpp"
@@ -57,7 +58,7 @@ std::optional<CalibrationService::Sensor> CalibrationService::sensor_of(const Co
 
 Outcome CalibrationService::begin(const Command& command, Moment now) {
     const bool cancels = std::ranges::all_of(command.params, [](float p) { return p == 0 || std::isnan(p); });
-    if (cancels) return cancel();
+    if (cancels) return cancel(now);
     const auto sensor = sensor_of(command);
     if (!sensor) return Result::denied;
     if (parts_.flight.armed() || is_running()) return Result::temporarily_rejected;
@@ -68,14 +69,22 @@ Outcome CalibrationService::begin(const Command& command, Moment now) {
     sensor_ = *sensor;
     step_ = 0;
     parts_.flight.set_calibrating(true);
-    is_px4 ? begin_px4(*sensor, now) : ask_for_position(now);
+    stage_ = Stage::begun;
+    next_ = now.flight;
+    if (!is_px4) ask_for_position(now);
     return Result::accepted;
 }
 
-Outcome CalibrationService::cancel() {
+// PX4's text comes after the acknowledgement. MAVSDK waits for the latter, and handles no text meanwhile.
+Outcome CalibrationService::cancel(Moment now) {
     if (!is_running()) return Result::accepted;
     stop();
-    say(parts_.firmware.is_px4() ? "[cal] calibration cancelled" : "Calibration cancelled");
+    if (!parts_.firmware.is_px4()) {
+        say("Calibration cancelled");
+        return Result::accepted;
+    }
+    stage_ = Stage::cancelled;
+    next_ = now.flight;
     return Result::accepted;
 }
 
@@ -98,15 +107,20 @@ void CalibrationService::pump(Moment now) {
     if (now.flight < next_) return;
     if (!parts_.firmware.is_px4()) return finish_ardupilot(false);
     next_ = now.flight + step_interval;
-    sensor_ == Sensor::accel || sensor_ == Sensor::mag ? report_side_step() : report_step();
+    report_px4(std::exchange(stage_, Stage::steps));
 }
 
 // --- PX4
 
 // 2 is the version of these texts.
-void CalibrationService::begin_px4(Sensor sensor, Moment now) {
-    next_ = now.flight + step_interval;
-    say(fmt::format("[cal] calibration started: 2 {}", sensor_names[static_cast<std::size_t>(sensor)]));
+void CalibrationService::report_px4(Stage stage) {
+    if (stage == Stage::begun)
+        return say(fmt::format("[cal] calibration started: 2 {}", sensor_names[static_cast<std::size_t>(sensor_)]));
+    if (stage == Stage::cancelled) {
+        stop();
+        return say("[cal] calibration cancelled");
+    }
+    sensor_ == Sensor::accel || sensor_ == Sensor::mag ? report_side_step() : report_step();
 }
 
 void CalibrationService::report_step() {

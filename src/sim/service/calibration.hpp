@@ -31,15 +31,16 @@ public:
     bool confirm(const Client& from, Moment now);
 
 private:
+    enum class Stage : std::uint8_t { begun, steps, cancelled };
     enum class Sensor : std::uint8_t { gyro, mag, baro, accel, level, airspeed, radio };
 
     [[nodiscard]] static std::optional<Sensor> sensor_of(const Command& command) noexcept;
     [[nodiscard]] bool is_running() const noexcept { return next_ != FlightTime::max(); }
-    Outcome cancel();
+    Outcome cancel(Moment now);
     void stop();
     void say(std::string_view text);
 
-    void begin_px4(Sensor sensor, Moment now);
+    void report_px4(Stage stage);
     void report_step();
     void report_side_step();
     void finish_px4();
@@ -51,6 +52,7 @@ private:
 
     Parts& parts_;
     FlightTime next_ = FlightTime::max();  // when the next text is due, or ArduPilot gives up
+    Stage stage_ = Stage::begun;           // PX4
     Sensor sensor_{};
     unsigned step_ = 0;
     Client client_;  // ArduPilot: who turns the vehicle

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/store/plan_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -296,8 +298,10 @@ void PlanService::on_clear(const Client& from, std::uint8_t mission_type) {
 }
 
 // There is no MISSION_ACK for this message; clients would take it for that of a transfer. A refusal is a text.
+// A refusal is a text only: clients would take a MISSION_ACK for that of a transfer.
 void PlanService::on_set_current(std::uint16_t seq) {
-    (void)parts_.flight.set_current_item(seq, false);
+    if (!parts_.flight.set_current_item(seq, false).is_accepted())
+        parts_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));
     parts_.on_mission_progress();
 }
 

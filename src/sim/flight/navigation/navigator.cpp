@@ -120,7 +120,7 @@ std::optional<Behaviour> Navigator::update_mission() {
 // Without sticks, they stand in their middle.
 void Navigator::update_manual() {
     Sticks sticks{.throttle = context_.is_on_ground() && context_.kind() != Kind::rover ? 0 : 0.5};
-    if (inputs_.sticks.is_fresh(context_.now(), context_.tuning.manual_loss)) sticks = *inputs_.sticks.value();
+    if (inputs_.sticks.is_fresh(context_.input_time(), context_.tuning.manual_loss)) sticks = *inputs_.sticks.value();
     guidance_.follow(manual_.steer(behaviour_, sticks));
 }
 

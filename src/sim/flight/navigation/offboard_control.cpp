@@ -13,7 +13,7 @@ void OffboardControl::begin() {
 // While no set-point is fresh, the manoeuvre of an order such as a take-off continues. If the set-points end, the
 // vehicle stops.
 void OffboardControl::update() {
-    if (inputs_.offboard.is_fresh(context_.now(), context_.tuning.offboard_loss)) {
+    if (inputs_.offboard.is_fresh(context_.input_time(), context_.tuning.offboard_loss)) {
         follows_ = true;
         return guidance_.follow(followed(*inputs_.offboard.value()));
     }

@@ -70,12 +70,12 @@ bool Commander::can_run(Behaviour behaviour) const noexcept {
             return context_.plans.mission().size() > (context_.firmware.has_home_in_mission() ? 1 : 0);
         case Behaviour::return_home: return context_.craft.home().has_value();
         case Behaviour::offboard:
-            return is_px4 ? inputs_.offboard.is_fresh(context_.now(), context_.tuning.offboard_loss)
+            return is_px4 ? inputs_.offboard.is_fresh(context_.input_time(), context_.tuning.offboard_loss)
                           : context_.craft.sensors().has_position();
         case Behaviour::unavailable: return false;
         default:
             return !is_px4 || !needs_sticks(behaviour) ||
-                   inputs_.sticks.is_fresh(context_.now(), context_.tuning.manual_loss);
+                   inputs_.sticks.is_fresh(context_.input_time(), context_.tuning.manual_loss);
     }
 }
 

@@ -52,7 +52,7 @@ void Failsafes::watch_battery() {
 
 void Failsafes::watch_ground_station() {
     const auto& sign = inputs_.ground_station;
-    const bool is_lost = sign.was_heard() && !sign.is_fresh(context_.now(), context_.tuning.gcs_loss);
+    const bool is_lost = sign.was_heard() && !sign.is_fresh(context_.input_time(), context_.tuning.gcs_loss);
     const bool had_it = !state_.lacks_ground_station;
     judge(state_.lacks_ground_station, is_lost, context_.tuning.on_gcs_loss, context_.texts().gcs_lost);
     if (!had_it && !is_lost) context_.say(Severity::info, context_.texts().gcs_regained);
@@ -62,7 +62,7 @@ void Failsafes::watch_setpoints() {
     const Tuning& tuning = context_.tuning;
     const bool is_needed = context_.armed && commander_.intended_mode().behaviour == Behaviour::offboard &&
                            tuning.on_offboard_loss != FailsafeAction::none;
-    const bool is_lost = is_needed && !inputs_.offboard.is_fresh(context_.now(), tuning.offboard_loss);
+    const bool is_lost = is_needed && !inputs_.offboard.is_fresh(context_.input_time(), tuning.offboard_loss);
     judge(state_.lacks_setpoints, is_lost, tuning.on_offboard_loss, context_.texts().offboard_lost);
 }
 
@@ -70,7 +70,7 @@ void Failsafes::watch_sticks() {
     const Tuning& tuning = context_.tuning;
     const bool is_needed = context_.armed && needs_sticks(commander_.intended_mode().behaviour) &&
                            tuning.on_manual_loss != FailsafeAction::none && inputs_.sticks.was_heard();
-    const bool is_lost = is_needed && !inputs_.sticks.is_fresh(context_.now(), tuning.manual_loss);
+    const bool is_lost = is_needed && !inputs_.sticks.is_fresh(context_.input_time(), tuning.manual_loss);
     judge(state_.lacks_sticks, is_lost, tuning.on_manual_loss, context_.texts().manual_lost);
 }
 
