@@ -16,7 +16,7 @@
 
 namespace mavloom::app {
 
-// Exit statuses of every command. From 129 on: 128 plus the number of the signal that ended the command.
+// Exit statuses of every command. Values from 129 up are 128 plus the number of the signal that ended the command.
 enum class Exit : int {
     done = 0,
     failed = 1,

@@ -25,8 +25,8 @@ namespace {
 constexpr std::array commands{
     Command{"route", "forward frames unchanged between any number of links", declare_route},
     Command{"listen", "decode and print every message that arrives", declare_listen},
-    Command{"relay", "decode, optionally edit, re-encode and send on", declare_relay},
-    Command{"record", "write what arrives to a .tlog file", declare_record},
+    Command{"relay", "decode frames, optionally edit them, re-encode and forward them", declare_relay},
+    Command{"record", "write received frames to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
     Command{"sim", "simulate vehicles that ground stations take for real", declare_sim},
     Command{"ctl", "inspect and command a running router or simulator", declare_ctl, false},

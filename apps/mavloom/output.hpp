@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A buffer of lines for standard output that handles slow and closed readers. Single owner.
+// A buffer of lines for standard output. It handles readers that are slow or close the pipe. Single owner.
 //
 // - A reader that closes the pipe (`| head`) ends the output normally. A full disk is an error.
 // - If the reader stalls, the output waits until the end is requested, by a signal or at the time of `end_at`.

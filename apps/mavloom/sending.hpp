@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
                                                                 const std::vector<std::string>& addresses,
                                                                 link::Links& links);
 
-// Logs "udpout://…: 40087 frames, 1834899 bytes sent" for each destination, and how many frames were lost and why.
+// Logs "udpout://…: 40087 frames, 1834899 bytes sent" for each destination, then how many frames were lost and why.
 void say_sums(const Common& common, const feed::Destinations& destinations);
 // Returns the same totals as a JSON array. docs/guide/relay.md lists the keys.
 [[nodiscard]] Json sums_json(const feed::Destinations& destinations);

@@ -19,9 +19,9 @@ public:
     Signals(const Signals&) = delete;
     Signals& operator=(const Signals&) = delete;
 
-    // Call at the start of the program. Before the first Signals object there is nothing to end cleanly: a signal ends
-    // the program at once, with the exit status for that signal. Until then, signals that were ignored at start (nohup,
-    // background jobs of scripts) stay ignored.
+    // Call at the start of the program. Until the first Signals object is constructed, there is nothing to end cleanly.
+    // A signal then ends the program at once, with the exit status for that signal. Until that moment, signals that
+    // were ignored at start (nohup, background jobs of scripts) stay ignored.
     static void watch() noexcept;
 
     [[nodiscard]] static bool received() noexcept;

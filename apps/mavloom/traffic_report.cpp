@@ -51,10 +51,10 @@ auto losses_of(const feed::Totals& t) {
         Named{"damaged_places", "damaged place", "in recordings", t.damaged_places},
         Named{"unknown_flags", "frame", "with an unknown incompatibility flag", t.unknown_flags},
         Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
-        Named{"wrong_peer", "datagram", "from another address than the one called", t.wrong_peer},
+        Named{"wrong_peer", "datagram", "from an address other than the destination", t.wrong_peer},
         Named{"stray_bytes", "byte",
               "from unknown senders, in datagrams without a valid (verify=: correctly signed) frame", t.stray_bytes},
-        Named{"peers_refused", "peer", "beyond max_peers", t.peers_refused},
+        Named{"peers_refused", "peer", "refused because max_peers was reached", t.peers_refused},
     };
 }
 

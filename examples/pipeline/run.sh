@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a UDP port through shared memory to a ground station, and back:
+# Connects a vehicle and a ground station through a ring in shared memory, in both directions:
 #
 #   vehicle ──udp──▶ python -m mavloom.hear ──ring px4──▶ mavloom relay ──udp──▶ ground station
 #           ◀──udp──                        ◀──px4.in───               ◀──udp──
@@ -24,7 +24,8 @@ if ! [ -x "$mavloom" ] || ! [ -x "$python" ]; then
 fi
 log=$(mktemp)
 
-# Ctrl-C reaches every process of the script. This subshell ignores it, to pass on the last messages of mavloom.hear.
+# Ctrl-C reaches every process of the script. This subshell ignores it, so that it still prints the last messages of
+# mavloom.hear.
 "$python" -m mavloom.hear "$listen" --ring "$ring" 2> >(trap '' INT TERM HUP && exec tee "$log" >&2) &
 hear=$!
 "$mavloom" relay "shm://$ring?from=oldest" --to "$to" &

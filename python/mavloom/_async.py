@@ -17,7 +17,7 @@ from ._errors import ClosedError, UsageError
 T = TypeVar("T")
 
 MOST_AT_ONCE = 256  # messages or records before other tasks on the loop get their turn
-LOOK_FOR_RING_S = 1.0  # deleting a ring's file by hand wakes no reader, so look at this interval
+LOOK_FOR_RING_S = 1.0  # deleting a ring's file by hand wakes no reader, so check at this interval
 
 waiting: set[int] = set()  # descriptors on which a task waits now
 os.register_at_fork(after_in_child=waiting.clear)
@@ -34,7 +34,7 @@ def records(reader: RingReader) -> AsyncGenerator[Record, None]:
 
 
 def batches(source: RecordBatches, timeout: float | None) -> AsyncGenerator[RecordBatch, None]:
-    """Like `records`, but yields batches, and also ends when no record came for `timeout` seconds."""
+    """Like `records`, but yields batches, and also ends if no record arrives for `timeout` seconds."""
     return each(source, source.poll, most=1, timeout=timeout, look_again_s=LOOK_FOR_RING_S)
 
 
@@ -43,7 +43,8 @@ async def each(source: Subscription | RingReader | RecordBatches, poll: Callable
                look_again_s: float | None = None) -> AsyncGenerator[T, None]:
     """Yields what `poll` returns, until it raises ClosedError or the source is silent for `timeout` seconds.
 
-    If `poll` returns None, waits for the source's descriptor, but calls `poll` again after `look_again_s` seconds.
+    If `poll` returns None, waits for the source's descriptor. Calls `poll` again after `look_again_s` seconds at the
+    latest.
     """
     descriptor = source.event_fd()
     check_free(descriptor)
@@ -77,7 +78,8 @@ def check_free(descriptor: int) -> None:
 async def readable(descriptor: int, timeout: float | None) -> None:
     """Waits until the descriptor is readable, or for `timeout` seconds.
 
-    Stops watching the descriptor afterwards. A loop that was left is cleaned up late, when the next may already run.
+    Stops watching the descriptor after each wait, not when the generator ends. If a task leaves its loop (`break`),
+    asyncio ends the generator late, when the next loop over the same reader may already be running.
     """
     check_free(descriptor)
     loop = asyncio.get_running_loop()

@@ -134,7 +134,8 @@ def columns(path: str | os.PathLike[str], name: str, *, system: int | None = Non
     An unknown name, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
     file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
 
-    The GIL is free during the read. Peak memory: the rows with full-length payloads, plus the arrays.
+    The GIL is free during the read. At its peak, the call needs memory for the arrays and for all rows, with payloads
+    of full length.
     """
     definitions = Dialect() if dialect is None else dialect
     info = definitions[name]
@@ -146,8 +147,8 @@ def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, sy
            component: int | None = None, dialect: Dialect | None = None) -> dict[str, Columns]:
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
-    Without `type`, returns the messages that occur; with it, those that it names. Messages without a definition are
-    left out. Otherwise like `columns`, but every checksum is checked.
+    Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
+    without a definition are left out. Otherwise it works like `columns`, but checks every checksum.
     """
     definitions = Dialect() if dialect is None else dialect
     made, junk_bytes = read_tables(path, type, system, component, definitions)

@@ -31,8 +31,8 @@ class Link:
     """One endpoint (docs/guide/endpoints.md) and all its peers.
 
     The endpoint is a listening port, a connection that is restored whenever it breaks, a serial device, or a ring in
-    shared memory. A C++ thread receives, whatever Python does. Unread messages wait in a buffer of `buffer` bytes. When
-    it is full, the oldest are overwritten and counted in `stats.missed`. Every method may be called from any thread.
+    shared memory. A C++ thread receives messages independently of Python. Unread messages wait in a buffer of `buffer`
+    bytes. When it is full, the oldest are overwritten and counted in `stats.missed`. Any thread may call any method.
 
     A link closes by `close()`, at the end of `with`, or when the object and its iterators and subscriptions are gone.
     Closing frees the port at once. Later calls raise ClosedError, and iterations end. A forked process must open links
@@ -45,7 +45,7 @@ class Link:
         wrong address or option.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
-        call waits for it for up to 5 s and then raises SystemFailure.
+        call waits up to 5 s for the far side, and raises SystemFailure if it is still absent.
         """
         self._port = Port(url, source_system, source_component, dialect, buffer, version)
         self._reader: Subscription = self._port.reader
@@ -60,7 +60,7 @@ class Link:
             yield message
 
     async def __aiter__(self) -> AsyncIterator[Message]:
-        """Yields messages like iteration. Only one task at a time may wait; others use `subscribe`."""
+        """Like iteration, for asyncio. Only one task at a time may wait; other tasks use `subscribe`."""
         async for message in self._reader:
             yield message
 
@@ -76,8 +76,8 @@ class Link:
                    component: int | None = None) -> Message | None:
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
 
-        `type` takes names or classes of mavloom.messages. An unknown name is a ValueError, which suggests the nearest
-        one. Returns None if there is no such message: at once, or with `blocking` after `timeout` seconds.
+        `type` takes names or classes of mavloom.messages. An unknown name raises a ValueError that suggests the nearest
+        one. If no such message is there, returns None: at once, or with `blocking` after `timeout` seconds.
         """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
@@ -100,7 +100,7 @@ class Link:
     def pump(self, writer: RingWriter, timeout: float | None = None) -> int:
         """Writes the frames that arrive to a ring, for `timeout` seconds (None: until the link is closed).
 
-        Works in C++ without the GIL. Returns the number of frames written. `recv` does not get these frames; a
+        Works in C++ without the GIL. Returns the number of frames written. `recv` does not return these frames. A
         subscription has its own `pump`.
         """
         return self._reader.pump(writer, timeout)
@@ -110,7 +110,7 @@ class Link:
     def send(self, message: str | Message, /, **fields: Any) -> int:
         """Sends a message, given by name and fields as for Dialect.encode, or as a Message.
 
-        The frame has this link's source and its next sequence number. Returns the number of peers. If that is 0,
+        The frame has the link's source ids and its next sequence number. Returns the number of peers. If that is 0,
         nothing is sent and `stats.no_peer` counts it. Blocks only while the link's loop thread is behind.
         """
         return self._port.send(message, **fields)
@@ -124,12 +124,12 @@ class Link:
         return self._port.forward(message)
 
     def serve_inlet(self, ring: str, *, mode: int = 0o600) -> None:
-        """Opens the way back of a ring that this link fills with `pump`. Closing the link closes it.
+        """Opens the inlet of a ring that this link fills with `pump`, so that readers of the ring can answer.
 
         Programs that read the ring send frames to the Unix socket RUN/`ring`.in. Each frame goes unchanged to every
         peer of this link. `mode` is the socket's file mode: it decides who may send. `stats.answers` counts these
-        frames, and `stats.unheard_answers` those for which there was no peer. Raises SystemFailure if another process
-        serves the socket, and UsageError for a second inlet of one link.
+        frames, and `stats.unheard_answers` those for which there was no peer. Closing the link closes the inlet. Raises
+        SystemFailure if another process serves the socket, and UsageError for a second inlet of one link.
         """
         self._port.serve_inlet(ring, mode)
 
@@ -137,7 +137,7 @@ class Link:
 
     @property
     def stats(self) -> LinkStats:
-        """A snapshot of the counters; after closing, the last one."""
+        """A snapshot of the counters. After closing, returns the last snapshot."""
         return self._port.stats
 
     @property
@@ -173,7 +173,7 @@ class Link:
     def __repr__(self) -> str:
         return f"<Link {self.name}>"
 
-    # ---- habits of pymavlink users
+    # ---- names that pymavlink users know
 
     @property
     def target_system(self) -> int:

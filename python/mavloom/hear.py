@@ -60,7 +60,7 @@ class Signals:
 
 def ring_name(text: str) -> str:
     if not re.fullmatch(r"[A-Za-z0-9_-]{1,64}", text):
-        raise argparse.ArgumentTypeError(f"{text!r} is no name of a ring: use letters, digits, _ and -, at most 64")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a valid ring name: use letters, digits, _ and -, at most 64")
     return text
 
 
@@ -68,13 +68,13 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser("python -m mavloom.hear", description=DESCRIPTION, epilog=EPILOG,
                                      formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("url", metavar="URL",
-                        help="the link, as for every command: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600")
+                        help="the link to read from: udpin://0.0.0.0:14550, serial:///dev/ttyACM0?baud=57600, ...")
     parser.add_argument("--ring", type=ring_name, required=True, metavar="NAME",
                         help="letters, digits, _ and -, at most 64")
     parser.add_argument("--capacity", type=size, default=8 << 20, metavar="SIZE",
-                        help="bytes of a new ring, a power of two: 64k to 64G (8M)")
+                        help="capacity of a new ring in bytes, a power of two: 64k to 64G (8M)")
     parser.add_argument("--mode", type=mode, default=0o600, metavar="OCTAL",
-                        help="who may open a new ring, and send by its socket (0600)")
+                        help="permissions of a new ring and of its socket, for reading and sending (0600)")
     end = parser.add_mutually_exclusive_group()
     end.add_argument("--keep", action="store_true", help="keep the ring at the end, for the next writer")
     end.add_argument("--remove", action="store_true", help="remove the ring at the end (the default)")
@@ -83,7 +83,7 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
 
 
 class Ring:
-    """The ring that is written to. It is created again if it is removed, by `mavloom shm remove` or by hand."""
+    """The ring that the program writes to. It is created again if it is removed, by `mavloom shm remove` or by hand."""
 
     def __init__(self, options: argparse.Namespace) -> None:
         self._options = options
@@ -180,7 +180,7 @@ def run(options: argparse.Namespace, signals: Signals) -> int:
             name = ring.writer.name
             answers = Answers(link, say)
             answers.serve(name, options.mode)
-            existing = "" if ring.writer.created else ", which was there before"
+            existing = "" if ring.writer.created else ", which already existed"
             say(f"hearing on {link.name}, writing to ring {name}{existing}")
             hear(link, ring, answers, signals, say)
             say(summary(link, name, ring.written))

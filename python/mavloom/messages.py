@@ -4,7 +4,8 @@
     if isinstance(msg, messages.ATTITUDE): print(msg.roll)
 
 `type=` also accepts these classes instead of names. messages.pyi lists the fields for type checkers and editors.
-Every message is an instance of class Message. isinstance() with these classes compares names, whatever the dialect.
+Every message is an instance of class Message. isinstance() with one of these classes only compares the names, so it
+works for messages of any dialect.
 """
 from ._core import Dialect, Message
 

@@ -12,9 +12,9 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// Releases the GIL until the end of the scope. After the interpreter has ended, taking the GIL back would end the
-// process. So once the interpreter begins to exit, every thread except the exiting one sleeps forever instead, as in
-// Python 3.14.
+// Releases the GIL until the end of the scope. A thread that takes the GIL back after the interpreter has ended would
+// end the process. So once the interpreter begins to exit, every thread except the exiting one sleeps forever instead,
+// as in Python 3.14.
 class WithoutGil {
 public:
     // Called by the exiting thread, without the GIL. Waits for the threads that are on their way back to the GIL.
@@ -24,7 +24,7 @@ public:
         while (returning.load() != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     [[nodiscard]] static bool ended() noexcept { return over.load(); }
-    // Whether this thread, which runs without the GIL, will never get it back.
+    // Whether this thread, which runs without the GIL, will never get the GIL back.
     [[nodiscard]] static bool is_for_good() noexcept { return over.load() && std::this_thread::get_id() != exiting; }
     // Called in a forked child: the threads that were on their way back stayed in the parent.
     static void forked() noexcept {
@@ -54,7 +54,8 @@ private:
             for (;;) std::this_thread::sleep_for(std::chrono::hours{1});
         }
     };
-    // Destroyed in reverse order: pass the turnstile, take the GIL, then stop counting as returning.
+    // Destroyed in reverse order: the thread passes the turnstile, takes the GIL, and then no longer counts as
+    // returning.
     Counted counted_;
     nb::gil_scoped_release release_;
     Turnstile turnstile_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Integer: an integer argument of any size, which is checked against a range when it is used.
-// A number that does not fit raises a UsageError that states the range. nanobind's own casters would reject it as an
-// argument of the wrong type. Call with the GIL held.
+// Integer: an integer argument of any size. It is checked against a range when it is used. A number that does not fit
+// raises a UsageError that states the range. nanobind's own casters would reject it as an argument of the wrong type.
+// Call with the GIL held.
 #pragma once
 
 #include <fmt/format.h>

@@ -12,7 +12,7 @@ static constexpr auto for_ever = Nanoseconds{std::chrono::hours{24 * 365}};
 Nanoseconds duration_of(const char* what, const nb::object& given) {
     const double seconds = PyFloat_AsDouble(given.ptr());
     if (PyErr_Occurred() != nullptr) throw nb::python_error();
-    if (std::isnan(seconds)) raise_usage(fmt::format("{}: NaN is no time", what));
+    if (std::isnan(seconds)) raise_usage(fmt::format("{}: NaN is not a time", what));
     if (seconds >= std::chrono::duration<double>(for_ever).count()) return for_ever;
     return std::chrono::duration_cast<Nanoseconds>(std::chrono::duration<double>(std::max(seconds, 0.0)));
 }

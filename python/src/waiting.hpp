@@ -13,10 +13,10 @@
 
 namespace mavloom::python {
 
-// Converts a number of seconds: negative ones become 0, more than a year becomes a year. Errors begin with `what`, the
-// name of the argument.
+// Converts a number of seconds. Negative numbers become 0, and more than a year becomes a year. Errors begin with
+// `what`, the name of the argument.
 [[nodiscard]] Nanoseconds duration_of(const char* what, const nb::object& given);
-// Converts a time-out. None becomes nullopt, which means to wait for ever.
+// Converts a time-out. None becomes nullopt, which means to wait forever.
 [[nodiscard]] std::optional<Nanoseconds> timeout_of(const nb::object& given);
 // Returns the deadline of a wait that begins now.
 [[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);

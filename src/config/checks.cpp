@@ -69,7 +69,7 @@ SetupResult<void> check_groups(const Config& config, std::string_view file_name)
             const auto [first, is_first] = chosen.try_emplace(o.group, Chosen{o.group_mode, line});
             if (is_first || first->second.mode == o.group_mode) return {};
             return bad(file_name, line,
-                       fmt::format("group {} has group_mode \"{}\" in line {}, and \"{}\" here: a group has one",
+                       fmt::format("group {} has group_mode \"{}\" in line {}, and \"{}\" here; a group has one mode",
                                    in_quotes(o.group), endpoint::group_mode_name(first->second.mode),
                                    first->second.line, endpoint::group_mode_name(o.group_mode)));
         });

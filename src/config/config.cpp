@@ -90,7 +90,7 @@ private:
     [[nodiscard]] SetupResult<void> check_requests() const {
         if (config_.router.request_streams_hz == 0 || config_.router.heartbeat) return {};
         constexpr std::string_view what =
-            "request_streams needs heartbeat = \"SYS/COMP\": the id that the router asks by";
+            "request_streams needs heartbeat = \"SYS/COMP\": the id that the router sends its requests with";
         for (const Section& section : config_.sections)
             for (const Setting& setting : section.settings)
                 if (setting.key == "request_streams" && setting.origin == Origin::file)
@@ -107,9 +107,9 @@ private:
                                    heartbeat_needs_id);
         for (const Section& other : config_.sections)
             if (other.name == section.name && other.label == section.label)
-                return document_.error(table.line,
-                                       fmt::format("{} stands there twice; give one of them another name = \"...\"",
-                                                   in_quotes(section.label)));
+                return document_.error(
+                    table.line, fmt::format("two endpoints are named {}; give one of them another name = \"...\"",
+                                            in_quotes(section.label)));
         config_.sections.push_back(std::move(section));
         config_.endpoints.push_back(std::move(endpoint));
         return {};

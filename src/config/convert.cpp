@@ -27,9 +27,9 @@ struct WithoutCounterpart {
 
 constexpr std::array general_without{
     WithoutCounterpart{"ReportStats", "false", "nothing is printed; `mavloom stat` shows the counters at any time"},
-    WithoutCounterpart{"MavlinkDialect", "auto", "only fetching a flight stack's logs needed it"},
+    WithoutCounterpart{"MavlinkDialect", "auto", "it was only needed to fetch a flight stack's logs"},
     WithoutCounterpart{"Log", "", "the flight stack's own logs (ULog, DataFlash) are not fetched"},
-    WithoutCounterpart{"LogMode", "always", "a recording goes on from start to end, armed or not"},
+    WithoutCounterpart{"LogMode", "always", "a recording runs from start to end, armed or not"},
     WithoutCounterpart{"LogSystemId", "", "the flight stack's own logs (ULog, DataFlash) are not fetched"},
     WithoutCounterpart{"MinFreeSpace", "0", "no recording is ever deleted"},
     WithoutCounterpart{"MaxLogFiles", "0", "no recording is ever deleted"},
@@ -101,8 +101,8 @@ public:
                                  toml_string(unique_name("tcp-server")));
         std::ranges::stable_sort(notes_, {}, &ConversionNote::line);
         if (const auto made = parse_config(toml_, "converted"); !made)
-            return setup_error(SetupCode::bad_input,
-                               fmt::format("{}:1: no configuration came of it: {}", file_, shown(made.error().text)));
+            return setup_error(SetupCode::bad_input, fmt::format("{}:1: the result is not a valid configuration: {}",
+                                                                 file_, shown(made.error().text)));
         return Conversion{std::move(toml_), std::move(notes_)};
     }
 
@@ -149,8 +149,7 @@ private:
         if (!period) return tl::unexpected(period.error());
         if (*period != 0) put_key("dedup_ms", fmt::format("{}", std::min(*period, most_dedup_ms)));
         if (*period > most_dedup_ms)
-            note(general, *general.find("DeduplicationPeriod"),
-                 fmt::format("{} ms is the longest there is", most_dedup_ms));
+            note(general, *general.find("DeduplicationPeriod"), fmt::format("the maximum is {} ms", most_dedup_ms));
         return {};
     }
 
@@ -173,7 +172,7 @@ private:
         if (folder == nullptr) return note(general, *telemetry, "without Log there is no folder to record into");
         const auto path = (std::filesystem::path(folder->value) / "telemetry.tlog").string();
         toml_ += fmt::format("\n[record]\npath = {}\n", toml_string(path));
-        note(general, *telemetry, fmt::format("recorded to {}; an older one is kept as .1 and so on", path));
+        note(general, *telemetry, fmt::format("recorded to {}; older files are kept as .1, .2 and so on", path));
     }
 
     // ---- endpoints --------------------------------------------------------------------------------------------------
@@ -227,7 +226,7 @@ private:
             put_key("baud", fmt::format("{}", rates->front()));
         } else {
             put_key("baud", "\"auto\"");
-            note(section, *baud, "baud = \"auto\" tries the usual rates, not a list of one's own");
+            note(section, *baud, "baud = \"auto\" tries the usual rates, not a list of your own");
         }
         return {};
     }
@@ -249,8 +248,7 @@ private:
         const IniEntry port = given_port != nullptr
                                   ? *given_port
                                   : IniEntry{"Port", fmt::format("{}", take_free_port()), section.line};
-        if (given_port == nullptr)
-            note(section, port, fmt::format("none is given; {} is what mavlink-router takes", port.value));
+        if (given_port == nullptr) note(section, port, fmt::format("not given; mavlink-router uses {}", port.value));
         return put_destination(section, *address, port);
     }
 
@@ -259,13 +257,13 @@ private:
         if (address.value == "0.0.0.0" || address.value == "[::]") {
             IniEntry here = address;
             here.value = address.value == "[::]" ? "[::1]" : "127.0.0.1";
-            note(section, address, fmt::format("nothing can be sent to {}; taken as {}", address.value, here.value));
+            note(section, address, fmt::format("nothing can be sent to {}; converted to {}", address.value, here.value));
             return put_url("udpout", here, port);
         }
         if (endpoint::parse_endpoint(fmt::format("udpmcast://{}:{}", address.value, port.value)))
             return put_url("udpmcast", address, port);
         if (!address.value.ends_with(".255")) return put_url("udpout", address, port);
-        note(section, address, "taken as a broadcast address; udpout:// would send to one machine");
+        note(section, address, "converted as a broadcast address; udpout:// would send to one machine");
         return put_url("udpbcast", address, port);
     }
 
@@ -277,14 +275,14 @@ private:
                        fmt::format("[{}] has no {}", shown(section.name), address == nullptr ? "Address" : "Port"));
         if (const auto* retry = section.find("RetryTimeout"))
             note(section, *retry,
-                 retry->value == "0" ? "a connection that is lost is always made again"
-                                     : "a connection that is lost is made again after 100 ms, doubling to 5 s");
+                 retry->value == "0" ? "a lost connection is always opened again"
+                                     : "a lost connection is opened again after 100 ms; the delay doubles up to 5 s");
         return put_url("tcpout", *address, *port);
     }
 
     SetupResult<void> put_url(std::string_view scheme, const IniEntry& address, const IniEntry& port) {
         if (const auto good = endpoint::parse_port(port.value); !good || *good == 0)
-            return bad(port.line, fmt::format("Port: {} is no port from 1 to 65535", in_quotes(port.value)));
+            return bad(port.line, fmt::format("Port: {} is not a port from 1 to 65535", in_quotes(port.value)));
         const auto host = endpoint::parse_host(address.value, scheme, port.value);
         if (!host) return bad(address.line, fmt::format("Address: {}", host.error().text));
         const auto url = fmt::format("{}://{}:{}", scheme, address.value, port.value);

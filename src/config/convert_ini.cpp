@@ -50,10 +50,11 @@ private:
         const auto end = line.find(']');
         if (end == std::string_view::npos) return bad("the bracket of the section is not closed");
         if (end + 1 != line.size())
-            return bad(fmt::format("{} stands behind the section's bracket", in_quotes(trimmed(line.substr(end + 1)))));
+            return bad(
+                fmt::format("{} follows the closing bracket of the section", in_quotes(trimmed(line.substr(end + 1)))));
         const auto name = line.substr(1, end - 1);
         if (name.empty() || trimmed(name).size() != name.size())
-            return bad("a section's name begins and ends without blanks, as in [UdpEndpoint ground]");
+            return bad("a section's name must not begin or end with a blank, as in [UdpEndpoint ground]");
         current_ = std::ranges::find_if(sections_, [&](const IniSection& s) { return same_word(s.name, name); }) -
                    sections_.begin();
         if (current_ == static_cast<std::ptrdiff_t>(sections_.size()))
@@ -62,7 +63,7 @@ private:
     }
 
     SetupResult<void> add_entry(std::string_view line) {
-        if (sections_.empty()) return bad(fmt::format("{} stands before the first section", in_quotes(line)));
+        if (sections_.empty()) return bad(fmt::format("{} comes before the first section", in_quotes(line)));
         const auto equals = line.find('=');
         if (equals == std::string_view::npos)
             return bad(fmt::format("{} is neither [Section] nor key = value", in_quotes(line)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads the INI dialect of mavlink-router: sections, `key = value`, and comments on their own lines. A repeated section
-// continues the first one. If a key is repeated, the last value wins. Names keep their case, but comparisons ignore it.
-// Private to module config; stateless.
+// continues the first one. If a key is repeated, the last value wins. Names keep their case, but look-ups ignore the
+// case. Private to module config; stateless.
 #pragma once
 
 #include <cstdint>

@@ -165,8 +165,7 @@ SetupResult<void> Document::check_keys(const Table& table, std::span<const std::
 }
 
 SetupResult<std::string> Document::text_of(const Entry& entry) const {
-    if (!entry.text)
-        return error(entry.line, fmt::format("{} has a value of a kind that it cannot have", shown(entry.key)));
+    if (!entry.text) return error(entry.line, fmt::format("{} has a value of the wrong type", shown(entry.key)));
     return *entry.text;
 }
 

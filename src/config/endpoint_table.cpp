@@ -45,7 +45,7 @@ public:
         }
         if (auto good = endpoint::check_options(*endpoint); !good) return bad(table_.line, good.error().text);
         if ((endpoint::set_of(endpoint->scheme) & endpoint::address_schemes) != 0 && endpoint->address.port == 0)
-            return bad(table_.line, "port 0 is no port that others could know; choose one from 1 to 65535");
+            return bad(table_.line, "with port 0, other programs could not know the port; choose one from 1 to 65535");
         Section section = section_of(*endpoint);
         return PlacedEndpoint{std::move(*endpoint), std::move(section)};
     }
@@ -64,7 +64,7 @@ private:
         if (url == nullptr) return place_of_parts();
         for (const auto key : {"scheme", "host", "port", "path", "ring"})
             if (const auto* part = find(key))
-                return bad(part->line, fmt::format("'{}' stands beside url, which says it already", key));
+                return bad(part->line, fmt::format("'{}' is given beside url, which already contains it", key));
         auto endpoint = endpoint::parse_endpoint(url->value);
         if (!endpoint) return bad(url->line, endpoint.error().text);
         const auto query = endpoint::query_of(url->value);
@@ -74,7 +74,7 @@ private:
         const auto url_line = url->line;
         for (const auto& option : *options) {
             if (const auto* twice = find(option.key))
-                return bad(twice->line, fmt::format("'{}' stands in the url already", option.key));
+                return bad(twice->line, fmt::format("'{}' is already set in the url", option.key));
             given_.push_back({option.key, option.value, Origin::file, url_line, {}});
         }
         return endpoint;
@@ -101,7 +101,7 @@ private:
             if (const auto hint = did_you_mean(setting.key, place_keys);
                 !hint.empty() && std::ranges::find(place_keys, setting.key) == place_keys.end())
                 return bad(setting.line, fmt::format("[[endpoint]] has no key {}{}", in_quotes(setting.key), hint));
-        return bad(table_.line, "an endpoint needs url = \"...\", or scheme and what belongs to it");
+        return bad(table_.line, "an endpoint needs url = \"...\", or scheme and the keys for that scheme");
     }
 
     SetupResult<endpoint::Endpoint> place_of_path(endpoint::Endpoint endpoint) const {

@@ -19,8 +19,8 @@ template <class E, std::size_t n>
 SetupResult<void> put_choice(std::string_view text, const std::array<std::string_view, n>& choices, E& target) {
     const auto choice = std::find(choices.begin(), choices.end(), text);
     if (choice == choices.end())
-        return endpoint::usage(
-            fmt::format("{} is none of {}{}", in_quotes(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
+        return endpoint::usage(fmt::format("{} is not one of {}{}", in_quotes(text), fmt::join(choices, ", "),
+                                           did_you_mean(text, choices)));
     target = static_cast<E>(choice - choices.begin());
     return {};
 }
@@ -53,7 +53,7 @@ SetupResult<void> set_request_streams(Config& config, std::string_view text) {
 
 SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
     const auto timeout = endpoint::parse_duration(text);
-    if (timeout && timeout->count() <= 0) return endpoint::usage("a route needs some time above 0");
+    if (timeout && timeout->count() <= 0) return endpoint::usage("the timeout of routes must be above 0");
     return endpoint::put(timeout, config.router.route_timeout);
 }
 
@@ -64,7 +64,7 @@ SetupResult<void> set_capacity(Config& config, std::string_view text) {
 SetupResult<void> set_ring_name(Config& config, std::string_view text) {
     if (!is_name(text))
         return endpoint::usage(
-            fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
+            fmt::format("{} is not a ring name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
     config.ring.name = std::string(text);
     return {};
 }
@@ -72,7 +72,8 @@ SetupResult<void> set_ring_name(Config& config, std::string_view text) {
 SetupResult<void> set_full(Config& config, std::string_view text) {
     if (text == "wait")
         return endpoint::usage(
-            "a router waits for no reader: type evict, which tells the reader what it missed, or drop_newest");
+            "a router does not wait for readers: type evict, which reports to readers how many records they missed, or "
+            "drop_newest");
     constexpr std::array<std::string_view, 2> choices{"evict", "drop_newest"};
     bool drops = false;
     if (auto chosen = put_choice(text, choices, drops); !chosen) return chosen;
@@ -84,7 +85,7 @@ SetupResult<void> set_full(Config& config, std::string_view text) {
 SetupResult<void> set_mode(Config& config, std::string_view text) {
     if (!text.starts_with('0'))
         return endpoint::usage(
-            fmt::format("{} is no file mode; type for example \"0600\" or \"0640\", in quotes", in_quotes(text)));
+            fmt::format("{} is not a file mode; for example, type \"0600\" or \"0640\", in quotes", in_quotes(text)));
     return endpoint::put(endpoint::parse_mode(text), config.ring.mode);
 }
 

@@ -82,7 +82,7 @@ SetupResult<void> detail::check_recordings(const Config& config, std::string_vie
     return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         static constexpr std::array<std::string_view, 2> own{"path", "url"};
         if (endpoint.scheme != endpoint::Scheme::tlog || is_new(endpoint.path)) return {};
-        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: {} is recorded already", file_name,
+        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: another recording already writes to {}", file_name,
                                                              line_of(section, own), in_quotes(endpoint.path)));
     });
 }
@@ -95,7 +95,7 @@ SetupResult<void> check_ports(const Config& config, std::string_view file_name) 
         const auto other = std::ranges::find_if(all, [&](const Bound& b) { return meet(b, *bound); });
         if (other != all.end())
             return setup_error(SetupCode::bad_input,
-                               fmt::format("{}:{}: {} binds {} port {}, which {} of line {} has already", file_name,
+                               fmt::format("{}:{}: {} binds {} port {}, which {} in line {} already uses", file_name,
                                            bound->line, in_quotes(bound->label), bound->tcp ? "TCP" : "UDP",
                                            bound->address.port, in_quotes(other->label), other->line));
         all.push_back(*bound);

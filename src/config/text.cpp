@@ -21,7 +21,7 @@ SetupResult<std::string> read_config_text(const std::filesystem::path& file) {
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > longest)
         return setup_error(SetupCode::bad_input,
-                           fmt::format("{} is longer than any configuration (4 MiB)", file.string()));
+                           fmt::format("{} is too long for a configuration (at most 4 MiB)", file.string()));
     return text;
 }
 

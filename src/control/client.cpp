@@ -53,8 +53,8 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     error_code error;
     socket.connect(Local::endpoint(path->string()), error);
     if (error)
-        return setup_error(SetupCode::not_found, fmt::format("no router or simulator called '{}' runs here ({}: {})", name,
-                                                             path->string(), error.message()));
+        return setup_error(SetupCode::not_found, fmt::format("no router or simulator called '{}' runs here ({}: {})",
+                                                             name, path->string(), error.message()));
     // The client shuts down its sending side, so the router closes the connection after the answer.
     std::string input, output = std::string(request) + "\n";
     bool done = false;
@@ -65,8 +65,7 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     });
     context.run_for(limit);
     if (!done)
-        return setup_error(SetupCode::unreachable,
-                           fmt::format("'{}' gave no answer within {} ms", name, limit.count()));
+        return setup_error(SetupCode::unreachable, fmt::format("'{}' did not answer within {} ms", name, limit.count()));
     return answer_of(input);
 }
 

@@ -35,7 +35,7 @@ ino_t inode_of(const std::filesystem::path& path) noexcept {
 tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
     return setup_error(
         SetupCode::in_use,
-        fmt::format("{} is served by a running program; --name gives this one another name", socket.string()));
+        fmt::format("{} is served by another process; give this one another name with --name", socket.string()));
 }
 
 // Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock
@@ -180,8 +180,8 @@ private:
             error_code error;
             const auto host = asio::ip::make_address(address.host, error);
             if (error)
-                return setup_error(SetupCode::usage, fmt::format("--metrics takes an address of this machine in "
-                                                                 "numbers, not '{}'",
+                return setup_error(SetupCode::usage, fmt::format("--metrics takes a numeric address of this "
+                                                                 "machine, not '{}'",
                                                                  address.host));
             metrics_.open(Tcp::endpoint(host, address.port));
             metrics_port_ = metrics_.local().port();

@@ -42,7 +42,7 @@ public:
         : socket_(std::move(socket)), served_(served), place_(std::move(place)) {}
 
     void read();
-    // Sends the client an error that there are too many clients, if the socket accepts the text at once.
+    // Sends the client an error (too many clients), if the socket accepts the text at once.
     static void turn_away(Local::socket& socket);
 
 private:
@@ -56,7 +56,7 @@ private:
     std::string output_;
 };
 
-// One HTTP client. It has http_patience to send its request, and the same time again to read the answer.
+// One HTTP client. It has 10 s (http_patience) to send its request, and 10 s more to read the answer.
 class MetricsSession : public std::enable_shared_from_this<MetricsSession> {
 public:
     MetricsSession(Tcp::socket socket, Served& served, std::shared_ptr<void> place)

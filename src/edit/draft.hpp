@@ -19,7 +19,7 @@ public:
     // if there is no definition and no CRC_EXTRA fits the checksum.
     [[nodiscard]] static std::optional<Draft> of(const wire::FrameView& frame, const dialect::Message* message) noexcept;
 
-    // Each of these returns true if it changed the frame; `patch` returns true if it applied a patch.
+    // `remap` and `set_version` return true if they changed the frame. `patch` returns true if it applied a patch.
     bool remap(const SystemMap& map) noexcept;
     bool patch(std::span<const Patch> patches) noexcept;
     bool set_version(wire::Version version) noexcept;

@@ -50,7 +50,7 @@ ElementName split_element(std::string_view name) {
 
 SetupResult<std::size_t> element_index(const dialect::Field& field, std::string_view name, std::string_view text) {
     if (!field.is_array() || field.is_text())
-        return usage(fmt::format("{}: {} is no array of numbers", name, field.name));
+        return usage(fmt::format("{}: {} is not an array of numbers", name, field.name));
     const auto index = number<std::size_t>(text);
     if (!index || *index >= field.count())
         return usage(fmt::format("{}: elements are [0] to [{}]", name, field.count() - 1));
@@ -60,7 +60,7 @@ SetupResult<std::size_t> element_index(const dialect::Field& field, std::string_
 SetupResult<Patch> make_patch(const dialect::Dialect& dialect, std::string_view text) {
     const auto equals = text.find('=');
     if (equals == std::string_view::npos)
-        return usage(fmt::format("'{}' has no value; type for example ATTITUDE.roll=0.1", text));
+        return usage(fmt::format("'{}' has no value; for example, type ATTITUDE.roll=0.1", text));
     const auto name = text.substr(0, equals), value = text.substr(equals + 1);
     const auto element = split_element(name);
     const auto handle = dialect.field(element.field);
@@ -102,13 +102,13 @@ SetupResult<void> add_rates(const dialect::Dialect& dialect, const std::vector<s
 
 SetupResult<std::uint8_t> system_id(std::string_view text) {
     const auto id = number<unsigned>(text);
-    if (!id || *id == 0 || *id > 255) return usage(fmt::format("'{}' is no system id (1 to 255)", text));
+    if (!id || *id == 0 || *id > 255) return usage(fmt::format("'{}' is not a system id (1 to 255)", text));
     return static_cast<std::uint8_t>(*id);
 }
 
 SetupResult<void> add_remap(std::string_view text, Plan& plan) {
     const auto equals = text.find('=');
-    if (equals == std::string_view::npos) return usage(fmt::format("'{}' has no '='; type for example 1=42", text));
+    if (equals == std::string_view::npos) return usage(fmt::format("'{}' has no '='; for example, type 1=42", text));
     const auto from = system_id(text.substr(0, equals));
     if (!from) return tl::unexpected(from.error());
     const auto to = system_id(text.substr(equals + 1));

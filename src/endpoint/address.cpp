@@ -66,7 +66,7 @@ tl::unexpected<SetupError> missing_host(std::string_view scheme, std::string_vie
             "(every interface)",
             scheme, port_or_example(port)));
     if (scheme.empty())
-        return usage(fmt::format("the host is missing; type for example 0.0.0.0:{}", port_or_example(port)));
+        return usage(fmt::format("the host is missing; for example, type 0.0.0.0:{}", port_or_example(port)));
     return usage(fmt::format("the host is missing; type {}://HOST:{}", scheme, port_or_example(port)));
 }
 
@@ -115,8 +115,8 @@ SetupResult<std::string> percent_decoded(std::string_view text) {
         const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
         if (low < 0)
             return usage(
-                fmt::format("{} is no percent escape; type %25 for a percent sign", in_quotes(text.substr(i, 3))));
-        if (high == 0 && low == 0) return usage("'%00' has no place here");
+                fmt::format("{} is not a percent escape; type %25 for a percent sign", in_quotes(text.substr(i, 3))));
+        if (high == 0 && low == 0) return usage("'%00' is not allowed here");
         result += static_cast<char>(high * 16 + low);
         i += 2;
     }
@@ -142,19 +142,19 @@ SetupResult<std::string> parse_host(std::string_view text, std::string_view sche
         if (is_ipv4(raw) || is_host_name(raw))
             return usage(
                 fmt::format("brackets are for IPv6 only; type {}", with_scheme(scheme, std::string(raw) + suffix)));
-        return usage(fmt::format("{} is no IPv6 address", in_quotes(text)));
+        return usage(fmt::format("{} is not an IPv6 address", in_quotes(text)));
     }
     if (is_ipv4(text)) return std::string(text);
     if (text.find(':') != std::string_view::npos) {
         if (is_ipv6(text))
             return usage(fmt::format("an IPv6 address needs brackets; type {}",
                                      with_scheme(scheme, fmt::format("[{}]{}", text, suffix))));
-        return usage(fmt::format("{} is no host", in_quotes(text)));
+        return usage(fmt::format("{} is not a host", in_quotes(text)));
     }
     if (is_digits_and_dots(text))
-        return usage(fmt::format("{} is no IPv4 address; it has four numbers from 0 to 255", in_quotes(text)));
+        return usage(fmt::format("{} is not an IPv4 address; it has four numbers from 0 to 255", in_quotes(text)));
     if (is_host_name(text)) return std::string(text);
-    return usage(fmt::format("{} is no host name or address", in_quotes(text)));
+    return usage(fmt::format("{} is not a host name or address", in_quotes(text)));
 }
 
 SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme) {
@@ -163,7 +163,7 @@ SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view sc
     const auto port_text = text.substr(colon + 1);
     const auto slash = port_text.find('/');
     if (slash != std::string_view::npos)
-        return usage(fmt::format("{} stands behind the port; type {}", in_quotes(port_text.substr(slash)),
+        return usage(fmt::format("{} follows the port; type {}", in_quotes(port_text.substr(slash)),
                                  with_scheme(scheme, text.substr(0, colon + 1 + slash))));
     if (port_text.empty()) return no_port(text.substr(0, colon), scheme);
     // In "::1" the "1" is no port. In "::1:5760" the "5760" is meant as one, although the whole is also a valid
@@ -180,10 +180,10 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
     const auto name = scheme_name(scheme);
     const auto kind = kind_of(address.host);
     if (address.port == 0 && !listens(scheme))
-        return usage(fmt::format("port 0 is no destination; {} needs a port from 1 to 65535", name));
+        return usage(fmt::format("port 0 is not a destination; {} needs a port from 1 to 65535", name));
     if (scheme == Scheme::udpmcast) {
         if (kind == AddressKind::multicast) return {};
-        return usage(fmt::format("{} is no multicast group; type for example udpmcast://239.255.145.50:{}",
+        return usage(fmt::format("{} is not a multicast group; for example, type udpmcast://239.255.145.50:{}",
                                  in_quotes(address.host), address.port));
     }
     const bool udp = scheme != Scheme::tcpin && scheme != Scheme::tcpout;
@@ -196,9 +196,10 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
         return usage(fmt::format("nothing can listen on 255.255.255.255; type {}://0.0.0.0:{}", name, address.port));
     }
     if (kind == AddressKind::any)
-        return usage(fmt::format(
-            "{} is where to listen, not where to send; type {}://127.0.0.1:{} for this machine, {}://{} to listen",
-            to_text(address), name, address.port, udp ? "udpin" : "tcpin", to_text(address)));
+        return usage(
+            fmt::format("{} is an address to listen on, not a destination; type {}://127.0.0.1:{} for this machine, "
+                        "{}://{} to listen",
+                        to_text(address), name, address.port, udp ? "udpin" : "tcpin", to_text(address)));
     if (scheme == Scheme::udpbcast) {
         if (address.host.find(':') == std::string::npos) return {};
         return usage(fmt::format("IPv6 has no broadcast; type udpmcast://[ff02::1]:{}", address.port));
@@ -210,23 +211,23 @@ SetupResult<void> check_address(Scheme scheme, const HostPort& address) {
 }
 
 SetupResult<void> check_path(Scheme scheme, std::string_view path) {
-    if (printable(path) != path) return usage("a control character has no place in a path");
+    if (printable(path) != path) return usage("a path must not contain control characters");
     if (scheme == Scheme::shm) {
         if (is_name(path)) return {};
-        return usage(
-            fmt::format("{} is no ring name (letters, digits, '_' and '-', at most 64); type for example shm://main",
-                        in_quotes(path)));
+        return usage(fmt::format(
+            "{} is not a ring name (letters, digits, '_' and '-', at most 64); for example, type shm://main",
+            in_quotes(path)));
     }
     if (scheme == Scheme::tlog) {
         if (path.empty())
-            return usage("the path is missing; type for example tlog://flight.tlog or tlog:///tmp/flight.tlog");
+            return usage("the path is missing; for example, type tlog://flight.tlog or tlog:///tmp/flight.tlog");
         if (path.back() == '/') return usage(fmt::format("{} is a folder; a recording is a file", in_quotes(path)));
         return {};
     }
-    if (path.empty()) return usage("the device is missing; type for example serial:///dev/ttyACM0?baud=57600");
+    if (path.empty()) return usage("the device is missing; for example, type serial:///dev/ttyACM0?baud=57600");
     if (path.front() != '/')
         return usage(
-            fmt::format("the device {} needs its whole path; type for example serial:///dev/ttyACM0", in_quotes(path)));
+            fmt::format("the device {} needs its full path; for example, type serial:///dev/ttyACM0", in_quotes(path)));
     const auto colon = path.rfind(':');
     const auto tail = colon == std::string_view::npos ? std::string_view{} : path.substr(colon + 1);
     if (const auto baud = parse_integer(tail, 1200, 30'000'000))  // by-path names end in short numbers
@@ -254,7 +255,7 @@ SetupResult<std::vector<OptionText>> split_query(std::string_view query) {
         if (!value) return tl::unexpected(std::move(value.error()).within(fmt::format("option {}", in_quotes(key))));
         const auto same = [&](const OptionText& other) { return other.key == key; };
         if (std::any_of(options.begin(), options.end(), same))
-            return usage(fmt::format("option {} stands there twice", in_quotes(key)));
+            return usage(fmt::format("option {} is given twice", in_quotes(key)));
         options.push_back({std::string(key), std::move(*value)});
         if (end == std::string_view::npos) return options;
         query.remove_prefix(end + 1);

@@ -14,11 +14,12 @@ static tl::unexpected<SetupError> refused(const Endpoint& endpoint, std::string_
 
 static SetupResult<void> check_scheme(const Endpoint& endpoint, RoutingOptions routing) {
     if (endpoint.scheme == Scheme::tlog)
-        return refused(endpoint, "a recording is no link: it is read and written by listen, relay, record and replay");
+        return refused(endpoint, "a recording is not a link; listen, relay, record and replay read or write it");
     if (endpoint.scheme == Scheme::shm && routing == RoutingOptions::by_owner)
-        return refused(endpoint,
-                       "a ring is no link of a router: route --ring NAME writes one and takes what is sent to its "
-                       "inlet; listen, relay and record read it");
+        return refused(
+            endpoint,
+            "a ring is not a link of a router; route --ring NAME writes a ring and forwards the frames sent to "
+            "its inlet; listen, relay and record read rings");
     return {};
 }
 
@@ -38,7 +39,8 @@ static SetupResult<void> refuse_routing_options(const Endpoint& endpoint) {
     };
     const auto set = std::ranges::find(routed, true, &std::pair<std::string_view, bool>::second);
     if (set == std::end(routed)) return {};
-    return refused(endpoint, fmt::format("option {}= is for mavloom route, which decides what goes where", set->first));
+    return refused(endpoint,
+                   fmt::format("option {}= applies only to mavloom route, which decides where frames go", set->first));
 }
 
 SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routing) {
@@ -49,12 +51,13 @@ SetupResult<void> check_supported(const Endpoint& endpoint, RoutingOptions routi
     if (endpoint.scheme == Scheme::shm && !o.verify_key_file.empty())
         return refused(
             endpoint,
-            "verify= belongs to the endpoint that the frames came in by; who wrote the ring has checked them");
+            "set verify= at the endpoint that receives the frames; the writer of the ring has already checked them");
     if (o.ttl == 0 && endpoint.scheme != Scheme::udpmcast)
-        return refused(endpoint, "ttl=0 keeps the datagrams of a group on this machine; others need 1 to 255");
+        return refused(endpoint,
+                       "ttl=0 keeps datagrams of a multicast group on this machine; other datagrams need 1 to 255");
     const bool is_one_link = endpoint.scheme == Scheme::udpmcast || (endpoint.scheme == Scheme::udpbcast && o.fixed);
     if (is_one_link && o.max_peers != EndpointOptions{}.max_peers)
-        return refused(endpoint, "all who are heard here are one link; max_peers= has no meaning");
+        return refused(endpoint, "all senders that are heard here share one link, so max_peers= has no effect");
     constexpr std::uint64_t most_queue_bytes = std::uint64_t{1} << 30;  // queue offsets have 32 bits
     if (o.queue_bytes > most_queue_bytes) return refused(endpoint, "queue_bytes= goes up to 1 GiB");
     return {};
@@ -65,14 +68,14 @@ SetupResult<void> check_destination(const Endpoint& endpoint) {
     const bool broadcast = endpoint.scheme == Scheme::udpbcast;
     const bool udp = endpoint.scheme == Scheme::udpout || broadcast;
     if (host.empty()) return refused(endpoint, "a destination needs a host, as in 127.0.0.1");
-    if (port == 0) return refused(endpoint, "port 0 is no destination; name the port that the far side listens on");
+    if (port == 0) return refused(endpoint, "port 0 is not a destination; give the port that the far side listens on");
     const auto address = net::Address::parse(host, port);
     if (!address) return {};
     if (address->is_any()) {
         return refused(
             endpoint,
             fmt::format(
-                "{} is no destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}",
+                "{} is not a destination; to listen on all addresses type {}://{}, to send to this machine {}://{}:{}",
                 host, udp ? "udpin" : "tcpin", address->text(), udp ? "udpout" : "tcpout",
                 address->is_v4() ? "127.0.0.1" : "[::1]", port));
     }
@@ -88,7 +91,7 @@ SetupResult<std::optional<net::Address>> local_address(const Endpoint& endpoint)
     if (!bind) return std::nullopt;
     const auto address = net::Address::parse(bind->host, bind->port);
     if (!address)
-        return refused(endpoint, fmt::format("bind= takes an address of this machine in numbers, not '{}'", bind->host));
+        return refused(endpoint, fmt::format("bind= takes a numeric address of this machine, not '{}'", bind->host));
     return address;
 }
 
@@ -101,13 +104,14 @@ SetupResult<void> check_link(const Endpoint& endpoint, RoutingOptions routing) {
     if (!local) return tl::unexpected(local.error());
     const auto far = net::Address::parse(endpoint.address.host, endpoint.address.port);
     if (*local && far && (*local)->family() != far->family())
-        return refused(endpoint, fmt::format("bind={} is of another family than {}", (*local)->text(), far->text()));
+        return refused(endpoint,
+                       fmt::format("bind={} and {} are of different address families", (*local)->text(), far->text()));
     return {};
 }
 
 SetupResult<void> check_written(const Endpoint& recording) {
     if (!recording.options.speed) return {};
-    return refused(recording, "'speed' is for a recording that is read; this one is written");
+    return refused(recording, "'speed' applies to a recording that is read; this one is written");
 }
 
 }  // namespace mavloom::endpoint

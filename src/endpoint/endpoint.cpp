@@ -25,8 +25,8 @@ struct Foreign {
 };
 
 constexpr std::array foreign_schemes{
-    Foreign{"udp", "does not say which side listens; type udpin://{0} to listen, udpout://{1} to send"},
-    Foreign{"tcp", "does not say which side listens; type tcpout://{1} to connect, tcpin://{0} to listen"},
+    Foreign{"udp", "does not state which side listens; type udpin://{0} to listen, udpout://{1} to send"},
+    Foreign{"tcp", "does not state which side listens; type tcpout://{1} to connect, tcpin://{0} to listen"},
     Foreign{"udpserver", "is written udpin://{0}"},
     Foreign{"udps", "is written udpin://{0}"},
     Foreign{"udpclient", "is written udpout://{1}"},
@@ -101,14 +101,13 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
     const auto address = parse_host_port(text, {});
     if (address && check_address(Scheme::udpout, *address))
         return usage(
-            fmt::format("it does not say how to get there; type udpout://{0} to send, udpin://{0} to listen, or "
+            fmt::format("it has no scheme; type udpout://{0} to send, udpin://{0} to listen, or "
                         "tcpout://{0} to connect",
                         text));
-    if (address) return usage(fmt::format("it does not say how to get there; type udpin://{} to listen", text));
+    if (address) return usage(fmt::format("it has no scheme; type udpin://{} to listen", text));
     const bool port = text.size() > 1 && text.front() == ':' && parse_port(text.substr(1)).has_value();
     if (port || (parse_integer(text, 1, 65535).has_value()))
-        return usage(fmt::format("it does not say how to get there; type udpin://0.0.0.0:{} to listen",
-                                 port ? text.substr(1) : text));
+        return usage(fmt::format("it has no scheme; type udpin://0.0.0.0:{} to listen", port ? text.substr(1) : text));
     const auto colon = text.find(':');
     if (colon != std::string_view::npos && colon != 0) {
         const auto prefix = text.substr(0, colon);
@@ -118,8 +117,8 @@ tl::unexpected<SetupError> no_scheme(std::string_view text) {
     }
     if (text.find('/') != std::string_view::npos || text.find('.') != std::string_view::npos)
         return usage(fmt::format(
-            "it names no scheme; type tlog://{0} if it is a recording, udpout://{0}:14550 if it is a host", shown(text)));
-    return usage(fmt::format("it names no scheme; type for example udpin://0.0.0.0:14550 or shm://{}",
+            "it has no scheme; type tlog://{0} if it is a recording, udpout://{0}:14550 if it is a host", shown(text)));
+    return usage(fmt::format("it has no scheme; for example, type udpin://0.0.0.0:14550 or shm://{}",
                              is_name(text) ? shown(text) : "NAME"));
 }
 
@@ -141,7 +140,7 @@ SetupResult<Split> split_device(Split result) {
     if (comma == std::string_view::npos) return result;
     result.comma_baud = result.rest.substr(comma + 1);
     if (result.comma_baud.empty())
-        return usage(fmt::format("the baud rate behind the comma is missing; type {}57600", shown(result.rest)));
+        return usage(fmt::format("the baud rate after the comma is missing; type {}57600", shown(result.rest)));
     result.rest = result.rest.substr(0, comma);
     return result;
 }
@@ -190,7 +189,7 @@ SetupResult<void> set_options(Endpoint& endpoint, const Split& parts) {
     }
     if (!parts.comma_baud.empty()) {
         const auto is_baud = [](const OptionText& option) { return option.key == "baud"; };
-        if (std::any_of(options.begin(), options.end(), is_baud)) return usage("the baud rate stands there twice");
+        if (std::any_of(options.begin(), options.end(), is_baud)) return usage("the baud rate is given twice");
         options.push_back({"baud", std::string(parts.comma_baud)});
     }
     for (const OptionText& option : options)
@@ -200,7 +199,7 @@ SetupResult<void> set_options(Endpoint& endpoint, const Split& parts) {
 
 SetupResult<Endpoint> parse(std::string_view text) {
     constexpr std::size_t longest = 8192;
-    if (text.empty()) return usage("it is empty; type for example udpin://0.0.0.0:14550");
+    if (text.empty()) return usage("it is empty; for example, type udpin://0.0.0.0:14550");
     if (text.size() > longest) return usage(fmt::format("it is longer than {} bytes", longest));
     const auto parts = split(text);
     if (!parts) return tl::unexpected(parts.error());
@@ -216,8 +215,8 @@ SetupResult<Endpoint> parse(std::string_view text) {
 
 std::string ring_is_no_endpoint(const Endpoint& endpoint) {
     return fmt::format(
-        "{}: a ring is no endpoint of a router: --ring {} writes every frame into it, and takes what programs "
-        "send there",
+        "{}: a ring is not an endpoint of a router; --ring {} writes every frame into it, and forwards what "
+        "programs send there",
         endpoint.label(), endpoint.path);
 }
 

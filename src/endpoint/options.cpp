@@ -37,7 +37,8 @@ SetupResult<void> set_filter(EndpointOptions& options, std::string_view text) {
 template <std::string EndpointOptions::*member>
 SetupResult<void> set_text(EndpointOptions& options, std::string_view text) {
     const bool control = printable(text) != text;
-    if (text.empty() || control || text.size() > 4096) return usage("empty, too long or with control characters");
+    if (text.empty() || control || text.size() > 4096)
+        return usage("it is empty, too long or contains control characters");
     options.*member = std::string(text);
     return {};
 }
@@ -60,7 +61,7 @@ constexpr std::array<std::string_view, 3> modes{"all", "best", "primary"};
 
 SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text) {
     const auto mode = std::find(modes.begin(), modes.end(), text);
-    if (mode == modes.end()) return usage(fmt::format("{} is none of all, best, primary", in_quotes(text)));
+    if (mode == modes.end()) return usage(fmt::format("{} is not one of all, best, primary", in_quotes(text)));
     options.group_mode = static_cast<GroupMode>(mode - modes.begin());
     options.names_group_mode = true;
     return {};
@@ -87,7 +88,7 @@ SetupResult<void> set_baud(EndpointOptions& options, std::string_view text) {
 }
 
 SetupResult<void> set_flow(EndpointOptions& options, std::string_view text) {
-    if (text == "xonxoff") return usage("'xonxoff' would take bytes out of MAVLink's frames; type none or rtscts");
+    if (text == "xonxoff") return usage("'xonxoff' would remove bytes from MAVLink frames; type none or rtscts");
     if (text != "none" && text != "rtscts") return usage(fmt::format("{} is neither none nor rtscts", in_quotes(text)));
     options.flow = std::string(text);
     return {};
@@ -112,7 +113,7 @@ SetupResult<void> set_speed(EndpointOptions& options, std::string_view text) {
 
 SetupResult<void> set_group(EndpointOptions& options, std::string_view text) {
     if (!is_name(text))
-        return usage(fmt::format("{} is no group name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
+        return usage(fmt::format("{} is not a group name (letters, digits, '_' and '-', at most 64)", in_quotes(text)));
     options.group = std::string(text);
     return {};
 }
@@ -120,8 +121,8 @@ SetupResult<void> set_group(EndpointOptions& options, std::string_view text) {
 SetupResult<void> set_heartbeat(EndpointOptions& options, std::string_view text) {
     if (text.find('/') != std::string_view::npos)
         return usage(
-            fmt::format("{} is neither true nor false; the id that a router sends by is heartbeat = \"SYS/COMP\" "
-                        "in [router] of a configuration file",
+            fmt::format("{} is neither true nor false; the id of a router is heartbeat = \"SYS/COMP\" "
+                        "in [router] of its configuration file",
                         in_quotes(text)));
     return put(parse_bool(text), options.heartbeat);
 }
@@ -153,10 +154,9 @@ constexpr std::array options_table{
            [](O& o, std::string_view t) {
                return put(size_within(t, longest_frame_bytes, most_queue_bytes), o.queue_bytes);
            }},
-    Option{"queue_age", links, "1s for class 2, 10s for the others",
+    Option{"queue_age", links, "1s for telemetry, 10s for the others",
            [](O& o, std::string_view t) {
-               return put(duration_of_at_least(t, std::chrono::milliseconds{1}, "a millisecond is the least"),
-                          o.queue_age);
+               return put(duration_of_at_least(t, std::chrono::milliseconds{1}, "the minimum is 1 ms"), o.queue_age);
            }},
     Option{"max_rate", links, "", [](O& o, std::string_view t) { return put(parse_rates(t), o.max_rate); }},
     Option{"max_bytes", links, "",
@@ -180,7 +180,8 @@ constexpr std::array options_table{
     Option{"iface", udp_schemes, "",
            [](O& o, std::string_view t) -> SetupResult<void> {
                if (t.size() > 15)
-                   return usage(fmt::format("{} is longer than an interface's name can be (15)", in_quotes(t)));
+                   return usage(
+                       fmt::format("{} is longer than the name of an interface can be (15 bytes)", in_quotes(t)));
                return set_text<&O::iface>(o, t);
            }},
     Option{"ttl", udp_schemes, "", [](O& o, std::string_view t) { return put(parse_integer(t, 0, 255), o.ttl); }},
@@ -250,7 +251,7 @@ SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text) {
 }
 
 SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text) {
-    return duration_of_at_least(text, std::chrono::seconds{1}, "segments are named by the second: 1s is the least");
+    return duration_of_at_least(text, std::chrono::seconds{1}, "segments are named by the second, so the minimum is 1s");
 }
 
 std::string_view group_mode_name(GroupMode mode) noexcept { return modes[static_cast<std::size_t>(mode)]; }
@@ -278,14 +279,14 @@ SetupResult<void> check_options(const Endpoint& endpoint) {
     const EndpointOptions& o = endpoint.options;
     if (o.tap && o.heartbeat)
         return usage(
-            "heartbeat= does not go with tap=true: a tap gets what others send, and the router sends it nothing of its "
-            "own");
+            "heartbeat= and tap=true exclude each other: a tap gets the frames of other links, and the router sends it "
+            "none of its own");
     return {};
 }
 
 SetupResult<void> check_source_options(const Endpoint& endpoint) {
     const auto refused = [&](std::string_view key) {
-        return usage(fmt::format("{}: '{}' is for a recording that is written; this one is read",
+        return usage(fmt::format("{}: '{}' applies to a recording that is written; this one is read",
                                  in_quotes(endpoint.label()), key));
     };
     if (endpoint.options.rotate_bytes != 0) return refused("rotate_bytes");

@@ -76,7 +76,8 @@ SetupResult<void> add_filter_term(FilterTerms& terms, std::string_view text) {
     }
     const auto kind = text.substr(0, colon);
     if (kind != "sys" && kind != "comp")
-        return usage(fmt::format("{} is no filter term; type a message name, an id, sys:N or comp:N", in_quotes(text)));
+        return usage(
+            fmt::format("{} is not a filter term; type a message name, an id, sys:N or comp:N", in_quotes(text)));
     const auto id = parse_integer(text.substr(colon + 1), 0, 255);
     if (!id) return tl::unexpected(SetupError(id.error()).within(kind));
     (kind == "sys" ? terms.systems : terms.components).push_back(static_cast<std::uint8_t>(*id));
@@ -89,9 +90,9 @@ SetupResult<std::chrono::nanoseconds> parse_duration(std::string_view text) {
     const auto number = leading_number<double>(text);
     const Unit* unit = number.ok ? find_unit(duration_units, number.rest) : nullptr;
     if (unit == nullptr || !std::isfinite(number.value))
-        return usage(
-            fmt::format("{} is no duration; type for example 2, 2s, 500ms, 1m or 1h (seconds unless a unit follows)",
-                        in_quotes(text)));
+        return usage(fmt::format(
+            "{} is not a duration; for example, type 2, 2s, 500ms, 1m or 1h (seconds unless a unit follows)",
+            in_quotes(text)));
     const double ns = number.value * unit->value;
     constexpr double ten_years_ns = 3653 * 86400e9;  // far below the range of 64-bit nanoseconds
     if (ns > ten_years_ns) return usage(fmt::format("{} is longer than ten years", in_quotes(text)));
@@ -102,7 +103,7 @@ SetupResult<std::uint64_t> parse_size(std::string_view text) {
     const auto number = leading_number<std::uint64_t>(text);
     const Unit* unit = number.ok ? find_unit(size_units, number.rest) : nullptr;
     if (unit == nullptr)
-        return usage(fmt::format("{} is no size; type for example 65536, 64k or 32MiB", in_quotes(text)));
+        return usage(fmt::format("{} is not a size; for example, type 65536, 64k or 32MiB", in_quotes(text)));
     const auto factor = static_cast<std::uint64_t>(unit->value);
     constexpr std::uint64_t most = std::uint64_t{1} << 62;
     if (number.value > most / factor) return usage(fmt::format("{} is larger than any disk", in_quotes(text)));
@@ -117,7 +118,7 @@ SetupResult<std::uint16_t> parse_mode(std::string_view text) {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), mode, 8);
     if (error != std::errc{} || end != digits.data() + digits.size() || digits.size() != 3)
         return usage(
-            fmt::format("{} is no file mode; type three octal digits, for example 0600 or 0640", in_quotes(text)));
+            fmt::format("{} is not a file mode; type three octal digits, for example 0600 or 0640", in_quotes(text)));
     return mode;
 }
 
@@ -134,7 +135,7 @@ SetupResult<std::uint64_t> parse_ring_capacity(std::string_view text) {
     constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 36;
     auto size = parse_size(text);
     if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
-        return usage(fmt::format("{} is no power of two from 64k to 64G", in_quotes(text)));
+        return usage(fmt::format("{} is not a power of two from 64k to 64G", in_quotes(text)));
     return size;
 }
 

@@ -48,7 +48,7 @@ SetupResult<std::shared_ptr<Hub>> Hub::get() {
         registry().push_back(hub);
         return hub;
     } catch (const std::system_error& error) {
-        return system_error("a thread for links", error.code().value());
+        return system_error("cannot start the thread for links", error.code().value());
     }
 }
 

@@ -119,7 +119,7 @@ SetupResult<link::EndpointId> HubLinks::open_way_out(link::EndpointId ring) {
 
 SetupResult<void> HubLinks::serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode) {
     auto& served = served_.at(endpoint);
-    if (served.served_inlet) return setup_error(SetupCode::usage, "this link serves a ring's inlet already");
+    if (served.served_inlet) return setup_error(SetupCode::usage, "this link already serves a ring's inlet");
     const auto path = link::Links::inlet_path(ring);
     if (!path) return tl::unexpected(path.error());
     const auto opened = links().add_inlet(ring, *path, mode);

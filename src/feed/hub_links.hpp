@@ -33,7 +33,8 @@ public:
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     [[nodiscard]] EndpointStats stats(link::EndpointId endpoint);
 
-    // Returns whether the far side was reached, or why not; nullopt while neither is known.
+    // Returns success if the far side was reached, and the error if it was not. Returns nullopt while the outcome is
+    // unknown.
     [[nodiscard]] std::optional<SetupResult<void>> far_side(const Hub::Opened& opened);
     // True if all frames were sent, or if there is no peer to receive them.
     [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
@@ -66,7 +67,7 @@ private:
 
     // sources_ refers to dialects that the channels in served_ own, so served_ is destroyed after it.
     std::unordered_map<link::EndpointId, Served> served_;
-    // By served inlet: the endpoint that fills the ring.
+    // Maps each served inlet to the endpoint that fills its ring.
     std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
 };

@@ -100,7 +100,7 @@ SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWor
     try {
         alarm->clock_.add(*alarm);
     } catch (const std::system_error& error) {
-        return system_error("a thread that waits for rings", error.code().value());
+        return system_error("cannot start the thread that waits for rings", error.code().value());
     }
     return alarm;
 }

@@ -6,7 +6,7 @@
 
 namespace mavloom::feed {
 
-// Whether the frame is the HEARTBEAT of a vehicle, not that of a ground station, camera, gimbal or computer.
+// Returns true for the HEARTBEAT of a vehicle, and false for that of a ground station, camera, gimbal or computer.
 [[nodiscard]] bool is_vehicle_heartbeat(const wire::FrameView& frame) noexcept;
 
 }  // namespace mavloom::feed

@@ -76,7 +76,8 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
     const std::string label = endpoint.label();
     const bool is_named = has_address_of_its_own(endpoint);
     if (is_named && !may_repeat(endpoint) && core_->endpoints.has(label))
-        return setup_error(SetupCode::usage, fmt::format("two endpoints are called {}; name= tells them apart", label));
+        return setup_error(SetupCode::usage,
+                           fmt::format("two endpoints are named {}; give one of them another name=", label));
     const EndpointId id = core_->endpoints.next_id();
     const EndpointId signs_as = is_named ? core_->signing_ids.id_for(label, id, core_->endpoints) : id;
     if (auto opened = open_as(id, signs_as, endpoint, dialect); !opened)

@@ -9,7 +9,8 @@
 
 namespace mavloom::link::detail {
 
-// `Listener` has `open(addresses)`. A look-up that takes longer than a second continues in the background.
+// `Listener` is the class of the endpoint; its `open(addresses)` binds the addresses. A look-up that takes longer than
+// a second continues in the background.
 template <class Listener>
 SetupResult<std::unique_ptr<OpenEndpoint>> open_listening(Opening opening) {
     constexpr std::chrono::seconds look_up_limit{1};

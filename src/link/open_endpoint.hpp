@@ -40,7 +40,7 @@ public:
     virtual std::size_t send(const wire::FrameView& frame) = 0;
     [[nodiscard]] virtual std::size_t queued_bytes() const = 0;
     virtual void refresh_kernel_drops() {}
-    // Counts frames as sent if they have not been refused so far.
+    // Counts as sent all frames that no ICMP message has refused so far.
     virtual void settle_sent() {}
     // Closes one peer or client. Returns false if the endpoint cannot have several links.
     virtual bool close_link(LinkId) { return false; }

@@ -31,7 +31,7 @@ public:
         tell(error.text, "trying again");
         fail_silently(error);
     }
-    // Retries without reporting the error, which was already reported.
+    // Retries without a report, for an error that was already reported.
     void fail_silently(const SetupError& error) {
         endpoint_.failure = error;
         later();

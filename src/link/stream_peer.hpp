@@ -15,8 +15,8 @@
 namespace mavloom::link::detail {
 
 // Reads once per turn, and writes the queue in as few calls as possible. Bytes that the kernel does not accept stay in
-// the queue. `Self` is the derived class (CRTP). Its function `wants(event)` returns whether to pass the parser's event
-// to the handler.
+// the queue. `Self` is the derived class (CRTP). Its function `wants(event)` decides whether an event of the parser
+// goes to the handler.
 template <class Self, class Stream>
 class StreamPeer : public Link, public Outlet, public net::IoHandler, public Ticker {
 public:
@@ -65,8 +65,8 @@ protected:
     // Called when the stream has ended, or reading or writing has failed permanently.
     virtual void on_end(net::IoError error) = 0;
 
-    // Writes at most about `room` bytes. Returns false if the queue holds more than that; true if it is empty, or if
-    // the stream has ended or waits for the kernel.
+    // Writes at most about `room` bytes. Returns false if more bytes remain in the queue. Returns true if the queue is
+    // empty, or if the stream has ended or waits for the kernel.
     [[nodiscard]] bool write_queue(std::size_t room) {
         while (!queue.empty()) {
             if (room == 0) return false;

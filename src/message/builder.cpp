@@ -171,7 +171,8 @@ SetupResult<void> MessageBuilder::set_unsigned(const Field& field, std::uint64_t
 SetupResult<void> MessageBuilder::set_text(const Field& field, std::string_view utf8) {
     if (field.type != dialect::FieldType::char8) return refuse(*definition_, field, "is not a text field");
     if (utf8.size() > field.size())
-        return refuse(*definition_, field, fmt::format("text of {} bytes, at most {} fit", utf8.size(), field.size()));
+        return refuse(*definition_, field,
+                      fmt::format("a text of {} bytes is too long; at most {} fit", utf8.size(), field.size()));
     auto* to = bytes_.data() + field.offset;
     std::fill(std::copy(utf8.begin(), utf8.end(), to), to + field.size(), std::uint8_t{0});
     return {};

@@ -21,9 +21,9 @@ inline constexpr std::size_t number_room = 48;
 
 namespace detail {
 
-// Returns the eight decimal digits of `value` < 10^8 as values 0 to 9, the first one in the lowest byte. Splits the
-// value into fours, then pairs, then digits, in all lanes of a word at once. It has no branches, because the lengths of
-// telemetry numbers are unpredictable.
+// Returns the eight decimal digits of `value` < 10^8, one in each byte as 0 to 9, the first digit in the lowest byte.
+// Splits the value into groups of four digits, then pairs, then digits, in all lanes of a word at once. It has no
+// branches, because the lengths of telemetry numbers are unpredictable.
 constexpr std::uint64_t eight_digits(std::uint32_t value) noexcept {
     // x * 10486 >> 20 is x / 100 for x below 10^4; x * 103 >> 10 is x / 10 for x below 100.
     constexpr std::uint64_t by_100 = 10486, by_10 = 103;

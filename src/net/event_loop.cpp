@@ -29,11 +29,11 @@ static std::uint64_t token_of(WatchId id) noexcept { return std::uint64_t{id.gen
 
 SetupResult<std::unique_ptr<EventLoop>> EventLoop::create() {
     Fd epoll(epoll_create1(EPOLL_CLOEXEC));
-    if (!epoll) return system_error("cannot make an epoll descriptor", errno);
+    if (!epoll) return system_error("cannot create an epoll descriptor", errno);
     auto wake = std::make_shared<const Fd>(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-    if (!*wake) return system_error("cannot make an event descriptor", errno);
+    if (!*wake) return system_error("cannot create an event descriptor", errno);
     Fd alarm(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
-    if (!alarm) return system_error("cannot make a timer descriptor", errno);
+    if (!alarm) return system_error("cannot create a timer descriptor", errno);
     epoll_event on_wake{EPOLLIN, {.u64 = wake_token}};
     epoll_event on_alarm{EPOLLIN | EPOLLET, {.u64 = alarm_token}};  // never read: setting the timer again clears it
     if (epoll_ctl(epoll.get(), EPOLL_CTL_ADD, wake->get(), &on_wake) != 0 ||

@@ -47,15 +47,15 @@ LocalSocket::~LocalSocket() = default;
 
 SetupResult<LocalSocket> LocalSocket::open(const std::filesystem::path& path, unsigned mode) {
     const auto address = unix_address(path);
-    if (!address) return system_error(fmt::format("cannot make a socket at {}", path.string()), ENAMETOOLONG);
+    if (!address) return system_error(fmt::format("cannot create a socket at {}", path.string()), ENAMETOOLONG);
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (!fd) return system_error("cannot make a Unix socket", errno);
+    if (!fd) return system_error("cannot create a Unix socket", errno);
     set_option(fd.get(), SOL_SOCKET, SO_TIMESTAMPNS, 1);
     // fchmod before bind closes the gap in which other users could connect. chmod after bind restores the bits that the
     // umask removed.
     if (::fchmod(fd.get(), mode) != 0 || ::bind(fd.get(), as_sockaddr(*address), sizeof *address) != 0 ||
         ::chmod(path.c_str(), mode) != 0)
-        return system_error(fmt::format("cannot make a socket at {}", path.string()), errno);
+        return system_error(fmt::format("cannot create a socket at {}", path.string()), errno);
     return LocalSocket(std::move(fd), std::make_unique<Slots>());
 }
 

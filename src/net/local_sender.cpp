@@ -20,7 +20,7 @@ SetupResult<LocalSender> LocalSender::connect(const std::filesystem::path& path)
     const auto far = unix_address(path);
     if (!far) return setup_error(SetupCode::usage, fmt::format("{} is too long for a socket's path", path.string()));
     Fd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (!fd) return system_error("cannot make a local socket", errno);
+    if (!fd) return system_error("cannot create a local socket", errno);
     sockaddr_un own{};  // no name: the kernel assigns a free abstract address, without a file
     own.sun_family = AF_UNIX;
     if (::bind(fd.get(), as_sockaddr(own), sizeof own.sun_family) != 0)

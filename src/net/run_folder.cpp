@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> run_folders() {
 
 SetupResult<void> check_name(std::string_view name) {
     if (is_name(name)) return {};
-    return setup_error(SetupCode::usage, fmt::format("'{}' is no name: 1 to 64 of A-Z a-z 0-9 _ -", name));
+    return setup_error(SetupCode::usage, fmt::format("'{}' is not a valid name: use 1 to 64 of A-Z a-z 0-9 _ -", name));
 }
 
 }  // namespace
@@ -50,16 +50,17 @@ SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_v
         auto path = folder / fmt::format("{}.{}", name, suffix);
         if (path.native().size() <= most) return path;
         return setup_error(SetupCode::permission,
-                           fmt::format("{} {}: a socket's path has at most {} bytes; a shorter name or MAVLOOM_RUN "
-                                       "helps",
+                           fmt::format("{} {}: a socket's path has at most {} bytes; choose a shorter name, or "
+                                       "set MAVLOOM_RUN to a shorter path",
                                        what, path.string(), most));
     }
     if (const auto only = value_of(run_variable); !only.empty())
-        return setup_error(SetupCode::permission, fmt::format("no folder for the {}: {}={} cannot be made or written",
-                                                              what, run_variable, only));
+        return setup_error(
+            SetupCode::permission,
+            fmt::format("no folder for the {}: {}={} cannot be created or written", what, run_variable, only));
     return setup_error(
         SetupCode::permission,
-        fmt::format("no folder for the {}: /run/mavloom cannot be made and XDG_RUNTIME_DIR is not set", what));
+        fmt::format("no folder for the {}: /run/mavloom cannot be created, and XDG_RUNTIME_DIR is not set", what));
 }
 
 SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix) {

@@ -34,8 +34,9 @@ SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
 
 static tl::unexpected<SetupError> open_error(const std::string& device, int err) {
     auto error = system_error(fmt::format("cannot open {}", device), err);
-    if (err == EACCES) error.value().text += "; serial ports belong to a group of users, on Debian to dialout";
-    if (err == EBUSY) error.value().text += "; another program has it";
+    if (err == EACCES)
+        error.value().text += "; your user must be in the group that owns serial ports (on Debian: dialout)";
+    if (err == EBUSY) error.value().text += "; another program uses it";
     if (err == EISDIR) error.value().code = SetupCode::usage;
     return error;
 }
@@ -45,7 +46,7 @@ SetupResult<SerialPort> SerialPort::open(const std::string& device, const Serial
     port.fd_ = Fd(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!port.fd_) return open_error(device, errno);
     if (::isatty(port.fd()) == 0 && errno != EIO) {
-        return setup_error(SetupCode::usage, fmt::format("{} is no serial port", device));
+        return setup_error(SetupCode::usage, fmt::format("{} is not a serial port", device));
     }
     if (auto done = port.lock(device); !done) return tl::unexpected(std::move(done).error());
     if (auto done = port.set_raw(options); !done)

@@ -29,7 +29,7 @@ static void set_stream_options(int fd) noexcept {
 
 SetupResult<TcpStream> TcpStream::start_connect(const Address& remote, const std::optional<Address>& local) {
     Fd fd(::socket(remote.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (!fd) return system_error("cannot make a TCP socket", errno);
+    if (!fd) return system_error("cannot create a TCP socket", errno);
     set_stream_options(fd.get());
     if (local) {
         set_option(fd.get(), SOL_SOCKET, SO_REUSEADDR, 1);
@@ -75,7 +75,7 @@ IoResult<std::size_t> TcpStream::write(std::span<const iovec> pieces) noexcept {
 SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     TcpListener listener;
     listener.fd_ = Fd(::socket(local.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (!listener.fd_) return system_error("cannot make a TCP socket", errno);
+    if (!listener.fd_) return system_error("cannot create a TCP socket", errno);
     const int fd = listener.fd();
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, v6_only ? 1 : 0);
     // Lets a restarted program reuse its port while old connections linger. A port with an active listener is still

@@ -36,7 +36,7 @@ struct ReceiveBatch::Slots {
 SetupResult<ReceiveBatch> ReceiveBatch::create() {
     void* memory = mmap(nullptr, batch_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1,
                         0);
-    if (memory == MAP_FAILED) return system_error("cannot get memory for received datagrams", errno);
+    if (memory == MAP_FAILED) return system_error("cannot allocate memory for received datagrams", errno);
     // Transparent huge pages would make every slot fully resident.
     madvise(memory, batch_bytes, MADV_NOHUGEPAGE);
     return ReceiveBatch(std::make_unique<Slots>(), static_cast<std::uint8_t*>(memory));
@@ -137,7 +137,7 @@ static SetupResult<void> choose_group_interface(int fd, bool v6, std::uint32_t i
     const int v6_index = static_cast<int>(index);
     const int failed = v6 ? setsockopt(fd, IPPROTO_IPV6, IPV6_MULTICAST_IF, &v6_index, sizeof v6_index)
                           : setsockopt(fd, IPPROTO_IP, IP_MULTICAST_IF, &v4, sizeof v4);
-    if (failed != 0) return system_error("cannot send to groups by this interface", errno);
+    if (failed != 0) return system_error("cannot send to multicast groups through this interface", errno);
     return {};
 }
 
@@ -155,7 +155,7 @@ static SetupResult<void> join(int fd, const Address& group, std::uint32_t index)
 SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& options) {
     UdpSocket socket;
     socket.fd_ = Fd(::socket(local.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (!socket.fd_) return system_error("cannot make a UDP socket", errno);
+    if (!socket.fd_) return system_error("cannot create a UDP socket", errno);
     const int fd = socket.fd();
     if (local.is_v6()) set_option(fd, IPPROTO_IPV6, IPV6_V6ONLY, options.v6_only ? 1 : 0);
     set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1);

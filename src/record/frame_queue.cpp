@@ -33,7 +33,7 @@ SetupResult<std::unique_ptr<FrameQueue>> FrameQueue::create(std::size_t capacity
     static_assert(sizeof(Header) == header_bytes);
     const std::size_t capacity = std::bit_ceil(std::max(capacity_bytes, smallest_capacity));
     void* memory = ::mmap(nullptr, capacity, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) return system_error("cannot get memory for the receive buffer (--buffer)", errno);
+    if (memory == MAP_FAILED) return system_error("cannot allocate memory for the receive buffer (--buffer)", errno);
     return std::unique_ptr<FrameQueue>(new FrameQueue(static_cast<std::uint8_t*>(memory), capacity));
 }
 

@@ -68,8 +68,8 @@ void Recorder::count() noexcept {
 void Recorder::tell(const SetupResult<void>& result) {
     if (failing_ == !result.has_value()) return;
     failing_ = !failing_;
-    notice_(failing_ ? fmt::format("{}: {}; what finds no room in memory meanwhile is counted as write_error", label_,
-                                   result.error().text)
+    notice_(failing_ ? fmt::format("{}: {}; frames that do not fit into memory meanwhile are counted as write_error",
+                                   label_, result.error().text)
                      : fmt::format("{}: records are written again", label_));
 }
 

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 SetupResult<void> check_place(const fs::path& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-        return setup_error(SetupCode::usage, fmt::format("{} is no file: it cannot be rotated", path.string()));
+        return setup_error(SetupCode::usage,
+                           fmt::format("{} is not a regular file, so it cannot be rotated", path.string()));
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (::stat(folder.c_str(), &status) != 0 || ::access(folder.c_str(), W_OK | X_OK) != 0)
         return system_error(fmt::format("cannot create files in {}", folder.string()), errno);

@@ -35,11 +35,12 @@ struct Joined {
 };
 
 // Recognizes a record that plausibly follows the previous one, without checking its checksum. Its time must be within a
-// day of `before_us`, and its id must be known. Its frame must have no undefined flag, and a payload no longer than its
-// definition. `record` must point to at least max_record_length bytes.
+// day of `before_us`, the time of the previous record. Its message id must be known. Its frame must have no undefined
+// flag, and its payload must not be longer than the definition. `record` must point to at least max_record_length
+// bytes.
 //
-// For speed, the only dependency between calls in a loop is the returned length. Version and flags are therefore tested
-// with branches, which the processor predicts.
+// For speed, each call in a loop depends on the previous one only through the returned length. Version and flags are
+// therefore tested with branches, which the processor predicts.
 [[nodiscard]] inline Joined joined_record(const std::uint8_t* record, std::uint64_t before_us,
                                           const wire::MessageTable& table) noexcept {
     constexpr std::uint64_t day_us = 86'400'000'000;

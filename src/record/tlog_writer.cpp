@@ -38,8 +38,9 @@ SetupResult<fs::path> move_away(const fs::path& path) {
         if (error != EEXIST)
             return system_error(fmt::format("cannot rename the existing {} to {}", path.string(), old.string()), error);
     }
-    return setup_error(SetupCode::in_use, fmt::format("{} exists, and so do {}.1 to {}.{}: move some away",
-                                                      path.string(), path.string(), path.string(), most_old_files));
+    return setup_error(SetupCode::in_use,
+                       fmt::format("{} exists, and so do {}.1 to {}.{}: move some of them to another folder",
+                                   path.string(), path.string(), path.string(), most_old_files));
 }
 
 std::uint64_t time_on_file(WallTime time) noexcept {

@@ -171,7 +171,7 @@ void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {
         next_look_ = mono_now() + look_distance;
         return tell(handler, Told::damaged, "the ring is damaged; waiting for another ring of that name");
     }
-    if (follower_.is_open()) return tell(handler, Told::unwritten, "nobody writes to it; waiting for a writer");
+    if (follower_.is_open()) return tell(handler, Told::unwritten, "it has no writer; waiting for one");
     next_look_ = mono_now() + look_distance;
     const auto* const error = follower_.error();
     if (error == nullptr) return;
@@ -238,7 +238,7 @@ void RingSource::forget_longest_silent(link::LinkHandler& handler) {
     last_ = nullptr;
     std::erase_if(by_name_, [&](const auto& entry) {
         if (entry.second->heard >= *middle) return false;
-        handler.on_link_down(entry.second->id, id_, "silent for long");
+        handler.on_link_down(entry.second->id, id_, "silent for too long");
         return true;
     });
 }

@@ -21,7 +21,7 @@ SetupResult<link::EndpointId> RingSources::add(const endpoint::Endpoint& endpoin
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
     if (!links_.may_repeat(endpoint) && std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
-                           fmt::format("two endpoints are called {}; name= tells them apart", endpoint.label()));
+                           fmt::format("two endpoints are named {}; give one of them another name=", endpoint.label()));
     auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
                                              links_, copies_, dialect);
     if (auto opened = ring->open(); !opened) return tl::unexpected(std::move(opened.error()));

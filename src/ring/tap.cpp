@@ -94,11 +94,11 @@ void RingTap::take_new_ring(std::vector<std::string>& notices) {
     shm::RingWriter old = std::move(writer_);
     if (anew) {
         writer_ = std::move(*anew);
-        notices.push_back(fmt::format("ring {} was removed, and is made anew", name_));
+        notices.push_back(fmt::format("ring {} was removed; it is created again", name_));
     } else if (!told_ring_) {
         notices.push_back(
-            fmt::format("ring {} was removed: {}; tried again every second, and its frames are counted as dropped",
-                        name_, anew.error().text));
+            fmt::format("ring {} was removed: {}; trying again every second, and counting its frames as dropped", name_,
+                        anew.error().text));
     }
     told_ring_ = !anew;
     work_beside([old = std::move(old)] {});  // releasing the memory takes time too
@@ -108,7 +108,7 @@ void RingTap::make_page_anew(const link::Links& links, std::vector<std::string>&
     auto anew = RingPage::create(name_, options_.mode);
     if (!anew) {
         if (!std::exchange(told_page_, true))
-            notices.push_back(fmt::format("no counter page of ring {}: {}", name_, anew.error().text));
+            notices.push_back(fmt::format("no counter page for ring {}: {}", name_, anew.error().text));
         page_.reset();
         return;
     }

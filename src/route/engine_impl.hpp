@@ -45,7 +45,7 @@ public:
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
-        // A cache of the last long list of links that frames from this link were sent to.
+        // A cache of the last long list of links to which frames from this link were sent.
         std::size_t listed = 0;  // length; 0 if there is no list
         std::vector<std::uint64_t> listed_set{};
         std::vector<LinkId> list{};

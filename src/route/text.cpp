@@ -29,11 +29,10 @@ std::string_view reason_text(Reason reason) noexcept {
         case Reason::same_group: return "it came from another link of the same group";
         case Reason::source_here: return "its own sender was heard on this link";
         case Reason::other_target: return "its target was not heard on this link";
-        case Reason::private_link:
-            return "a private link, and not targeted at exactly a component that was heard there";
+        case Reason::private_link: return "a private link on which the exact target was not heard";
         case Reason::filtered: return "filtered on the way out";
         case Reason::other_member: return "another link of the group carries it";
-        case Reason::already_sent: return "it was sent there when another link brought it";
+        case Reason::already_sent: return "it was already sent there when it arrived on another link";
         case Reason::rate_limited: return "over max_rate";
         case Reason::bytes_limited: return "over max_bytes";
     }

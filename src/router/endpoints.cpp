@@ -128,7 +128,7 @@ void RoutedEndpoints::refill_lines() {
         if (endpoint == nullptr) continue;
         if (const auto more = endpoint->lines.refill(); more != 0)
             notice_(config::LogLevel::info,
-                    fmt::format("{}: {} more times a link came or went", endpoint->endpoint.label(), more));
+                    fmt::format("{}: links came or went {} more times", endpoint->endpoint.label(), more));
     }
 }
 

@@ -106,7 +106,7 @@ std::vector<std::string> Forwarder::look_after() {
     const auto ids = engine_.duplicate_ids();
     for (const auto& id : ids.subspan(std::exchange(duplicate_ids_told_, ids.size())))
         warnings.push_back(
-            fmt::format("{}/{} is heard on {} and on {}: two senders of one id, or redundant links that want group=",
+            fmt::format("{}/{} is heard on {} and on {}: two senders with one id, or redundant links that need group=",
                         id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
     return warnings;
 }

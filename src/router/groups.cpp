@@ -9,7 +9,7 @@ namespace mavloom::router {
 
 tl::unexpected<SetupError> other_mode(const endpoint::Endpoint& endpoint, endpoint::GroupMode mode) {
     return setup_error(SetupCode::usage,
-                       fmt::format("{}: group '{}' has group_mode={} already: a group has one", endpoint.label(),
+                       fmt::format("{}: group '{}' already has group_mode={}; a group has one mode", endpoint.label(),
                                    endpoint.options.group, endpoint::group_mode_name(mode)));
 }
 

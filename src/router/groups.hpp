@@ -33,7 +33,7 @@ private:
     Modes modes_;
 };
 
-// The error of an endpoint whose group already has another mode.
+// Returns the error for an endpoint whose group already has another mode.
 [[nodiscard]] tl::unexpected<SetupError> other_mode(const endpoint::Endpoint& endpoint, endpoint::GroupMode mode);
 
 }  // namespace mavloom::router

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sends the router's own messages, with its own system and component id. They are a HEARTBEAT on the links that want
+// Sends the router's own messages, with its own system and component id. These are a HEARTBEAT, on the links that get
 // one, and requests for ArduPilot's data streams. Each link has its own sequence numbers. A router without an id sends
 // nothing. See docs/guide/route.md, "The router's own heartbeat".
 //
@@ -22,9 +22,9 @@
 
 namespace mavloom::router {
 
-// Whether links of this endpoint get the router's heartbeat. `heartbeat=` decides. By default, an endpoint gets it if
-// it sends first (endpoint::calls_somebody) and is not a tap. A client or peer that connects to the router could
-// mistake the heartbeat for that of a vehicle.
+// Whether links of this endpoint get the router's heartbeat. If `heartbeat=` is set, it decides. By default, an
+// endpoint gets the heartbeat if it sends first (endpoint::calls_somebody) and is not a tap. Other endpoints do not,
+// because a client or peer that connects to the router could mistake the heartbeat for that of a vehicle.
 [[nodiscard]] bool wants_heartbeat(const endpoint::Endpoint& endpoint) noexcept;
 
 class OwnMessages {
@@ -54,7 +54,8 @@ public:
     [[nodiscard]] MonoTime next_due() const noexcept;
     void send_due(MonoTime now);
 
-    // Handles a received HEARTBEAT: requests the data streams of an ArduPilot, if the configuration demands it.
+    // Handles a received HEARTBEAT: requests the data streams if the sender is an ArduPilot and the configuration asks
+    // for that.
     void on_heartbeat(LinkId link, const wire::FrameView& frame, MonoTime now);
 
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept { return heartbeats_sent_.value(); }

@@ -17,7 +17,7 @@ SetupResult<void> refuse_fifo(const std::string& path) {
     if (!std::filesystem::is_fifo(path, unknown)) return {};
     return setup_error(
         SetupCode::usage,
-        fmt::format("{} is a FIFO, and routing would wait for its reader; mavloom record writes to one", path));
+        fmt::format("{} is a FIFO, and the router would wait for its reader; use mavloom record instead", path));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ SetupResult<void> Recordings::add(const endpoint::Endpoint& endpoint) {
                open.endpoint.label() == endpoint.label();
     };
     if (std::ranges::any_of(open_, is_same))
-        return setup_error(SetupCode::usage, fmt::format("{} is recorded already", endpoint.label()));
+        return setup_error(SetupCode::usage, fmt::format("another recording already writes to {}", endpoint.label()));
     if (auto good = endpoint::check_written(endpoint); !good) return good;
     if (auto good = refuse_fifo(endpoint.path); !good) return good;
     const auto& o = endpoint.options;

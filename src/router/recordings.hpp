@@ -22,7 +22,7 @@ public:
     Recordings(Notice notice, std::function<void(std::string)> warn)
         : notice_(std::move(notice)), warn_(std::move(warn)) {}
 
-    // Fails if the file is being recorded already, or cannot be written.
+    // Fails if another recording already writes to the file, or if the file cannot be written.
     [[nodiscard]] SetupResult<void> add(const endpoint::Endpoint& endpoint);
     // Ends the recording without waiting for the disk, so that routing continues. Returns false if there is none.
     bool remove(std::string_view label);

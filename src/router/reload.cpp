@@ -87,7 +87,7 @@ void Router::add_missing(std::span<const endpoint::Endpoint> wanted, std::span<c
 void Router::put_back(std::span<const endpoint::Endpoint> gone, const std::string& label) {
     const auto before = std::ranges::find(gone, label, &endpoint::Endpoint::label);
     if (before != gone.end() && add(*before))
-        notice_(config::LogLevel::info, fmt::format("{}: goes on with its former options", label));
+        notice_(config::LogLevel::info, fmt::format("{}: continues with its former options", label));
 }
 
 }  // namespace mavloom::router

@@ -97,8 +97,8 @@ void Router::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view
     if (ring_) ring_->on_link_up(link, name);
     RoutedEndpoint& at = endpoints_->of(endpoint);
     if (!forwarder_->add_link(link, at))
-        return notice_(config::LogLevel::warning,
-                       fmt::format("{}: more than {} links; nothing goes to it", name, route::Engine::max_links));
+        return notice_(config::LogLevel::warning, fmt::format("{}: more than {} links; the router sends nothing to it",
+                                                              name, route::Engine::max_links));
     if (expects_answer(at.endpoint)) silence_->add(link, endpoint);
     if (at.lines.spend()) notice_(config::LogLevel::info, fmt::format("{}: up", name));
 }

@@ -16,41 +16,42 @@ std::string advice_for(const endpoint::Endpoint& endpoint) {
         case endpoint::Scheme::serial:
             return fmt::format(
                 "is it the right port, is the baud rate right ({}), are the wires crossed (TX to RX), and "
-                "does the far side speak MAVLink there?",
+                "does the far side send MAVLink on that port?",
                 endpoint.options.baud == 0 ? std::string("baud=auto found none yet")
                                            : fmt::format("{} here; baud=auto tries a list", endpoint.options.baud));
         case endpoint::Scheme::tcpout:
-            return fmt::format("{} took the connection: does it speak MAVLink?", endpoint::to_text(endpoint.address));
+            return fmt::format("{} accepted the connection: does it send MAVLink?", endpoint::to_text(endpoint.address));
         case endpoint::Scheme::udpbcast:
             return fmt::format(
-                "does anybody on that network listen on port {}, and does a firewall let answers through?",
+                "does a program on that network listen on port {}, and does the firewall let answers through?",
                 endpoint.address.port);
         case endpoint::Scheme::udpmcast:
-            return fmt::format("is anybody in the group {}, on the network that iface= names or the routes choose?",
+            return fmt::format("is a program in the group {}, on the network that iface= or the routing table selects?",
                                endpoint::to_text(endpoint.address));
         default:
             return fmt::format(
-                "is {} the port that the far side listens on, and does it answer whoever speaks to it? PX4 "
-                "answers only the first that spoke to it: start it again after this router",
+                "does the far side listen on {}, and does it answer every sender? PX4 answers only the "
+                "first one: restart it after this router",
                 endpoint::to_text(endpoint.address));
     }
 }
 
 std::string evidence(const link::EndpointInfo& info, const link::LinkCounters& link) {
     if (link.bad_signature.value() != 0)
-        return fmt::format("{} frames came without the signature that verify= wants: is it the same key on both sides?",
-                           link.bad_signature.value());
+        return fmt::format(
+            "{} frames arrived without the signature that verify= requires: do both sides use the same key?",
+            link.bad_signature.value());
     if (info.counters->wrong_peer.value() != 0)
         return fmt::format(
-            "{} datagrams came from another address than {}: a far side that answers from another port "
-            "is heard by udpin://",
+            "{} datagrams came from an address other than {}: if the far side answers from another port, "
+            "receive with udpin://",
             info.counters->wrong_peer.value(), endpoint::to_text(info.endpoint.address));
     if (link.refused.value() != 0)
-        return fmt::format("{} frames were refused: nobody listens at {}", link.refused.value(),
+        return fmt::format("{} frames were refused: no program listens at {}", link.refused.value(),
                            endpoint::to_text(info.endpoint.address));
     if (link.junk_bytes.value() + link.crc_error.value() == 0) return {};
     const bool is_serial = info.endpoint.scheme == endpoint::Scheme::serial;
-    return fmt::format("what came is no MAVLink ({} bytes, {} damaged frames): {}", link.junk_bytes.value(),
+    return fmt::format("the received bytes are not MAVLink ({} bytes, {} damaged frames): {}", link.junk_bytes.value(),
                        link.crc_error.value(),
                        is_serial ? "is the baud rate right (baud=auto tries a list)?" : "is it the right port?");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Decides when to request the data streams of an ArduPilot, which sends only heartbeats on a link until it gets a
-// request. The router asks each source on each link when it first hears it, and again at the next heartbeat once 30 s
-// have passed.
+// Decides when to request the data streams of an ArduPilot. Until it gets a request, an ArduPilot sends only heartbeats
+// on a link. The router sends a request when it first hears a source on a link, and again at the first heartbeat after
+// 30 s have passed.
 //
 // Memory is bounded: a new source evicts the one that has been silent longest. A flood of sources that are heard only
 // once therefore does not displace those that keep sending heartbeats. Private to module router. One owner thread; time

@@ -43,10 +43,10 @@ SetupResult<PageHeader> header_of(const Segment& segment) {
     const auto wrong = [&](std::string_view what) {
         return setup_error(SetupCode::bad_input, fmt::format("{}: {}", segment.path(), what));
     };
-    if (header.magic != page_magic) return wrong("is no counter page of Mavloom");
+    if (header.magic != page_magic) return wrong("is not a Mavloom counter page");
     if (header.byte_order != byte_order_mark) return wrong("is a counter page of another byte order");
     if (header.major != page_major)
-        return wrong(fmt::format("is a counter page of version {}.{}; this program knows {}.{}", header.major,
+        return wrong(fmt::format("is a counter page of version {}.{}; this program supports {}.{}", header.major,
                                  header.minor, page_major, page_minor));
     if (header.counters > most_page_slots || header.links > most_page_slots ||
         segment.size() < page_bytes(header.counters, header.links))
@@ -128,7 +128,7 @@ std::optional<std::uint32_t> take_last(std::vector<std::uint32_t>& slots) noexce
 SetupResult<void> check_options(const CounterPageOptions& options) {
     if (options.counters > most_page_slots || options.links > most_page_slots)
         return setup_error(SetupCode::usage,
-                           fmt::format("a counter page takes at most {} counters and links", most_page_slots));
+                           fmt::format("a counter page has room for at most {} counters and links", most_page_slots));
     return {};
 }
 
@@ -163,7 +163,7 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
         }
         if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
     }
-    return setup_error(SetupCode::in_use, fmt::format("{} is made and removed by others without end", path));
+    return setup_error(SetupCode::in_use, fmt::format("{} keeps being created and removed by other processes", path));
 }
 
 CounterPage::CounterPage(std::unique_ptr<Segment> segment, const CounterPageOptions& options)

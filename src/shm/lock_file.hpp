@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A descriptor that holds open-file-description locks. Other processes test these locks to see whether this process is
-// alive.
+// A file descriptor that holds locks of its open file description (fcntl F_OFD_SETLK). Other processes test these locks
+// to learn whether this process is alive.
 //
 // A child of fork() shares the descriptor's open file description. It would keep the locks after the parent has died,
 // so an at-fork handler closes the descriptor in the child. Any thread may construct and destroy a LockFile; one owner

@@ -30,14 +30,14 @@ Identity identity_of(const Segment& segment) noexcept {
 SetupResult<void> check_identity(const Segment& segment) {
     const Identity found = identity_of(segment);
     const auto& path = segment.path();
-    if (found.magic != ring_magic) return wrong(path, "is no ring of Mavloom");
+    if (found.magic != ring_magic) return wrong(path, "is not a Mavloom ring");
     if (found.byte_order != byte_order_mark) return wrong(path, "is a ring of another byte order");
     if (found.major != ring_major)
-        return wrong(path, fmt::format("is a ring of version {}.{}; this program knows {}.{}", found.major, found.minor,
-                                       ring_major, ring_minor));
+        return wrong(path, fmt::format("is a ring of version {}.{}; this program supports {}.{}", found.major,
+                                       found.minor, ring_major, ring_minor));
     if (!std::has_single_bit(found.capacity) || found.capacity < min_capacity || found.capacity > max_capacity ||
         found.data_begin != data_offset || found.slots != reader_slots)
-        return wrong(path, "is a damaged ring: its sizes are none");
+        return wrong(path, "is a damaged ring: its sizes are invalid");
     if (segment.size() != data_offset + found.capacity)
         return wrong(path, fmt::format("is a truncated ring: {} bytes instead of {}", segment.size(),
                                        data_offset + found.capacity));
@@ -60,13 +60,13 @@ std::vector<std::string> other_rings(std::string_view name) {
 
 SetupResult<void> check_options(const RingOptions& options) {
     if (!std::has_single_bit(options.capacity) || options.capacity < min_capacity || options.capacity > max_capacity)
-        return setup_error(
-            SetupCode::usage,
-            fmt::format("a ring of {} bytes: the capacity is a power of two from 64 KiB to 64 GiB", options.capacity));
+        return setup_error(SetupCode::usage,
+                           fmt::format("a ring of {} bytes: the capacity must be a power of two from 64 KiB to 64 GiB",
+                                       options.capacity));
     if ((options.mode & 0600u) != 0600u || options.mode > 0777u)
         return setup_error(SetupCode::usage,
-                           fmt::format("mode {:04o} of a ring: the owner must be able to read and write, and only "
-                                       "permissions can be given",
+                           fmt::format("mode {:04o} of a ring: it must let the owner read and write, and contain only "
+                                       "permission bits",
                                        options.mode));
     return {};
 }
@@ -92,8 +92,8 @@ SetupResult<Segment> create_ring(const std::string& path, const RingOptions& opt
 
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
     const auto pid = memory_of(segment).control->writer_pid.load(std::memory_order_relaxed);
-    const auto who = pid == 0 ? std::string("which just begins or ends") : fmt::format("process {}", pid);
-    return setup_error(SetupCode::in_use, fmt::format("ring {} has a writer already, {}", name, who));
+    const auto who = pid == 0 ? std::string("which is just starting or ending") : fmt::format("process {}", pid);
+    return setup_error(SetupCode::in_use, fmt::format("ring {} already has a writer, {}", name, who));
 }
 
 }  // namespace
@@ -150,7 +150,8 @@ SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& op
         if (present && !present->is_named()) retire(*present);
         if (created || created.error().code != SetupCode::in_use) return created;
     }
-    return setup_error(SetupCode::in_use, fmt::format("ring {} is made and removed by others without end", name));
+    return setup_error(SetupCode::in_use,
+                       fmt::format("ring {} keeps being created and removed by other processes", name));
 }
 
 }  // namespace mavloom::shm

@@ -50,7 +50,8 @@ RingReader& RingReader::operator=(RingReader&& other) noexcept {
 SetupResult<RingReader> RingReader::open(std::string_view name, const ReaderOptions& options) {
     using Access = Segment::Access;
     if (options.lossless && options.read_only)
-        return setup_error(SetupCode::usage, "a lossless reader holds the writer: it cannot be read-only");
+        return setup_error(SetupCode::usage,
+                           "a lossless reader writes its position to the ring, so it cannot be read-only");
     auto segment = open_ring(name, options.read_only ? Access::read_only : Access::read_write);
     if (!segment && segment.error().code == SetupCode::permission && !options.lossless && !options.read_only)
         if (auto readable = open_ring(name, Access::read_only)) segment = std::move(readable);
@@ -65,7 +66,7 @@ SetupResult<void> RingReader::begin() {
     if (segment_->writable()) slot_ = take_slot();
     if (!slot_ && options_.lossless)
         return setup_error(SetupCode::in_use,
-                           fmt::format("ring {} has {} readers already, and takes no more", name_, reader_slots));
+                           fmt::format("ring {} already has {} readers, which is the maximum", name_, reader_slots));
     if (options_.spin) segment_->populate();  // other readers take the page faults during their first lap
     consumer_ = detail::Consumer<SharedWords>(memory_of(*segment_), slot_, options_.lossless);
     if (consumer_.start(options_.from == ReaderOptions::From::oldest ? Start::oldest : Start::newest)) {
@@ -76,7 +77,7 @@ SetupResult<void> RingReader::begin() {
     }
     return setup_error(
         SetupCode::bad_input,
-        fmt::format("{}: is a damaged ring: what stands before its end are no records", segment_->path()));
+        fmt::format("{}: is a damaged ring: the data before its end does not consist of records", segment_->path()));
 }
 
 // Returns this program's name in two words, for display by ring_status().

@@ -59,8 +59,8 @@ SetupResult<void> RingWriter::begin() {
     segment_->populate();
     if (!producer_.recover())
         return setup_error(SetupCode::bad_input,
-                           fmt::format("{}: is a damaged ring: what stands before its end are no records; "
-                                       "`mavloom shm remove {}` makes way for a new one",
+                           fmt::format("{}: is a damaged ring: the data before its end does not consist of records; "
+                                       "remove it with `mavloom shm remove {}`",
                                        segment_->path(), name_));
     // The old page's names do not match this writer's link numbers. Remove the page before `writers` makes readers look
     // for names.

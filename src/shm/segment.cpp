@@ -36,7 +36,7 @@ tl::unexpected<SetupError> cannot_open(const std::string& path, int error) {
 
 tl::unexpected<SetupError> no_space(const std::string& path, std::size_t size, int error) {
     const auto folder = path.substr(0, path.rfind('/'));
-    auto failed = system_error(fmt::format("cannot make {} of {} bytes", path, size), error);
+    auto failed = system_error(fmt::format("cannot create {} of {} bytes", path, size), error);
     struct statvfs status {};
     if (error == ENOSPC && ::statvfs(folder.c_str(), &status) == 0)
         failed.value().text += fmt::format("; {} has {} bytes free", folder, status.f_bavail * status.f_frsize);
@@ -66,8 +66,9 @@ int allocate(int fd, std::size_t size) {
 
 SetupResult<void> check_name(std::string_view name) {
     if (is_name(name)) return {};
-    return setup_error(SetupCode::usage, fmt::format("{} is no name of a ring: 1 to {} letters, digits, _ and -",
-                                                     in_quotes(name), longest_name));
+    return setup_error(
+        SetupCode::usage,
+        fmt::format("{} is not a valid ring name: use 1 to {} letters, digits, _ and -", in_quotes(name), longest_name));
 }
 
 std::string path_of(std::string_view name, std::string_view suffix) {
@@ -131,11 +132,12 @@ SetupResult<Segment> Segment::open(const std::string& path, Access access, std::
     Segment segment(path, std::make_unique<LockFile>(fd), access);
     struct stat status {};
     if (::fstat(fd, &status) != 0) return cannot_open(path, errno);
-    if (!S_ISREG(status.st_mode)) return setup_error(SetupCode::bad_input, fmt::format("{} is no regular file", path));
+    if (!S_ISREG(status.st_mode))
+        return setup_error(SetupCode::bad_input, fmt::format("{} is not a regular file", path));
     segment.size_ = static_cast<std::size_t>(status.st_size);
     if (segment.size_ < least_bytes)
-        return setup_error(SetupCode::bad_input,
-                           fmt::format("{} is truncated: {} bytes, of {} at least", path, segment.size_, least_bytes));
+        return setup_error(SetupCode::bad_input, fmt::format("{} is truncated: {} bytes instead of at least {}", path,
+                                                             segment.size_, least_bytes));
     if (auto mapped = segment.map(); !mapped) return tl::unexpected(std::move(mapped.error()));
     return segment;
 }
@@ -155,7 +157,7 @@ SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, 
     if (replaced != nullptr)
         if (auto unlinked = replaced->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
     if (::linkat(AT_FDCWD, path_of_descriptor(fd).c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
-        return system_error(fmt::format("cannot make {}", path), errno);
+        return system_error(fmt::format("cannot create {}", path), errno);
     return segment;
 }
 

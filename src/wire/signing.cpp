@@ -84,7 +84,7 @@ static SetupResult<SigningKey> read_key(int fd, const std::filesystem::path& fil
     struct stat status {};
     if (::fstat(fd, &status) != 0) return cannot_open(file, errno);
     if (!S_ISREG(status.st_mode))
-        return setup_error(SetupCode::bad_input, fmt::format("key file {} is no regular file", file.string()));
+        return setup_error(SetupCode::bad_input, fmt::format("key file {} is not a regular file", file.string()));
     if ((status.st_mode & 077) != 0)
         return setup_error(SetupCode::bad_input,
                            fmt::format("key file {} can be read by others (mode {:04o}): chmod 600 {}", file.string(),

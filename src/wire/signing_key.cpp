@@ -12,7 +12,7 @@
 namespace mavloom::wire {
 
 SetupResult<SigningKey> SigningKey::random() {
-    if (sodium_init() < 0) return system_error("the system gives no random numbers", EIO);
+    if (sodium_init() < 0) return system_error("the system provides no random numbers", EIO);
     std::array<std::uint8_t, length> bytes;
     randombytes_buf(bytes.data(), bytes.size());
     const SigningKey key(bytes);
@@ -25,7 +25,7 @@ SetupResult<void> SigningKey::create_file(const std::filesystem::path& file) con
     if (fd < 0 && errno == EEXIST)
         return setup_error(
             SetupCode::in_use,
-            fmt::format("{} exists already: a key that is replaced is lost; name another file", file.string()));
+            fmt::format("{} already exists, and its key would be lost; choose another file", file.string()));
     if (fd < 0) return system_error(fmt::format("cannot create {}", file.string()), errno);
     std::array<char, 2 * length + 1> text;
     sodium_bin2hex(text.data(), text.size(), bytes_.data(), bytes_.size());

@@ -104,7 +104,7 @@ def test_row_9_instances(peer, tmp_path):
 
     assert columns["voltages"].shape == (10, 10) and list(columns["voltages"][:, 9]) == list(range(1, 30, 3))
     assert len(mavloom.columns(path, "BATTERY_STATUS", instance=7)) == 0
-    with pytest.raises(ValueError, match="no field that tells instances apart"):
+    with pytest.raises(ValueError, match="no field that distinguishes instances"):
         mavloom.columns(path, "HEARTBEAT", instance=0)
 
 
@@ -207,7 +207,7 @@ def test_arrays_outlive_everything(flight):
     assert (roll == expected + 1).all()
 
 
-# ---- tables: example 9
+# ---- tables
 
 def test_example_9_arrow_and_parquet_keep_units_and_enum_names(flight, tmp_path):
     import pyarrow.parquet

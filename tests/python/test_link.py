@@ -195,7 +195,7 @@ def test_row_10_the_version_is_a_property_of_the_link(peer):
             assert link.send("HEARTBEAT", type=6) == 1
             frame = vehicle.socket.recv(65536)
             assert frame[0] == start and mavloom.Dialect().decode(frame).type == 6
-        with pytest.raises(ValueError, match="MAVLink 1 ends at 255"):
+        with pytest.raises(ValueError, match="MAVLink 1 allows at most 255"):
             old.send("ODOMETRY")
         assert old.send("STATUSTEXT", text="next", severity=6) == 1
         assert mavloom.Dialect().decode(vehicle.socket.recv(65536)).seq == 1
@@ -222,8 +222,8 @@ def test_row_16_what_is_forwarded_stays_as_it_is(link, vehicle, peer, tmp_path):
             assert far.socket.recv(65536) == frame
         assert onward.forward(memoryview(frames[0])) == 1
         assert far.socket.recv(65536) == frames[0]
-        for wrong, why in ((frames[0][:-1], "header says"), (frames[0] * 2, "header says"),
-                           (b"\x55" * 20, "no MAVLink frame"),
+        for wrong, why in ((frames[0][:-1], "header states"), (frames[0] * 2, "header states"),
+                           (b"\x55" * 20, "not a MAVLink frame"),
                            (frames[0][:-1] + bytes([frames[0][-1] ^ 1]), "checksum")):
             with pytest.raises(mavloom.InputError, match=why):
                 onward.forward(wrong)
@@ -527,7 +527,7 @@ def test_row_23_a_signature_has_a_verdict(tmp_path, peer):
         assert link.recv(timeout=0) is None
 
 
-# ---- asyncio: row 19, example 5
+# ---- asyncio: row 19
 
 def test_row_19_example_5_many_tasks_on_one_loop(link, vehicle):
     tasks, count = 200, 50
@@ -615,7 +615,7 @@ def test_row_19_cancel_and_close(link, vehicle):
     asyncio.run(run())
 
 
-# ---- closing, signals, fork, exit: row 26, example 11
+# ---- closing, signals, fork, exit: row 26
 
 def test_row_26_a_waiting_thread_wakes_and_later_calls_raise(link):
     ended = []

@@ -155,7 +155,7 @@ def test_a_ring_that_is_not_there_is_waited_for(ring):
 
 def test_a_name_of_a_link_is_given_once(ring, writer):
     with mavloom.connect(f"shm://{ring}?name=second") as first:
-        with pytest.raises(ValueError, match="two endpoints are called"):
+        with pytest.raises(ValueError, match="two endpoints are named"):
             mavloom.connect(f"shm://{ring}?name=second")
         with mavloom.connect(f"shm://{ring}") as second:
             writer.write(beat(4), kind=1)
@@ -177,7 +177,7 @@ def test_what_goes_on_into_another_ring_keeps_its_verdict(ring, writer):
 def test_a_ring_is_not_filled_with_itself(ring, writer):
     writer.write(beat(1), kind=1)
     with mavloom.connect(f"shm://{ring}?from=oldest") as link:
-        with pytest.raises(ValueError, match="filled with itself"):
+        with pytest.raises(ValueError, match="filled with its own records"):
             link.pump(writer, timeout=0)
 
 
@@ -187,8 +187,8 @@ def test_hear_does_not_fill_a_ring_with_itself(ring, writer, options):
     writer.write(beat(1), kind=1)
     writer.close()
     done = harness.Running([sys.executable, "-m", "mavloom.hear", f"shm://{ring}{options}", "--ring", ring]).wait()
-    assert (done.status, done.stderr) == (2, f"mavloom.hear: ring {ring} is what is heard here: "
-                                             "it would be filled with itself\n"), done
+    assert (done.status, done.stderr) == (2, f"mavloom.hear: this link reads ring {ring}, so the ring would be "
+                                             "filled with its own records\n"), done
     assert ring in mavloom.rings()
 
 
@@ -250,5 +250,5 @@ def test_several_links_read_one_ring(ring, writer):
         writer.write(beat(5), link=1, kind=1)
         assert (numbers(one, 1), numbers(other, 1)) == ([5], [5]) and one.name == other.name == f"shm://{ring}"
         with (mavloom.connect(f"shm://{ring}?name=a"),
-              pytest.raises(mavloom.UsageError, match="two endpoints are called a")):
+              pytest.raises(mavloom.UsageError, match="two endpoints are named a")):
             mavloom.connect(f"shm://{ring}?name=a")

@@ -26,7 +26,7 @@ def equal(ours, theirs):
 
 
 def test_every_message_and_value_is_pymavlinks(flight, peer):
-    """Example 7: equal to pymavlink message for message."""
+    """Every message equals that of pymavlink."""
     mav = peer.MAVLink(None)
     mav.robust_parsing = True
     count = 0
@@ -258,7 +258,7 @@ def test_row_6_the_gil_is_free_while_a_pipe_is_empty(tmp_path):
 
 
 def test_ctrl_c_ends_a_wait(tmp_path, child_environment):
-    """Example 11: KeyboardInterrupt, also while nothing comes."""
+    """Ctrl-C raises KeyboardInterrupt, even while the recording is a pipe without data."""
     path = tmp_path / "pipe"
     os.mkfifo(path)
     with open(os.open(path, os.O_RDWR), "wb", buffering=0):

@@ -652,12 +652,12 @@ def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
         writer.write("text")
     for name in ("a/b", "", "x" * 65, "ü", "..", "a b", "a\0b"):
         for call in (mavloom.RingWriter, mavloom.RingReader, mavloom.remove_ring):
-            with pytest.raises(mavloom.UsageError, match="is no name of a ring"):
+            with pytest.raises(mavloom.UsageError, match="is not a valid ring name"):
                 call(name)
     for options, what in (({"capacity": 100_000}, "power of two"),
                           ({"capacity": -1}, "capacity: -1 is out of range, 65536 to 68719476736"),
                           ({"capacity": 2**64}, "capacity: 18446744073709551616 is"),
-                          ({"full": "wiat"}, "did you mean 'wait'"), ({"mode": 0o060}, "owner must"),
+                          ({"full": "wiat"}, "did you mean 'wait'"), ({"mode": 0o060}, "let the owner read"),
                           ({"mode": -1}, "mode: -1")):
         with pytest.raises(ValueError, match=what):
             mavloom.RingWriter(ring + "x", **options)
@@ -667,7 +667,7 @@ def test_row_29_what_is_given_wrong_is_a_value_error(writer, ring):
 
 
 def test_two_writers_the_second_is_refused_with_the_first_ones_process(writer, ring):
-    with pytest.raises(OSError, match=f"ring {ring} has a writer already, process {os.getpid()}") as raised:
+    with pytest.raises(OSError, match=f"ring {ring} already has a writer, process {os.getpid()}") as raised:
         mavloom.RingWriter(ring, capacity=64 * KIB)
     assert isinstance(raised.value, mavloom.Error)
     refused = subprocess.run([PROGRAM, "shm", "write", ring], input="", capture_output=True, text=True)
@@ -692,12 +692,12 @@ def with_version(major, minor):
 
 
 @pytest.mark.parametrize("change, what", [
-    (with_version(2, 7), r"version 2\.7; this program knows 1\.0"),
+    (with_version(2, 7), r"version 2\.7; this program supports 1\.0"),
     (lambda data: data[:12] + data[12:16][::-1] + data[16:], "another byte order"),
     (lambda data: data[:30_000], "truncated ring: 30000 bytes instead of 81920"),
     (lambda data: data[:100], "truncated: 100 bytes"),
     (lambda data: b"", "truncated: 0 bytes"),
-    (lambda data: random.Random(1).randbytes(len(data)), "no ring of Mavloom"),
+    (lambda data: random.Random(1).randbytes(len(data)), "not a Mavloom ring"),
     (lambda data: data[:16] + struct.pack("<Q", 65537) + data[24:], "damaged"),
     (lambda data: data[:128] + random.Random(2).randbytes(len(data) - 128), "damaged"),
 ], ids=["version", "byte order", "shorter", "short", "empty", "random", "sizes", "contents"])
@@ -919,7 +919,7 @@ def test_row_3_15_one_who_is_stopped_under_evict_hurts_nobody_else(ring, start):
             sent += 100
             found += numbers(iter(lambda: other.read(0), None))
         assert found == list(range(sent)) and other.missed == 0 and writer.dropped == 0
-        with pytest.raises(mavloom.Error, match="took the record away"):
+        with pytest.raises(mavloom.Error, match="evicted this reader"):
             _ = record.data
         del view
         late = numbers(iter(lambda: stopped.read(0), None))
@@ -1119,13 +1119,13 @@ def test_removing_by_a_writer_that_left_the_ring_is_refused(writer, ring):
     writer.close()
     with mavloom.RingWriter(ring, capacity=64 * KIB):
         with pytest.raises(mavloom.ClosedError,
-                           match=f"{ring} was closed and left the ring: remove_ring takes it away"):
+                           match=f"{ring} was closed and kept the ring; remove it with remove_ring"):
             writer.close(remove=True)
     assert path_of(ring).exists()
     mavloom.remove_ring(ring)
 
 
-# ---- exits and forks: rows 3.1, 3.22, example 11
+# ---- exits and forks: rows 3.1 and 3.22
 
 EXITS = """
 import multiprocessing
@@ -1832,7 +1832,7 @@ def read(seed):
                     data = bytes(record.data)
                     assert not reader.holds or int(data) == number, (data, number)
                 except mavloom.Error as error:
-                    assert reader.lossless and "took the record away" in str(error), error
+                    assert reader.lossless and "evicted this reader" in str(error), error
                 gone = reader.missed - missed
                 assert last is None or number == last + 1 + gone, (last, number, missed, reader.missed)
                 last, missed = number, reader.missed
@@ -1863,7 +1863,7 @@ print([os.waitpid(pid, 0)[1] for pid in pids].count(0))
 
 def test_a_65th_lossless_reader_is_refused_and_a_lossy_one_is_not(writer, ring):
     readers = [mavloom.RingReader(ring, lossless=number % 2 == 0) for number in range(64)]
-    with pytest.raises(OSError, match="has 64 readers already") as raised:
+    with pytest.raises(OSError, match="already has 64 readers") as raised:
         mavloom.RingReader(ring, lossless=True)
     assert isinstance(raised.value, mavloom.Error)
     polling = mavloom.RingReader(ring)
@@ -2020,7 +2020,7 @@ def test_hear_takes_the_ring_away_at_its_end_unless_told(hear, ring):
         elif path_of(ring).exists():
             mavloom.remove_ring(ring)
         process, _ = hear("--ring", ring, "--capacity", "64k", *words)
-        assert ("which was there before" in process.stderr.readline()) == made_before
+        assert ("which already existed" in process.stderr.readline()) == made_before
         process.send_signal(signal.SIGINT)
         assert ended(process)[0] == 130 and path_of(ring).exists() == stays
 
@@ -2031,7 +2031,7 @@ def test_hear_leaves_nothing_when_the_one_before_was_killed(hear, ring):
     killed.kill()
     killed.wait(DEADLINE_S)
     process, _ = hear("--ring", ring)
-    assert "which was there before" in process.stderr.readline()
+    assert "which already existed" in process.stderr.readline()
     process.send_signal(signal.SIGTERM)
     assert ended(process)[0] == 143 and not path_of(ring).exists()
 
@@ -2073,8 +2073,8 @@ def test_hear_tells_what_it_missed(hear, ring, frames):
 
 
 def test_hear_says_what_is_wrong(hear, writer, ring):
-    for words, status, what in ((["--ring", ring], 1, f"ring {ring} has a writer already, process {os.getpid()}"),
-                                ([], 2, "--ring"), (["--ring", "a/b"], 2, "no name"),
+    for words, status, what in ((["--ring", ring], 1, f"ring {ring} already has a writer, process {os.getpid()}"),
+                                ([], 2, "--ring"), (["--ring", "a/b"], 2, "not a valid ring name"),
                                 (["--ring", ring, "--capacity", "8X"], 2, "expected a size"),
                                 (["--ring", ring, "--capacity", "100k"], 2, "power of two"),
                                 (["--ring", ring, "--mode", "9"], 2, "octal"),
@@ -2087,5 +2087,5 @@ def test_hear_says_what_is_wrong(hear, writer, ring):
     path_of(ring + "x").write_bytes(b"text" * 10_000)
     process, _ = hear("--ring", ring + "x")
     found, _, talk = ended(process)
-    assert found == 3 and "is no ring of Mavloom" in talk
+    assert found == 3 and "is not a Mavloom ring" in talk
     path_of(ring + "x").unlink()

@@ -96,25 +96,25 @@ def test_two_endpoints_on_one_port_are_status_3(run, tmp_path, command):
                     'port = 14550\n')
     done = run(*command, path)
     assert done.status == 3 and done.stdout == ""
-    assert (f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has "
-            "already") in done.stderr
+    assert (f"{path}:6: 'udpin://127.0.0.1:14550' binds UDP port 14550, which 'udpin://0.0.0.0:14550' in line 2 "
+            "already uses") in done.stderr
 
 
 @pytest.mark.parametrize("command", [["check"], ["route", "--for", "0.1", "--config"]], ids=["check", "route"])
 @pytest.mark.parametrize("text, line, said", [
     ('[[endpoint]]\nname = "r"\nurl = "shm://px4"\n', 3,
-     "r: a ring is no endpoint of a router: --ring px4 writes every frame into it"),
-    ('[[endpoint]]\nscheme = "shm"\nring = "px4"\n', 3, "shm://px4: a ring is no endpoint of a router"),
+     "r: a ring is not an endpoint of a router; --ring px4 writes every frame into it"),
+    ('[[endpoint]]\nscheme = "shm"\nring = "px4"\n', 3, "shm://px4: a ring is not an endpoint of a router"),
     ('[ring]\ncapacity = "64k"\n', 1, "[ring] has no name"),
     ('# a comment\n[ring]\n', 2, "[ring] has no name"),
     ('[record]\nrotate_every = 60\n', 1, "[record] has no path"),
     ('[[endpoint]]\nurl = "udpmcast://239.1.2.3:14550?max_peers=3"\n', 2,
-     "udpmcast://239.1.2.3:14550: all who are heard here are one link"),
+     "udpmcast://239.1.2.3:14550: all senders that are heard here share one link"),
     ('[[endpoint]]\nscheme = "udpout"\nhost = "127.0.0.1"\nport = 1\nbind = "[::1]:0"\n', 2,
-     "udpout://127.0.0.1:1: bind=[::1]:0 is of another family than 127.0.0.1:1"),
-    ('[[endpoint]]\nurl = "tlog://a.tlog?speed=3"\n', 2, "tlog://a.tlog: 'speed' is for a recording that is read"),
+     "udpout://127.0.0.1:1: bind=[::1]:0 and 127.0.0.1:1 are of different address families"),
+    ('[[endpoint]]\nurl = "tlog://a.tlog?speed=3"\n', 2, "tlog://a.tlog: 'speed' applies to a recording that is read"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?ttl=0"\n', 2,
-     "udpin://127.0.0.1:1: ttl=0 keeps the datagrams of a group on this machine"),
+     "udpin://127.0.0.1:1: ttl=0 keeps datagrams of a multicast group on this machine"),
     ('[[endpoint]]\nurl = "udpin://127.0.0.1:1?group=air&group_mode=best"\n[[endpoint]]\nurl = "udpin://127.0.0.1:2"\n'
      'group = "air"\ngroup_mode = "primary"\n', 6,
      "group 'air' has group_mode \"best\" in line 2, and \"primary\" here"),

@@ -81,12 +81,18 @@ def folder(tmp_path, run):
     for name in ("mavloom.toml", "router.toml"):
         (tmp_path / name).write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{harness.free_port()}"\n')
     assert run("shm", "write", f"docs-{os.getpid()}", "--capacity", "64k", input="one\n").status == 0
-    for name in ("key", "key.hex", "keys.hex", "vehicle.key", "my.key"):
+    for name in ("key", "key.hex", "keys.hex", "vehicle.key", "link.key"):
         (tmp_path / name).write_text("07" * 32)
         (tmp_path / name).chmod(0o600)
     yield tmp_path
     with contextlib.suppress(OSError):
         os.unlink(f"/dev/shm/mavloom.docs-{os.getpid()}")
+
+
+def make_way(folder, words):
+    """`key new` refuses a file that exists."""
+    if words[:2] == ["key", "new"]:
+        (folder / words[2]).unlink(missing_ok=True)
 
 
 def is_good(done, words):
@@ -122,6 +128,7 @@ def test_example_of_a_page(run, folder, request, line):
     elif words[0] in ASKING:
         words = [request.getfixturevalue("router_name") if word in ("router", "px4")
                  else word.replace("=tablet", "=other") for word in words]
+    make_way(folder, words)
     done = run(*words, cwd=folder)
 
     assert is_good(done, words), done
@@ -135,6 +142,7 @@ def test_examples_of_help(run, folder, command):
     assert examples, text
     for line in examples:
         words = runnable(line)
+        make_way(folder, words)
         done = run(*words, cwd=folder)
         assert is_good(done, words), done
 

@@ -117,7 +117,7 @@ def test_sums_that_cannot_be_written_are_an_error(program, tmp_path, command):
 
 
 def test_segments_of_a_second(run, tmp_path):
-    """Case P6 of the routing rules: two frames 1.1 s apart with segments of 1 s are two files."""
+    """Two frames 1.1 s apart, with segments of 1 s, become two files."""
     log = frames.write_tlog(tmp_path / "in.tlog", [(1_700_000_000_000_000 + 1_100_000 * i, frame)
                                                    for i, frame in enumerate(frames.heartbeats(2))])
     out = tmp_path / "out"

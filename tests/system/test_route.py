@@ -1040,7 +1040,7 @@ def test_n21_two_stations_of_one_id_both_hear_all_and_get_answers(net):
         assert sut.command(3, VEHICLE, GCS) == [1, 2]
 
     assert sut.hears(1, GCS) == [3]
-    sut.router.process.wait_output("255/190 is heard on .* and on .*: two senders of one id", stream="err")
+    sut.router.process.wait_output("255/190 is heard on .* and on .*: two senders with one id", stream="err")
     assert sut.router.stats("router")[0]["duplicate_ids"] == 1
 
 

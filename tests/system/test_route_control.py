@@ -100,7 +100,7 @@ def test_ctl_remove_closes_one_link(net, ctl, kind):
 def test_a_group_has_one_mode(net, ctl, run, udp_port):
     sut = net("udpout", 2, options={1: "group=air&group_mode=best"})
     other = ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode=primary")
-    assert other.status == 1 and "group 'air' has group_mode=best already: a group has one" in other.stderr
+    assert other.status == 1 and "group 'air' already has group_mode=best; a group has one" in other.stderr
     assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=air").status == 0, "it takes the group's"
 
     assert ctl(sut.router, "add", f"udpin://127.0.0.1:{udp_port()}?group=sea&group_mode=primary&name=boat").status == 0
@@ -109,7 +109,7 @@ def test_a_group_has_one_mode(net, ctl, run, udp_port):
 
     both = [f"udpin://127.0.0.1:{udp_port()}?group=air&group_mode={mode}" for mode in ("best", "all")]
     done = run("route", *both, "--for", "1s")
-    assert done.status == 2 and "group 'air' has group_mode=best already: a group has one" in done.stderr
+    assert done.status == 2 and "group 'air' already has group_mode=best; a group has one" in done.stderr
 
 
 def test_ctl_routes_are_what_was_heard(net, ctl):
@@ -224,9 +224,9 @@ def test_ctl_add_and_remove_while_it_runs(net, ctl):
 
 @pytest.mark.parametrize("arguments, said", [
     (("add", "udpout://0.0.0.0:14550"), "0.0.0.0"),
-    (("add", "udpin://127.0.0.1:0"), "a router's port is known to others; name one"),
+    (("add", "udpin://127.0.0.1:0"), "other programs must know a router's port"),
     (("add", "udpout://127.0.0.1:14550?nmae=x"), "did you mean 'name'?"),
-    (("add", "udpout://127.0.0.1:14550?name=A"), "two endpoints are called A"),
+    (("add", "udpout://127.0.0.1:14550?name=A"), "two endpoints are named A"),
     (("add", "udpout://127.0.0.1:14550?in_block=HARTBEAT"), "did you mean 'HEARTBEAT'?"),
     (("remove", "C"), "there is no endpoint C"),
 ])
@@ -291,7 +291,7 @@ def test_two_of_one_name(spawn, run):
     done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env)
 
     assert done.status == 1
-    assert f"{router.name}.ctl is served by a running program; --name gives this one another name" in done.stderr
+    assert f"{router.name}.ctl is served by another process; give this one another name with --name" in done.stderr
     assert len(router.ask("links")) == 0
 
 
@@ -319,9 +319,9 @@ def test_without_a_name_a_second_router_does_without_a_socket(spawn, tmp_path):
     first, second = (spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--metrics", "127.0.0.1:0", env=env)
                      for _ in range(2))
     for router in (first, second):
-        router.wait_output(r"metrics at port \d+", stream="err")
+        router.wait_output(r"metrics on port \d+", stream="err")
 
-    assert any("no control socket: " in router.stderr and "--name gives this one another name" in router.stderr
+    assert any("no control socket: " in router.stderr and "give this one another name with --name" in router.stderr
                for router in (first, second))
     assert first.alive and second.alive
 
@@ -339,7 +339,7 @@ def test_of_routers_that_start_at_once_one_gets_the_socket(spawn, left):
     harness.wait_for(lambda: sum(not router.alive for router in starting) == 5, what="five to be refused")
     refused = [router.wait() for router in starting if not router.alive]
 
-    assert all(done.status == 1 and "is served by a running program" in done.stderr for done in refused), refused
+    assert all(done.status == 1 and "is served by another process" in done.stderr for done in refused), refused
     killed._connect_to(path).close()
 
 
@@ -364,7 +364,7 @@ def test_a_socket_that_nobody_serves_in_time_is_not_taken(spawn):
         refused = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", name, env=router.env).wait()
     os.unlink(path)
 
-    assert refused.status == 1 and "is served by a running program" in refused.stderr
+    assert refused.status == 1 and "is served by another process" in refused.stderr
 
 
 def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
@@ -381,7 +381,7 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
                            env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))
 
     assert (other.returncode == 0 and "no control socket: " in other.stderr
-            and "is served by a running program" in other.stderr), other
+            and "is served by another process" in other.stderr), other
 
 
 def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):
@@ -683,7 +683,7 @@ def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable):
     sut.write(air="iface=none0")
     sut.reload()
     assert "none0" in sut.router.process.stderr
-    assert "air: goes on with its former options" in sut.router.process.stderr
+    assert "air: continues with its former options" in sut.router.process.stderr
     sut.peer.send(heartbeat(VEHICLE))
     sut.passes()
 
@@ -693,7 +693,7 @@ def test_a_changed_endpoint_that_cannot_be_opened_goes_on_as_it_was(reloadable):
 
 
 @pytest.mark.parametrize("make, said", [(lambda path: None, "No such file"),
-                                        (lambda path: os.mkfifo(path, 0o600), "is no regular file"),
+                                        (lambda path: os.mkfifo(path, 0o600), "is not a regular file"),
                                         (lambda path: (path.touch(), path.chmod(0o644)), "can be read by others")],
                          ids=["missing", "fifo", "readable"])
 def test_reload_with_a_bad_key_changes_nothing(reloadable, tmp_path, make, said):
@@ -1226,16 +1226,16 @@ BAD_ARGUMENTS = [
     ("an option given twice", [IN + "?idle=1&idle=2"], 2, "idle"),
     ("a value that is none", [IN + "?idle=soon"], 2, "soon"),
     ("unknown message in a filter", [IN + "?in_block=ATITUDE"], 2, "did you mean 'ATTITUDE'?"),
-    ("two of one name", [IN, IN], 2, "name= tells them apart"),
-    ("port 0", ["udpin://127.0.0.1:0"], 2, "name one"),
+    ("two of one name", [IN, IN], 2, "give one of them another name="),
+    ("port 0", ["udpin://127.0.0.1:0"], 2, "choose one"),
     ("unknown option", [IN, "--fro", "1s"], 2, "did you mean '--for'?"),
     ("a bad time", [IN, "--for", "soon"], 2, "2s, 500ms, 1m or 1h"),
     ("a bad name", [IN, "--name", "a b"], 2, "1 to 64 of A-Z a-z 0-9 _ -"),
     ("metrics without host", [IN, "--metrics", "9090"], 2, "HOST:PORT, as in 127.0.0.1:9090"),
-    ("metrics at a name", [IN, "--metrics", "localhost:9090"], 2, "in numbers"),
+    ("metrics at a name", [IN, "--metrics", "localhost:9090"], 2, "numeric address"),
     ("explains an unknown message", [IN, "--explain", "ATITUDE"], 2, "ATITUDE"),
     ("--explain before the endpoint", ["--explain", IN], 2, "put it after the endpoints"),
-    ("no serial port", ["serial:///dev/null"], 2, "/dev/null is no serial port"),
+    ("no serial port", ["serial:///dev/null"], 2, "/dev/null is not a serial port"),
     ("no key", [IN + "?verify={folder}/none.key"], 3, "none.key: No such file or directory"),
     ("a key that is none", [IN + "?sign={folder}/bad.key"], 3, "64 hexadecimal digits"),
     ("a key that others read", [IN + "?sign={folder}/open.key"], 3, "chmod 600"),

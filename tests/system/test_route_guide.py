@@ -26,7 +26,7 @@ def router(spawn, udp_port, udp_socket, tmp_path):
     name = f"guide-{port}"
     running = spawn("route", f"udpin://127.0.0.1:{port}", tmp_path / "all.tlog", "--name", name, "--metrics",
                     "127.0.0.1:0")
-    metrics = running.wait_output(r"metrics at port (\d+)")[1]
+    metrics = running.wait_output(r"metrics on port (\d+)")[1]
     vehicle, ground = udp_socket(), udp_socket()
     vehicle.sendto(next(frames.heartbeats(1)), ("127.0.0.1", port))
     running.wait_output(r"#127\.0\.0\.1:%d: up" % vehicle.getsockname()[1])

@@ -330,7 +330,7 @@ def test_a_second_writer_is_refused(tapped, run):
     net = tapped()
     done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--ring", net.ring, "--name", "second",
                env=net.router.env)
-    assert done.status == 1 and f"ring {net.ring} has a writer already, process {net.router.process.pid}" in done.stderr
+    assert done.status == 1 and f"ring {net.ring} already has a writer, process {net.router.process.pid}" in done.stderr
     frame = attitude()
     assert frame in [r.data for r in net.sent_by(net.vehicle, heartbeat(), frame)]
     assert os.path.exists(net.inlet) and shared(net.ring, ".stat").exists()
@@ -342,7 +342,7 @@ def test_the_inlet_of_somebody_who_lives_is_left_alone(run, ring, tmp_path):
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
         other.bind(place)
         done = run(*args)
-        assert done.status == 1 and f"{place} is served by process {os.getpid()} already" in done.stderr
+        assert done.status == 1 and f"{place} is already served by process {os.getpid()}" in done.stderr
         assert not shared(ring).exists() and not shared(ring, ".stat").exists()
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
             sender.sendto(b"still here", place)
@@ -352,7 +352,7 @@ def test_the_inlet_of_somebody_who_lives_is_left_alone(run, ring, tmp_path):
     assert not os.path.exists(place)
     pathlib.Path(place).write_text("a file of somebody's")
     done = run(*args)
-    assert done.status == 1 and f"{place} is there and no socket; remove it" in done.stderr
+    assert done.status == 1 and f"{place} exists and is not a socket; remove it" in done.stderr
     assert pathlib.Path(place).read_text() == "a file of somebody's"
 
 
@@ -368,7 +368,7 @@ def test_a_ring_that_somebody_removes_is_made_anew(tapped, run, how):
         assert run("shm", "remove", "--force", net.ring).status == 0
     harness.wait_for(lambda: shared(net.ring).exists() and shared(net.ring, ".stat").exists(), what="a new ring")
     assert shared(net.ring).stat().st_ino != number
-    net.router.process.wait_output(f"ring {net.ring} was removed, and is made anew")
+    net.router.process.wait_output(f"ring {net.ring} was removed; it is created again")
     frame = attitude()
     assert [r.data for r in net.sent_by(net.vehicle, frame)] == [frame]
     assert f"vehicle#127.0.0.1:{net.vehicle.port}" in harness.wait_for(lambda: net.names(run),
@@ -380,7 +380,7 @@ def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
     net.sent_by(net.vehicle, heartbeat())
     place = net.inlet
     os.unlink(place)
-    net.router.process.wait_output(f"inlet {place} was removed, and is made anew")
+    net.router.process.wait_output(f"inlet {place} was removed; it is created again")
     frame = heartbeat((30, 1))
     app(net.inlet).send(frame)
     assert next_from(net.vehicle) == frame
@@ -388,7 +388,7 @@ def test_an_inlet_that_somebody_removes_is_made_anew(tapped, app):
     os.unlink(place)
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as other:
         other.bind(place)
-        net.router.process.wait_output(f"inlet {place} was removed: {place} is served by process [0-9]+ already")
+        net.router.process.wait_output(f"inlet {place} was removed: {place} is already served by process [0-9]+")
         net.router.process.process.terminate()
         assert net.router.process.wait().status == 143
         assert os.path.exists(place)
@@ -402,17 +402,17 @@ def test_a_name_that_another_writer_took_meanwhile(tapped, spawn, run):
     other = spawn("shm", "write", name, stdin=subprocess.PIPE)
     harness.wait_for(lambda: shared(name).exists(), what="the other ring")
     shared(name).rename(shared(net.ring))
-    net.router.process.wait_output(f"ring {net.ring} was removed: ring {net.ring} has a writer already, "
-                                   f"process {other.pid}; tried again every second")
+    net.router.process.wait_output(f"ring {net.ring} was removed: ring {net.ring} already has a writer, "
+                                   f"process {other.pid}; trying again every second")
     for _ in range(3):
         net.vehicle.send(attitude())
     harness.wait_for(lambda: net.page(run)[0]["ring_dropped"] == 3, what="three frames counted")
     other.process.stdin.close()
     assert other.wait().status == 0
-    net.router.process.wait_output(f"ring {net.ring} was removed, and is made anew")
+    net.router.process.wait_output(f"ring {net.ring} was removed; it is created again")
     frame = attitude()
     assert [r.data for r in net.sent_by(net.vehicle, frame)] == [frame]
-    assert net.router.process.stderr.count("tried again every second") == 1
+    assert net.router.process.stderr.count("trying again every second") == 1
 
 
 def test_own_heartbeats_are_not_for_who_reads_the_ring(tapped, app):
@@ -436,24 +436,24 @@ def test_a_full_dev_shm(program, size, what):
     if "status" not in done.stdout:
         pytest.skip(f"no mount namespace here: {done.stderr.strip()}")
     assert done.stdout == "status 1\n", "nothing is left"
-    assert f"cannot make /dev/shm/{what}" in done.stderr and "No space left on device" in done.stderr
+    assert f"cannot create /dev/shm/{what}" in done.stderr and "No space left on device" in done.stderr
 
 
 def test_rings_that_cannot_be(run, ring, tmp_path):
     port = routers.udp_port()
     for name in ("a/b", "x" * 65, "a.b"):
         done = run("route", f"udpin://127.0.0.1:{port}", "--ring", name)
-        assert done.status == 2 and "is no name of a ring" in done.stderr, done
+        assert done.status == 2 and "is not a valid ring name" in done.stderr, done
     shared(ring).write_bytes(bytes(100_000))
     done = run("route", f"udpin://127.0.0.1:{port}", "--ring", ring)
     assert done.status == 3 and f"mavloom.{ring}" in done.stderr, done
     assert shared(ring).read_bytes() == bytes(100_000), "left as it was"
     done = run("route", f"udpin://127.0.0.1:{port}", f"shm://{ring}")
-    assert done.status == 2 and f"a ring is no endpoint of a router: --ring {ring}" in done.stderr
+    assert done.status == 2 and f"a ring is not an endpoint of a router; --ring {ring}" in done.stderr
     file = tmp_path / "r.toml"
     file.write_text(f'[[endpoint]]\nurl = "shm://{ring}"\n')
     done = run("route", "--config", file)
-    assert done.status == 3 and "a ring is no endpoint of a router" in done.stderr
+    assert done.status == 3 and "a ring is not an endpoint of a router" in done.stderr
 
 
 def test_a_start_that_fails_leaves_nothing(run, ring):
@@ -508,7 +508,7 @@ def test_the_file_names_the_ring(spawn, run, ring, tmp_path):
 
 
 @pytest.mark.parametrize("lines, what", [("nam = 'x'", "did you mean 'name'?"), ("capacity = 100", "power of two"),
-                                         ("full = 'wait'", "a router waits for no reader"),
+                                         ("full = 'wait'", "a router does not wait for readers"),
                                          ("mode = 600", "in quotes"),
                                          ("size = 1", "[ring] has name, capacity, full, mode")])
 def test_keys_that_are_wrong(run, tmp_path, lines, what):

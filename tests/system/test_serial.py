@@ -122,7 +122,7 @@ def test_a_missing_port_is_awaited(spawn, port, tmp_path):
 @pytest.mark.short
 @pytest.mark.parametrize("url, status, said", [
     ("serial:///dev/no-such-port?required=true", 1, "No such file or directory"),
-    ("serial:///dev/null", 2, "/dev/null is no serial port"),
+    ("serial:///dev/null", 2, "/dev/null is not a serial port"),
     ("/dev/ttyACM0,fast", 2, "fast"),
 ])
 def test_what_cannot_work_is_said_at_once(run, url, status, said):
@@ -167,7 +167,7 @@ def test_a_deleted_byte_costs_one_frame(spawn, port):
     assert [json.loads(line)["seq"] for line in done.lines[:9]] == [0, 1, 2, 3, 4, 6, 7, 8, 9]
 
 
-# routing.md N16 and G3.
+# The relay opens a port again that was unplugged and came back under the same name.
 @pytest.mark.short
 def test_a_port_that_is_removed_and_made_again(spawn, port, tmp_path):
     name, first = tmp_path / "autopilot", port()
@@ -191,7 +191,7 @@ def test_a_port_that_is_removed_and_made_again(spawn, port, tmp_path):
     assert relay.alive
 
 
-# routing.md N10: the reader of a full port sleeps for ten seconds.
+# The reader of a full port sleeps for ten seconds.
 def test_a_full_port_gets_whole_frames_when_its_reader_resumes(spawn, port):
     far = port()
     relay, send = relay_to(spawn, f"serial://{far.device}?baud=57600&queue_age=2")
@@ -216,7 +216,7 @@ def test_a_full_port_gets_whole_frames_when_its_reader_resumes(spawn, port):
     assert "frames dropped: the far side was too slow" in done.stderr
 
 
-# routing.md N12.
+# Such a UART sends back every byte that it receives. The commands must reach it all the same.
 @pytest.mark.short
 def test_commands_reach_a_uart_that_echoes_every_byte(spawn, port):
     far = port()

@@ -242,7 +242,7 @@ def test_a_second_writer_is_refused_with_the_first_ones_pid(run, spawn, ring):
     harness.wait_for(lambda: path_of(ring).exists() and stat_of(run, ring)["writer_pid"] == first.pid,
                      what="the writer")
     second = run("shm", "write", ring, input="x\n")
-    assert second.status == 1 and f"ring {ring} has a writer already, process {first.pid}" in second.stderr
+    assert second.status == 1 and f"ring {ring} already has a writer, process {first.pid}" in second.stderr
     assert first.stop().status == 130
     assert stat_of(run, ring)["writer_pid"] == 0 and not stat_of(run, ring)["writer_alive"]
 
@@ -260,7 +260,7 @@ def test_remove_at_the_end(run, ring):
 @pytest.mark.parametrize("name", ["a/b", "../etc", "a b", "x" * 65])
 def test_a_name_that_is_none(run, words, name):
     done = run("shm", *words, name, input="")
-    assert done.status == 2 and "is no name of a ring: 1 to 64 letters, digits, _ and -" in done.stderr, done
+    assert done.status == 2 and "is not a valid ring name: use 1 to 64 letters, digits, _ and -" in done.stderr, done
     assert len(done.stderr.splitlines()) == 1
 
 
@@ -302,13 +302,13 @@ def damage(path, offset, content):
 
 @short
 @pytest.mark.parametrize("make, text", [
-    (lambda path: damage(path, 0, b"X"), "is no ring of Mavloom"),
-    (lambda path: damage(path, 8, b"\x07\0\x03\0"), "is a ring of version 7.3; this program knows 1.0"),
+    (lambda path: damage(path, 0, b"X"), "is not a Mavloom ring"),
+    (lambda path: damage(path, 8, b"\x07\0\x03\0"), "is a ring of version 7.3; this program supports 1.0"),
     (lambda path: damage(path, 12, b"\x01\x02\x03\x04"), "another byte order"),
     (lambda path: os.truncate(path, 5000), "truncated"),
     (lambda path: os.truncate(path, 0), "truncated"),
     (lambda path: os.truncate(path, 40_000), "truncated"),
-    (lambda path: path.write_bytes(os.urandom(81_920)), "is no ring of Mavloom"),
+    (lambda path: path.write_bytes(os.urandom(81_920)), "is not a Mavloom ring"),
     (lambda path: damage(path, 128, b"\xff" * 8), "damaged"),
 ])
 def test_files_that_are_no_rings(run, ring, make, text):
@@ -383,7 +383,7 @@ def test_a_full_dev_shm(program):
         pytest.skip(f"no mount namespace here: {done.stderr.strip()}")
     # a ring stays until its successor has room
     assert done.stdout.split("\n") == ["status 1", "status 0", "status 1", "x", ""], done
-    assert ("cannot make /dev/shm/mavloom.big of 8404992 bytes: No space left on device; "
+    assert ("cannot create /dev/shm/mavloom.big of 8404992 bytes: No space left on device; "
             "/dev/shm has 1048576 bytes free") in done.stderr
 
 

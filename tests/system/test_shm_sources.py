@@ -205,7 +205,7 @@ def test_a_killed_writer_is_waited_for_and_the_next_one_carries_on(run, spawn, f
         writer.write(part)
         assert receive(sink, len(bytes_of(part))) == bytes_of(part)
         writer.kill_now()
-        relay.wait_output("(nobody writes to it; waiting for a writer[^$]*){%d}" % (begin // 300 + 1))
+        relay.wait_output("(it has no writer; waiting for one[^$]*){%d}" % (begin // 300 + 1))
         writer = feed(ring)
     done = relay.stop()
     assert done.status == 130 and "missed" not in done.stderr and "900 frames in" in done.stderr
@@ -245,7 +245,7 @@ def test_a_killed_relay_lets_go_of_the_writer(run, spawn, feed, ring, sink):
     writer.finish()
     assert stat_of(run, ring)["records"] == 4000
     again = spawn("relay", f"shm://{ring}?from=oldest", "--to", f"udpout://127.0.0.1:{sink.getsockname()[1]}", "--json")
-    again.wait_output("nobody writes to it")
+    again.wait_output("it has no writer")
     done = again.stop()
     assert done.status == 130 and stats_of(done)["totals"]["lapped"] == 0
 
@@ -296,7 +296,7 @@ def test_what_was_overwritten_before_the_waiting_reader_saw_the_ring_counts_as_m
     writer.write(numbered(5000))
     writer.finish()
     listener.send(signal.SIGCONT)
-    listener.wait_output("nobody writes to it")
+    listener.wait_output("it has no writer")
     totals = stats_of(listener.stop())["totals"]
     assert totals["lapped"] > 0 and totals["frames"] + totals["lapped"] == 5000
 
@@ -501,7 +501,7 @@ def test_random_bytes_under_the_name_are_told_and_waited_out(spawn, feed, ring, 
     path = SHM / f"mavloom.{ring}"
     path.write_bytes(rng.randbytes(16384 + 65536))
     listener = spawn("listen", f"shm://{ring}", "--json", "--count", "3")
-    listener.wait_output(f"mavloom.{ring}: is no ring of Mavloom; trying again")
+    listener.wait_output(f"mavloom.{ring}: is not a Mavloom ring; trying again")
     path.unlink()
     feed(ring).write(numbered(3))
     done = listener.wait()
@@ -608,11 +608,11 @@ def test_that_a_writer_was_killed_is_said_once(run, spawn, feed, ring, sink):
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)
     writer.kill_now()
-    relay.wait_output("nobody writes to it; waiting for a writer", stream="err")
+    relay.wait_output("it has no writer; waiting for one", stream="err")
     for number in range(100):
         sink.sendto(heartbeat(system=255, component=190, sequence=number), relay_address)
         time.sleep(0.01)  # each a turn of the relay's
-    assert relay.stop().stderr.count("nobody writes to it") == 1
+    assert relay.stop().stderr.count("it has no writer") == 1
 
 
 @short
@@ -674,11 +674,11 @@ def test_answers_without_an_inlet_are_counted(run, spawn, feed, ring, sink):
     writer.write(numbered(1))
     _, relay_address = sink.recvfrom(65536)
     sink.sendto(heartbeat(system=255, component=190), relay_address)
-    relay.wait_output(rf"shm://{ring}: this ring has no way back: nobody serves its inlet", stream="err")
+    relay.wait_output(rf"shm://{ring}: no program serves the inlet of this ring", stream="err")
     sink.sendto(heartbeat(system=255, component=190, sequence=1), relay_address)
     done = relay.stop()
     assert stats_of(done)["edit"]["unheard_answers"] == 2
-    assert done.stderr.count("no way back") == 1 and "trying again" not in done.stderr
+    assert done.stderr.count("no program serves") == 1 and "trying again" not in done.stderr
 
 
 # ---- wrong use
@@ -686,13 +686,13 @@ def test_answers_without_an_inlet_are_counted(run, spawn, feed, ring, sink):
 @short
 @pytest.mark.parametrize("words, said", [
     (["replay", "shm://a", "--to", "udpout://127.0.0.1:9"], "replay reads a .tlog file"),
-    (["route", "udpin://127.0.0.1:14999", "shm://a"], "a ring is no endpoint of a router"),
+    (["route", "udpin://127.0.0.1:14999", "shm://a"], "a ring is not an endpoint of a router"),
     (["relay", "shm://a", "--to", "shm://a"], "would send the ring its own records"),
-    (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?lossless=true"], "'lossless' is for a ring that is read"),
-    (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?from=oldest"], "'from' is for a ring that is read"),
-    (["listen", "shm://a?in_allow=ATTITUDE"], "in_allow= is for mavloom route"),
-    (["listen", "shm://a?verify=key"], "verify= belongs to the endpoint that the frames came in by"),
-    (["listen", "shm://a", "shm://a"], "two endpoints are called shm://a"),
+    (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?lossless=true"], "'lossless' applies to a ring that is read"),
+    (["relay", "udpin://127.0.0.1:0", "--to", "shm://a?from=oldest"], "'from' applies to a ring that is read"),
+    (["listen", "shm://a?in_allow=ATTITUDE"], "in_allow= applies only to mavloom route"),
+    (["listen", "shm://a?verify=key"], "set verify= at the endpoint that receives the frames"),
+    (["listen", "shm://a", "shm://a"], "two endpoints are named shm://a"),
 ], ids=lambda value: " ".join(value) if isinstance(value, list) else "")
 def test_what_makes_no_sense_is_refused(run, words, said):
     done = run(*words)

@@ -184,7 +184,7 @@ void print_page(fmt::appender out, const Json& o) {
     const auto pid = o.value("pid", 0u);
     fmt::format_to(out, "{}, counters of {}\n", o.value("name", ""),
                    o.value("alive", false) ? fmt::format("process {}", pid)
-                                           : fmt::format("process {}, which was killed: its last", pid));
+                                           : fmt::format("process {}, which was killed (last values)", pid));
     const auto counts = nonzero(o, {"pid", "started_us"});
     if (!counts.empty()) fmt::format_to(out, "  {}\n", counts);
 }

@@ -21,7 +21,8 @@ Run declare_key(Arguments command, const Common& common) {
     create.footer("Example: mavloom key new link.key");
     command.require_subcommand();
     command.footer(
-        "Keys sign and verify MAVLink 2: sign=FILE and verify=FILE of an endpoint, relay --sign FILE.\n\n"
+        "Keys sign and verify MAVLink 2 frames: with sign=FILE and verify=FILE of an endpoint, or with relay --sign "
+        "FILE.\n\n"
         "Example: mavloom key new link.key");
     return [file, &common] { return create_key(common, *file); };
 }

@@ -90,7 +90,7 @@ private:
         if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + short_backlog;
         if (mono_now() < backlog_end_) return true;
         going_ = ::isatty(STDOUT_FILENO) == 0;
-        if (going_) say(common_, "printing what was received; another Ctrl-C ends at once");
+        if (going_) say(common_, "printing the messages received so far; another Ctrl-C ends at once");
         backlog_end_ = MonoTime::max();
         return going_;
     }

@@ -67,7 +67,7 @@ void say_report(const Common& common, const feed::Destinations& destinations, co
     unless_zero("not_v1", c.not_v1.value(), "frame", "that MAVLink 1 cannot carry");
     unless_zero("not_signed", c.not_signed.value(), "MAVLink 1 frame", "which cannot carry a signature (--as-v2 helps)");
     unless_zero("signature_removed", c.signature_removed.value(), "changed frame",
-                "now without signature (--sign gives a new one)");
+                "sent without a signature (--sign adds a new one)");
     unless_zero("unheard_answers", outcome.unheard_answers, "answer", "from the far side for which there was no source");
     say_losses(common, outcome.totals);
 }

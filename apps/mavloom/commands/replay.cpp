@@ -181,7 +181,9 @@ Run declare_replay(Arguments command, const Common& common) {
     auto options = std::make_shared<ReplayOptions>();
     command.add_option("file", options->file, "the recording").required().type_name("FILE.tlog");
     command.add_option("--to", options->to, "where to send; may be repeated").required().type_name("ENDPOINT");
-    command.add_option("--speed", options->speed, "1 is the recorded pace, 10 ten times as fast, max without waiting")
+    command
+        .add_option("--speed", options->speed,
+                    "1 is the recorded pace, 10 is ten times as fast, max does not wait at all")
         .default_str("1")
         .type_name("N|max");
     command.add_option("--start", options->start, "begin this long after the recording's earliest time: 30s, 2m")

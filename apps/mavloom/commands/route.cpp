@@ -78,7 +78,8 @@ SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints
     std::set<std::filesystem::path> recordings;
     for (const auto& e : endpoints)
         if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::same_file(e.path)).second)
-            return setup_error(SetupCode::usage, fmt::format("{} is recorded already", in_quotes(e.path)));
+            return setup_error(SetupCode::usage,
+                               fmt::format("another recording already writes to {}", in_quotes(e.path)));
     return {};
 }
 
@@ -320,7 +321,7 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
-        say(common, fmt::format("metrics at port {}", port));
+        say(common, fmt::format("metrics on port {}", port));
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 
@@ -328,7 +329,7 @@ Exit route(const Common& common, const RouteOptions& options) {
 
 Run declare_route(Arguments command, const Common& common) {
     auto options = std::make_shared<RouteOptions>();
-    command.add_option("endpoint", options->endpoints, "an endpoint to route between; any number")
+    command.add_option("endpoint", options->endpoints, "an endpoint to route between; give any number of them")
         .type_name("ENDPOINT");
     command
         .add_option("--config", options->config, "a configuration file (docs/guide/configuration.md); SIGHUP rereads it")
@@ -343,7 +344,7 @@ Run declare_route(Arguments command, const Common& common) {
         .add_option(
             "--ring", options->ring,
             "write every good frame into the ring /dev/shm/mavloom.NAME for programs on this machine, and forward "
-            "what they send")
+            "the frames that they send")
         .type_name("NAME");
     command
         .add_option("--name", options->name,

@@ -151,7 +151,8 @@ Run declare_read(Arguments part, const Common& common) {
         .members({"newest", "oldest"})
         .capture_default_str()
         .type_name("WHERE");
-    part.add_flag("--lossless", options->lossless, "miss no record: the writer waits for this reader, or evicts it");
+    part.add_flag("--lossless", options->lossless,
+                  "miss no record; if this reader is slow, the writer waits for it, or evicts it");
     part.add_flag("--data", options->data, "print each record as its bytes and a newline, without tags");
     part.add_flag("--drain", options->drain, "end when everything is read and no process writes the ring");
     part.add_option("--count", options->count, "end after this many records").range(1, 2147483647).type_name("N");

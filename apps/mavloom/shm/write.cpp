@@ -134,19 +134,19 @@ Run declare_write(Arguments part, const Common& common) {
         .capture_default_str()
         .type_name("POLICY");
     part.add_option("--mode", options->mode, "permissions of a new ring").capture_default_str().type_name("OCTAL");
-    part.add_option("--link", options->link, "link id of the records")
+    part.add_option("--link", options->link, "the link id stored with each record")
         .range(0, 2147483647)
         .capture_default_str()
         .type_name("N");
-    part.add_option("--kind", options->kind, "kind of the records")
+    part.add_option("--kind", options->kind, "the kind stored with each record; 1 is a MAVLink frame")
         .range(0, 65535)
         .capture_default_str()
         .type_name("N");
-    part.add_option("--verdict", options->verdict, "verdict of the records")
+    part.add_option("--verdict", options->verdict, "the verdict stored with each record (docs/formats/ring.md)")
         .range(0, 255)
         .capture_default_str()
         .type_name("N");
-    part.add_flag("--hex", options->hex, "lines are hexadecimal digits");
+    part.add_flag("--hex", options->hex, "read each line as hexadecimal digits");
     part.add_flag("--remove", options->remove, "remove the ring at the end");
     return [options, &common] { return write(common, *options); };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Byte spans, and loads and stores of little-endian and big-endian numbers.
-// MAVLink is little-endian on the wire. Nothing here checks bounds: the caller does.
+// Byte spans, and loads and stores of little-endian and big-endian numbers. MAVLink is little-endian on the wire.
+// Nothing here checks bounds; the caller must.
 #pragma once
 
 #include <bit>
@@ -48,7 +48,8 @@ inline void store_le(void* p, T value) noexcept {
     std::memcpy(p, &bits, sizeof bits);
 }
 
-// Big-endian, for the timestamps of tlog files. (GCC 12 compiles the built-in to one load, but a loop to eight.)
+// Big-endian, for the timestamps of tlog files. GCC 12 compiles the built-in to one load; it would compile a loop over
+// the bytes to eight.
 [[nodiscard]] inline std::uint64_t load_be64(const void* p) noexcept {
     return __builtin_bswap64(load_le<std::uint64_t>(p));
 }

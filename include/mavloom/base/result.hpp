@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Result types: a value, or the error that explains why there is none.
-// Set-up calls (open, bind, load) return SetupError. Calls on the data path return one-byte enums of their own module.
-// Library code does not throw for expected failures, print or exit. `main` maps codes to exit statuses; the Python
-// package maps them to exceptions.
+// Result types: a value, or the error that explains why there is none. Set-up calls (open, bind, load) return
+// SetupError. Calls on the data path return one-byte enums of their own module. Library code neither prints nor exits,
+// and it does not throw for expected failures. `main` maps codes to exit statuses; the Python package maps them to
+// exceptions.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 
 namespace mavloom {
 
-// Blocks all signals in the calling thread for as long as this object lives. Threads started meanwhile inherit the
-// mask.
+// Blocks all signals in the calling thread for as long as this object lives. A thread that is started meanwhile
+// inherits the signal mask.
 class BlockedSignals {
 public:
     BlockedSignals() noexcept {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Reads and checks the configuration file: TOML with [router], [[endpoint]], [ring], [record], [log] and [web].
 //
-// Precedence is default, file, environment; the later one wins. Each value records where it came from. An unknown
-// section, key or value is an error with file, line and the nearest known spelling. The results are plain values;
-// loading allocates. Format: docs/guide/configuration.md.
+// A value in the file overrides the default, and an environment variable overrides both. Each value records where it
+// came from. An unknown section, key or value is an error with file, line and the nearest known spelling. The results
+// are plain values; loading allocates. Format: docs/guide/configuration.md.
 #pragma once
 
 #include <chrono>
@@ -32,16 +32,16 @@ struct RouterConfig {
     UnknownComponent unknown_component = UnknownComponent::system;
     UnknownTarget unknown_target = UnknownTarget::drop;
     std::chrono::nanoseconds route_timeout{};
-    std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat{};  // system and component; empty: off
+    std::optional<std::pair<std::uint8_t, std::uint8_t>> heartbeat{};  // own system and component id; empty: off
     // The rate that the router requests for ArduPilot's telemetry streams. It sends the requests under the id in
     // `heartbeat`. 0: off.
     std::uint16_t request_streams_hz = 0;
     friend bool operator==(const RouterConfig&, const RouterConfig&) = default;
 };
 
-// Error text: an endpoint has heartbeat=true, but the router has no id to send it as.
+// Error text for an endpoint with heartbeat=true, if the router has no id of its own to send heartbeats with.
 inline constexpr std::string_view heartbeat_needs_id =
-    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends by";
+    "heartbeat=true needs heartbeat = \"SYS/COMP\" in [router], the id that the router sends it with";
 
 struct RingConfig {
     std::string name;  // empty: no ring
@@ -92,9 +92,10 @@ struct Config {
     std::vector<std::string> notes;
 };
 
-// NAME=VALUE pairs whose name begins with MAVLOOM_. MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router]; _RING_,
-// _RECORD_, _LOG_ and _WEB_ work the same way. A variable that matches no key is an error if its name begins like a
-// section or resembles a key. Otherwise it only adds a note.
+// NAME=VALUE pairs whose name begins with MAVLOOM_. For example, MAVLOOM_ROUTER_DEDUP_MS sets `dedup_ms` of [router];
+// the names for [ring], [record], [log] and [web] are formed the same way. A variable that matches no key is an error
+// in two cases: MAVLOOM_ is followed by a section's name, or the name resembles that of a key. Otherwise it only adds a
+// note.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Environment environment_of(const char* const* envp);
 
@@ -103,8 +104,8 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] SetupResult<void> check_message_names(const Config& config, std::string_view file_name,
                                                     const dialect::Dialect& dialect);
 
-// Lists settings that are legal but may do harm, one line each, with file and line. An example is a rate limit on a
-// message that a protocol waits for.
+// Returns a warning, with file and line, for each setting that is legal but may do harm. An example is a rate limit on
+// a message that a protocol waits for.
 [[nodiscard]] std::vector<std::string> config_warnings(const Config& config, std::string_view file_name,
                                                        const dialect::Dialect& dialect);
 
@@ -116,7 +117,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] SetupResult<void> check_ports(const Config& config, std::string_view file_name);
 
 // Runs every check that a router makes on a configuration that parsed without errors. It refuses:
-// - what `check_message_names` and `check_key_files` refuse
+// - everything that `check_message_names` and `check_key_files` refuse
 // - an endpoint that `Links::add` would refuse, or a ring as an endpoint
 // - [ring] without a name, or [record] without a path
 // - two different modes for one group

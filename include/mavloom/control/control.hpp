@@ -4,9 +4,9 @@
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// Both run on one thread of their own. Requests are posted to the router's thread, which runs them between two turns of
-// its loop and only copies counters. The control thread formats the answer. A client that stalls or floods therefore
-// cannot slow down routing.
+// Both run on one thread of their own, the control thread. It posts each request to the router's thread, which runs the
+// request between two turns of its loop and only copies counters. The control thread then formats the answer. A client
+// that stalls or floods therefore cannot slow down routing.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.
@@ -36,13 +36,13 @@ struct ControlOptions {
 class Control {
 public:
     // Replaces a socket that a dead router left behind. A socket that another router serves is an error (`in_use`).
-    // `served` must outlive the object. Its loop must keep taking turns until it ends for good.
+    // `served` must outlive the object. A request is answered only while the loop of `served` runs turns.
     [[nodiscard]] static SetupResult<std::unique_ptr<Control>> create(Served& served, const ControlOptions& options);
     ~Control();
     Control(const Control&) = delete;
     Control& operator=(const Control&) = delete;
 
-    // The actual port, also if port 0 was requested. 0 without metrics.
+    // The bound port, even if port 0 was requested. Returns 0 if there are no metrics.
     [[nodiscard]] std::uint16_t metrics_port() const noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A queue of work that other threads post to the thread that runs a loop, its owner..
+// A queue of work for its owner, a thread that runs a loop. Other threads post the work.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The interface of a program that can be queried through a control socket and a metrics address: a router, or another
-// long-running program such as a simulator or a gateway.
+// The interface of a program that can be queried through a control socket and a metrics address. The router implements
+// it; any other long-running program can, such as a simulator or a gateway.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ public:
     // Any thread may call it. `work` runs on the owner's thread, between two of its turns. Work that is still pending
     // when the owner ends is destroyed without being run.
     virtual void post(std::function<void()> work) = 0;
-    // Destroys posted work that has not run yet. Call it before a poster is destroyed.
+    // Destroys posted work that has not run yet. An object that posts work must call this before it is destroyed.
     virtual void drop_posted() = 0;
 
     // `answer` and `metrics` run on the owner's thread and only copy data. Another thread may call the functions that

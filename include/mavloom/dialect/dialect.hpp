@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// MAVLink message and enum definitions, as immutable records with the computed wire layout. There is no global dialect:
-// a process can hold several and passes the one to use to each parser and decoder. The records of the built-in dialect
-// are read-only tables in the binary; a dialect loaded from XML owns its records. All members are const and safe from
-// any thread. Look-ups allocate nothing; a failed `message` or `field` allocates its error text. Source: MAVLink guide,
-// "MAVLink XML Schema" and "Packet Serialization".
+// MAVLink message and enum definitions, as immutable records with the computed wire layout. There is no global dialect.
+// A process can hold several, and gives each parser and decoder the one that it should use. The records of the built-in
+// dialect are read-only tables in the binary; a dialect loaded from XML owns its records. All members are const and
+// safe from any thread. Look-ups allocate nothing; a failed `message` or `field` allocates its error text. Source:
+// MAVLink guide, "MAVLink XML Schema" and "Packet Serialization".
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,8 @@ struct Deprecation {
     std::string_view replaced_by;  // a name, or empty
 };
 
-// A parameter of a MAV_CMD entry: the meaning of one of param1 to param7 in COMMAND_LONG, COMMAND_INT, MISSION_ITEM and
-// MISSION_ITEM_INT for that command.
+// The meaning of one parameter of a MAV_CMD entry. COMMAND_LONG, COMMAND_INT, MISSION_ITEM and MISSION_ITEM_INT carry
+// these parameters as param1 to param7.
 struct CommandParam {
     std::uint8_t index = 0;      // 1 to 7
     std::string_view label;      // "Radius"; empty if the definition gives none
@@ -56,7 +56,7 @@ struct EnumEntry {
 struct Enum {
     std::string_view name;  // "MAV_TYPE"
     bool bitmask = false;
-    std::span<const EnumEntry> entries;  // by ascending value, merged over all files
+    std::span<const EnumEntry> entries;  // by ascending value, merged from all files
     Deprecation deprecated;
 
     // Both return null if there is no such entry.
@@ -106,8 +106,8 @@ public:
     // Reads an XML file and everything it includes. Errors give file, line, what is wrong and what was expected.
     [[nodiscard]] static SetupResult<Dialect> load(const std::filesystem::path& xml);
 
-    // Uses records that must outlive the dialect, as the built-in tables do. `messages` by ascending id, `enums` by
-    // name.
+    // Refers to records that must outlive the dialect, as the built-in tables do. `messages` must be sorted by id, and
+    // `enums` by name.
     Dialect(std::string_view name, std::span<const Message> messages, std::span<const Enum> enums);
 
     [[nodiscard]] std::string_view name() const noexcept { return name_; }  // "all"
@@ -118,7 +118,7 @@ public:
     [[nodiscard]] const Message* find(std::string_view message_name) const noexcept;
     [[nodiscard]] const Enum* find_enum(std::string_view enum_name) const noexcept;
 
-    // The table for the parsers. Valid as long as this dialect or any copy of it.
+    // The table for the parsers. Valid as long as this dialect or any copy of it exists.
     [[nodiscard]] const wire::MessageTable& wire_table() const noexcept;
 
     // Looks up a message by name. The error (`usage`) suggests the closest name.
@@ -144,7 +144,7 @@ private:
     std::shared_ptr<const Index> index_;
 };
 
-// The definitions compiled into the binary: `all` from dialects/ with everything it includes.
+// The definitions compiled into the binary: dialects/all.xml and everything that it includes.
 [[nodiscard]] const Dialect& default_dialect();
 
 }  // namespace mavloom::dialect

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Limits frames to their Rates, separately for each source and message.
-// It works with deadlines that do not drift: 12 Hz limited to 10 comes out at 10, not at 6.
-// One owner thread; allocates only at construction. `Time` is MonoTime for links, and WallTime for recordings, whose
-// frames carry their own time.
+// Limits frames to their Rates, separately for each source and message. Its deadlines do not drift: a 12 Hz stream
+// limited to 10 Hz is sent at 10 Hz, not at 6. One owner thread; allocates only at construction. `Time` is MonoTime for
+// links, and WallTime for recordings, whose frames carry their own time.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +39,7 @@ public:
         if (interval == nullptr) return {};
         const auto source = std::uint64_t{frame.system().value} << 8 | frame.component().value;
         Stream& stream = stream_of(source << 24 | frame.id().value);
-        // If the deadline is more than one interval away, the clock was set back since.
+        // A deadline more than one interval away means that the clock was set back; the frame is then not early.
         const bool is_early = now < stream.due && stream.due - now <= *interval;
         return {!is_early, &stream, *interval};
     }
@@ -59,7 +58,8 @@ public:
     }
 
 private:
-    // Streams are stored in sets. A full set evicts the stream with the oldest deadline; its next frame may pass early.
+    // Streams are stored in sets. A full set evicts the stream with the oldest deadline; the next frame of that stream
+    // may then pass early.
     static constexpr std::size_t ways = 8, set_bits = 10, sets = std::size_t{1} << set_bits;
     static constexpr std::uint64_t no_stream = ~std::uint64_t{0};
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The editing stage of `mavloom relay`: decodes frames, applies the options, and encodes them again. Only this stage
-// and some options of a link change the bytes of frames. Without options, every frame leaves byte for byte as it came;
-// a frame that cannot be decoded passes untouched. One owner thread; time is a parameter; nothing allocates per frame.
-// docs/guide/relay.md lists what passes untouched and why.
+// The editing stage of `mavloom relay`: decodes frames, applies the options, and encodes them again. Apart from this
+// stage, only the endpoint option sign= changes the bytes of frames. Without options, every frame leaves byte for byte
+// as it came. A frame that cannot be decoded passes untouched. One owner thread; time is a parameter; nothing allocates
+// per frame. docs/guide/relay.md lists what passes untouched and why.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct Options {
     // "A=B": replaces source and target system A by B. All pairs apply at once, so "1=2" and "2=1" swap.
     std::vector<std::string> remap_system{};
     std::vector<std::string> only{};  // message names or ids
-    // "ATTITUDE:10", or "*:50" for all other telemetry (dialect/rates.hpp). Limits each source and message, measured in
-    // the frames' own time.
+    // "ATTITUDE:10", or "*:50" for all other telemetry (dialect/rates.hpp). The limit applies to each source and
+    // message separately, measured in the frames' own time.
     std::vector<std::string> max_rate{};
     std::optional<wire::Version> as_version{};
     std::optional<wire::SigningKey> sign_key{};
@@ -38,8 +38,8 @@ struct Options {
 };
 
 // Counts frames by how they were treated. For frames in the forward direction: frames = reencoded + rewrapped +
-// passed_untouched + filtered + rate_limited + not_v1. Frames in the backward direction are counted in `backward` only,
-// and in `signature_removed` if they lose their signature.
+// passed_untouched + filtered + rate_limited + not_v1. A frame in the backward direction counts in `backward`, also in
+// `signature_removed` if it loses its signature, and nowhere else.
 struct Counters {
     Counter frames;            // input frames, forward direction
     Counter reencoded;         // decoded and encoded again
@@ -47,13 +47,14 @@ struct Counters {
     Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
     Counter filtered;          // dropped by `only`
     Counter rate_limited;      // dropped by `max_rate`
-    Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition to convert it by
+    Counter not_v1;      // dropped because MAVLink 1 cannot carry it: id over 255, or no definition for the conversion
     Counter not_signed;  // forwarded unsigned although a key was given, because MAVLink 1 has no signatures
     Counter signature_removed;  // a signed frame was changed and not signed again, in either direction
     Counter backward;           // input frames, backward direction
 };
 
-// The decision about a frame. All values but `forward` mean that it was dropped, and have a counter of the same name.
+// The decision about a frame. Every value except `forward` means that the frame was dropped. Each of these has a
+// counter of the same name.
 enum class Verdict : std::uint8_t { forward, filtered, rate_limited, not_v1 };
 
 struct Outcome {

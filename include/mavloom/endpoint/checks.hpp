@@ -12,8 +12,8 @@
 namespace mavloom::endpoint {
 
 // How to treat an endpoint's routing options: filters, groups, rates, tap=, private= and heartbeat=. With `refused`,
-// they are an error. With `by_owner`, the owner of the links (the router) applies them. That owner also decides which
-// frames count for a link's loss, because only it recognises echoes.
+// they are an error. With `by_owner`, the owner of the links (the router) applies them. That owner then also decides
+// which frames count towards a link's loss, because only the owner recognises echoes.
 enum class RoutingOptions : std::uint8_t { refused, by_owner };
 
 // Refuses a scheme or option that live links do not support, so that none is silently ignored.

@@ -54,13 +54,14 @@ struct EndpointOptions {
     std::uint32_t mtu_bytes = 1280;                // 0: one frame per datagram
     std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
     std::uint64_t queue_bytes = 1 << 20;
-    std::optional<std::chrono::nanoseconds> queue_age;  // default: 1 s for class 2, 10 s for the others
+    std::optional<std::chrono::nanoseconds> queue_age;  // default: 1 s for telemetry, 10 s for other frames
     std::vector<RateTerm> max_rate;
     std::optional<std::uint64_t> max_bytes_per_s;
     FilterTerms in_allow, in_block, out_allow, out_block;
     bool tap = false;
     bool is_private = false;
-    // Whether the router sends its heartbeat here. Default: the value of `calls_somebody` for the scheme.
+    // Whether the router sends its heartbeat here. Default: true if `calls_somebody` is true for the scheme and the
+    // endpoint is not a tap.
     std::optional<bool> heartbeat;
     std::string sign_key_file, verify_key_file;
     std::uint64_t rcvbuf_bytes = 32u << 20;
@@ -77,7 +78,7 @@ struct EndpointOptions {
     std::uint32_t baud = 57600;  // serial; 0: auto
     std::string flow = "none";
     bool from_oldest = false;      // shm: oldest records first
-    std::optional<bool> lossless;  // shm; default: up to the command
+    std::optional<bool> lossless;  // shm; empty: the command decides
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 
@@ -87,17 +88,17 @@ struct Endpoint {
     std::string path;  // serial device, tlog file, ring name
     EndpointOptions options;
 
-    // The link name of messages and tables: options.name, else scheme://host:port or scheme://path.
+    // The name that messages and tables show: `options.name`, or else scheme://host:port or scheme://path.
     [[nodiscard]] std::string label() const;
     friend bool operator==(const Endpoint&, const Endpoint&) = default;
 };
 
 [[nodiscard]] std::string_view group_mode_name(GroupMode mode) noexcept;
 
-// The error text for shm://NAME in a router, with the option to use instead.
+// Returns the error text for shm://NAME as an endpoint of a router. The text states which option to use instead.
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
 
-// True if the path's name is that of a recording: FLIGHT.tlog, FLIGHT.TLOG, or a rotated FLIGHT.tlog.1.
+// True if the path ends like the name of a recording: FLIGHT.tlog, FLIGHT.TLOG, or a renamed FLIGHT.tlog.1.
 [[nodiscard]] bool names_recording(std::string_view path) noexcept;
 
 // The canonical path of a file, so that two spellings of it compare equal. The file need not exist.
@@ -114,7 +115,7 @@ struct Endpoint {
 [[nodiscard]] std::span<const std::string_view> endpoint_option_names() noexcept;
 // Refuses options that contradict each other (`usage`).
 [[nodiscard]] SetupResult<void> check_options(const Endpoint& endpoint);
-// Refuses options that only make sense for writing, on an endpoint that a command reads (`usage`).
+// For an endpoint that a command reads: refuses options that only apply to writing (`usage`).
 [[nodiscard]] SetupResult<void> check_source_options(const Endpoint& endpoint);
 
 // Durations: "250ms", "2", "2s", "1m", "1h"; without a unit, seconds. Sizes: "64k", "1M", "32MiB"; without a unit,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parsers that the endpoint grammar and the configuration file share. Pure functions, safe from any thread. Errors
-// are `usage`.
+// Parsers that are shared by the endpoint grammar and the configuration file. Pure functions, safe from any thread.
+// Errors are `usage`.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ using dialect::parse_positive;
 using mavloom::in_quotes;
 using mavloom::shown;
 
-// The options that the scheme takes, and an option's default as text (empty: no default).
+// Return the names of the options that the scheme takes, and the default of one option as text (empty: no default).
 [[nodiscard]] std::vector<std::string_view> option_names_for(Scheme scheme);
 [[nodiscard]] std::string_view default_option_text(Scheme scheme, std::string_view name) noexcept;
 
@@ -50,20 +50,20 @@ struct OptionText {
     std::string value;
 };
 
-// Returns the text after the '?' that begins the options; nothing if there is none. The path of a bare recording, which
-// ends in ".tlog", may itself contain a '?'.
+// Returns the text after the '?' that begins the options, or nothing if there are no options. The path of a bare
+// recording, which ends in ".tlog", may itself contain a '?'.
 [[nodiscard]] std::optional<std::string_view> query_of(std::string_view endpoint);
 
 // Splits and decodes "a=1&b=x%20y". A repeated key, a missing value and an invalid escape are errors.
 [[nodiscard]] SetupResult<std::vector<OptionText>> split_query(std::string_view query);
 [[nodiscard]] SetupResult<std::string> percent_decoded(std::string_view text);
 
-// "HOST:PORT" or "[IPv6]:PORT". `scheme` only serves the error text.
+// "HOST:PORT" or "[IPv6]:PORT". Only error texts use `scheme`.
 [[nodiscard]] SetupResult<HostPort> parse_host_port(std::string_view text, std::string_view scheme);
-// A host from a URL or a `host` key. The result has no brackets. `scheme` and `port` only serve the error text.
+// A host from a URL or a `host` key. The result has no brackets. Only error texts use `scheme` and `port`.
 [[nodiscard]] SetupResult<std::string> parse_host(std::string_view text, std::string_view scheme, std::string_view port);
 [[nodiscard]] SetupResult<std::uint16_t> parse_port(std::string_view text);
-// Checks that the scheme can use this address. For example, 0.0.0.0 is no destination, and a multicast group needs
+// Checks that the scheme can use this address. For example, 0.0.0.0 is not a destination, and a multicast group needs
 // udpmcast.
 [[nodiscard]] SetupResult<void> check_address(Scheme scheme, const HostPort& address);
 // Checks that the path, device or ring name fits the scheme.

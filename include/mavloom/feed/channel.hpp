@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Channel: passes the frames of one endpoint from the loop thread to any number of readers. Consumer: one reader. The
 // loop thread never waits for a reader. It writes frames into a bounded buffer, which overwrites the oldest frames.
-// Each reader counts the frames that it missed. Any thread may call it, except for the functions under "loop thread".
+// Each reader counts the frames that it missed. Any thread may call both, except for the functions under "loop thread".
 // The channel must outlive its readers, which hold a shared pointer to it.
 #pragma once
 
@@ -43,7 +43,7 @@ public:
         bool always = false;  // no good frame of this id was ever received
     };
 
-    // `buffer_bytes` is the size of the FrameRing. With `verifies`, the endpoint lets only valid signatures pass.
+    // `buffer_bytes` is the size of the FrameRing. `verifies`: the endpoint passes only frames with a valid signature.
     Channel(std::shared_ptr<const dialect::Dialect> dialect, std::shared_ptr<LinkNames> names, std::size_t buffer_bytes,
             bool verifies)
         : dialect_(std::move(dialect)), names_(std::move(names)), verifies_(verifies), ring_(buffer_bytes) {}
@@ -80,9 +80,8 @@ public:
 
     // For a source that can pause, such as a lossless ring:
     static constexpr std::size_t frames_a_turn = 128;
-    // Protects the frames that `reader` has not read from being overwritten, as long as the caller pushes frames only
-    // while `has_room` is true. The protection ends when the reader is closed or destroyed. `room_made` is called with
-    // the mutex held.
+    // Protects the frames that `reader` has not read yet. In return, the caller must push frames only while `has_room`
+    // is true. The protection ends when the reader is closed or destroyed. `room_made` is called with the mutex held.
     void hold_for(const Consumer* reader, std::function<void()> room_made);
     // Whether `frames_a_turn` frames fit without overwriting protected frames. If not, `room_made` is called as soon as
     // they fit.
@@ -129,24 +128,24 @@ public:
     Consumer(const Consumer&) = delete;
     Consumer& operator=(const Consumer&) = delete;
 
-    // Adds matching frames to the batch until it holds `most`. Returns false if closed. If it adds none, use `wait` or
-    // the descriptor to learn when to call again. One call examines a limited number of frames; if more remain, both
-    // report at once.
+    // Adds matching frames to the batch until it holds `most`. Returns false if the reader or its channel is closed. If
+    // a call adds none, use `wait` or the descriptor of `event_fd` to learn when to call again. One call examines a
+    // limited number of frames. If more remain, `wait` returns at once and the descriptor is readable at once.
     bool take(FrameBatch& batch, std::size_t most);
     // Waits until a frame arrives, the channel or the reader is closed, or the deadline passes. Returns after one slice
     // (turns.hpp) at the latest, so that the caller can handle signals.
     void wait(MonoTime deadline);
-    // Returns a descriptor that, after a `take` that added no frame, becomes readable when it is worth calling `take`
-    // again. Created at the first call; the reader closes it.
+    // Returns a descriptor. After a `take` that added no frame, it becomes readable when another `take` may add some.
+    // The first call creates the descriptor; the reader closes it.
     [[nodiscard]] SetupResult<int> event_fd();
     // Frames that were overwritten before this reader read them.
     [[nodiscard]] std::uint64_t missed() const;
-    // Frame numbers: one past the newest frame of the channel, and one past the last frame that `take` looked at.
+    // Return frame numbers: one past the newest frame of the channel, and one past the last frame that `take` examined.
     [[nodiscard]] std::uint64_t newest() const;
     [[nodiscard]] std::uint64_t seen() const;
     // Whether the reader or its channel is closed.
     [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }
-    // Wakes the threads that wait. May be called again.
+    // Closes the reader and wakes the threads that wait on it. May be called again.
     void close();
 
     [[nodiscard]] const std::shared_ptr<Channel>& channel() const noexcept { return channel_; }

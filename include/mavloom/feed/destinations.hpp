@@ -18,7 +18,7 @@
 
 namespace mavloom::feed {
 
-// Creates the recording of a tlog:// destination. It rotates as the endpoint's options say.
+// Creates the recording of a tlog:// destination. The endpoint's options set its rotation.
 [[nodiscard]] SetupResult<record::RotatingWriter> create_recording(const endpoint::Endpoint& endpoint);
 
 // Counts of the frames for one live destination, including those on links that are gone. docs/guide/relay.md
@@ -41,8 +41,8 @@ class Destinations {
 public:
     using OnFile = std::function<void(const record::RotatingWriter&)>;
 
-    // Opens the endpoints; `links` must outlive the object. Files come last, because creating one renames an existing
-    // file, and a link that cannot be opened must not cause that. `on_file` is called for each file that was created,
+    // Opens the endpoints; `links` must outlive the object. It opens files last: creating a file renames an existing
+    // one, and that must not happen if a link cannot be opened. `on_file` is called for each file that was created,
     // even if a later one fails.
     [[nodiscard]] static SetupResult<Destinations> open(std::span<const endpoint::Endpoint> endpoints,
                                                         link::Links& links, const OnFile& on_file = {});
@@ -50,7 +50,8 @@ public:
     // Queues the frame for every peer of every endpoint, and writes it to the files with `time`. Returns false if no
     // peer and no file took it.
     bool send(const wire::FrameView& frame, WallTime time);
-    // How many frames of maximum length still fit into every queue. A source that can pause delivers no more than that.
+    // Returns how many more frames of maximum length fit into every queue. A source that can pause should deliver no
+    // more than that.
     [[nodiscard]] std::size_t room_in_frames() const;
     // Whether every endpoint has at least one link that is up.
     [[nodiscard]] bool all_up() const;
@@ -64,7 +65,7 @@ public:
     [[nodiscard]] std::span<const record::RotatingWriter> files() const noexcept { return files_; }
     // Whether a live endpoint lost frames: dropped, refused, without a peer, or still queued.
     [[nodiscard]] bool lost_any() const;
-    // True if there are no files and no peer was sent any frame.
+    // True if there are no files and no frame was sent to any peer.
     [[nodiscard]] bool reached_nobody() const;
 
     // Whether a file could not be written. The command must then end.

@@ -10,7 +10,7 @@ namespace mavloom::feed {
 // The number of forks between the first process and this one.
 [[nodiscard]] std::uint64_t forks() noexcept;
 
-// A member of an object that a forked child must not touch.
+// Give this as a member to each object that a forked child must not touch.
 class BeforeFork {
 public:
     // Whether this process created the object.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // FrameRing: the frames of an endpoint in a bounded ring of bytes. The writer never waits: it overwrites the oldest
 // frames. Each reader keeps its own Position, and `next` counts the frames that it missed. The ring holds whole frames
-// only. Not synchronized: the owner's mutex guards it. Allocates once; the system provides the memory as it is first
-// used.
+// only. Not synchronized: the owner's mutex guards it. Allocates once, at construction; the kernel provides the memory
+// page by page at first use.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ public:
     struct Head {
         std::int64_t time_ns = 0;
         std::uint32_t link = 0;
-        std::uint16_t size = 0;    // of the frame; `padding`: no frame follows before the ring wraps
+        std::uint16_t size = 0;    // of the frame; `padding`: the rest up to the end of the memory is unused
         std::uint8_t verdict = 0;  // see mavloom/ring/frames.hpp
     };
     // The position of a reader: its next byte and the number of its next frame. Neither wraps.

@@ -53,8 +53,8 @@ public:
         bool is_ring = false;
     };
     // Opens an endpoint. `channel` receives its frames, from the first one on. On return, everything that can be opened
-    // at once is open. With `required=true`, waits up to 5 s for the far side and fails if it is absent. A lossless
-    // ring pauses while `reader` has no room (Channel::hold_for).
+    // without waiting is open. With `required=true`, waits up to 5 s for the far side and fails if it is absent. A
+    // lossless ring pauses while `reader` has no room (Channel::hold_for).
     [[nodiscard]] SetupResult<Opened> open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
                                            const Consumer& reader);
 
@@ -62,9 +62,9 @@ public:
 
     // Returns the endpoint that carries frames back to the router of a ring, and opens it at the first call.
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // Opens the inlet of the ring `ring`, which this endpoint fills: frames that programs send to the socket
-    // RUN/`ring`.in go to every peer of the endpoint. Fails with `in_use` if that socket is already served. The inlet
-    // closes with the endpoint. `mode` sets the permissions of the socket.
+    // Opens the inlet of the ring `ring`, which this endpoint fills. Frames that programs send to the socket
+    // RUN/`ring`.in then go to every peer of the endpoint. Fails with `in_use` if that socket is already served. The
+    // inlet closes with the endpoint. `mode` sets the permissions of the socket.
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     // Closes an endpoint and returns its last counters. Queued frames are sent first, for at most one second; other
     // endpoints are served meanwhile.

@@ -37,7 +37,7 @@ class Receiver : private link::LinkHandler {
 public:
     static constexpr std::size_t default_buffer_bytes = 64u << 20;
 
-    // A log line for people about a single event. Called on the receiving thread.
+    // Takes a log line for people about a single event. Called on the receiving thread.
     using Notice = std::function<void(std::string_view)>;
 
     [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect,
@@ -63,7 +63,7 @@ public:
     // After stop:
     [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
     [[nodiscard]] std::vector<SourceLoss> losses() const;  // sorted by link, then source; at most 65,536
-    // Why the first failed recording could not be read to its end; null if none failed.
+    // The error of the first recording that failed before its end; null if none failed.
     [[nodiscard]] const SetupError* error() const noexcept { return sources_.error(); }
 
 private:

@@ -61,7 +61,7 @@ public:
 private:
     static constexpr std::size_t frames_a_turn = 1024;  // from recordings and rings
     static constexpr std::chrono::seconds longest_flush{5}, longest_turn{1};
-    static constexpr std::chrono::milliseconds look_for_room{1};  // how often a full queue is asked for room
+    static constexpr std::chrono::milliseconds look_for_room{1};  // how often a full queue is checked for room
 
     void on_frame(const link::RxFrame& rx) override;
     void on_link_up(LinkId, link::EndpointId, std::string_view name) override { handler_.on_link_up(name); }

@@ -15,10 +15,11 @@ namespace mavloom::feed {
 
 class RingAlarm {
 public:
-    // Returns how long the alarm thread need not look at the reader again; 0 if the reader has something to read. It is
-    // called with a lock held, also on the alarm thread. It must neither wait nor call functions of RingAlarm.
+    // Returns the time after which the alarm thread must check the reader again, or 0 if the reader has something to
+    // read. It is called with a lock held, on the alarm thread or on a thread that calls RingAlarm. It must neither
+    // wait nor call functions of RingAlarm.
     using Nap = std::function<Nanoseconds()>;
-    // Returns an alarm whose descriptor is already readable, so that the caller looks at the ring once before it waits.
+    // Returns an alarm whose descriptor is already readable, so that the caller checks the ring once before it waits.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, Nap nap);
     // Ends the thread. Armed alarms, and those that are armed later, become readable at once.
     static void stop_all();

@@ -37,12 +37,13 @@ public:
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect, Copies copies = Copies::kept);
 
-    // Checks an endpoint as `add` does, but without waiting or opening it for use. It checks the options, and that a
-    // tlog:// file exists and is a recording.
+    // Makes the checks that `add` makes first, without opening the endpoint for use and without waiting. It checks the
+    // options, and that a tlog:// file exists and is a recording.
     [[nodiscard]] SetupResult<void> check(const endpoint::Endpoint& endpoint) const;
 
-    // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely.
-    // A recording starts `skip` after its earliest record. `default_speed` applies if the URL has no `speed=`.
+    // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely. A
+    // recording is read from the time of its earliest record plus `skip`. `default_speed` applies if the URL has no
+    // `speed=`.
     [[nodiscard]] SetupResult<link::EndpointId> add(const endpoint::Endpoint& endpoint, MonoTime now,
                                                     double default_speed = record::Pacer::max_speed,
                                                     Nanoseconds skip = {});
@@ -56,8 +57,8 @@ public:
     void remove_ring(link::EndpointId ring);
     void hold_ring(link::EndpointId ring, bool held) noexcept;
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
-    // The ring's counters, in the form of a link's. `add_ring_to` adds them to `totals`, together with the counts of
-    // records that were not delivered.
+    // The ring's counters, in the same form as those of a link. `add_ring_to` adds them to `totals`, together with the
+    // counts of records that were not delivered.
     [[nodiscard]] const link::LinkCounters& ring_counters(link::EndpointId ring) const noexcept;
     void add_ring_to(link::EndpointId ring, Totals& totals) const noexcept;
 

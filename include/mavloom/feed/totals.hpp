@@ -25,8 +25,8 @@ struct Totals {
     std::uint64_t copies = 0;          // ring records left out because the ring's router marked them as a copy or echo
     std::uint64_t echo = 0;            // ring records of frames that this program itself sent to the inlet
 
-    // Adds the counters of a current link, of an endpoint with its links that have gone, of a recording or of a ring.
-    // Call it once for each, at the end.
+    // Adds the counters of a current link, of an endpoint (which include its closed links), of a recording or of a
+    // ring. Call it once for each of them, at the end.
     void add(const link::LinkCounters& counters) noexcept;
     void add(const link::EndpointCounters& counters) noexcept;
     void add(const record::ReadCounters& counters) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Turns: a mutex for threads that wait for data while they hold it. They wait in slices and let other threads take the
-// mutex between two slices. Any thread may use it. `glance` is for one further thread that must never wait, such as
-// that of RingAlarm.
+// Turns: a mutex for threads that hold it while they wait for data. They wait in slices, so that other threads can take
+// the mutex between two slices. Any thread may use it. `glance` is for one further thread that must never wait, such as
+// the thread of RingAlarm.
 #pragma once
 
 #include <algorithm>

@@ -21,8 +21,8 @@ struct LinkCounters {
     // Loss on the link itself, from gaps in the sequence numbers received.
     Counter lost, late, duplicate, resync;
     Counter frames_not_sent;  // in datagrams that the kernel rejected
-    // Frames sent to a closed port: those answered by an ICMP refusal, and those sent within 1 s of one while the peer
-    // is silent.
+    // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
+    // a refusal while the peer is silent.
     Counter refused;
     void add(const LinkCounters& other) noexcept;
     // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
@@ -61,7 +61,8 @@ static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "e
 struct EndpointCounters {
     Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
     Counter wrong_peer;   // udpout: datagrams from another address
-    // Bytes in datagrams from unknown senders that held no valid frame (with verify=: no correctly signed frame).
+    // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
+    // frame).
     Counter stray_bytes;
     // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
     Counter peers_refused;

@@ -45,7 +45,7 @@ struct RxFrame {
     EndpointId endpoint;
     // The kernel's receive time. For tlog sources: the time in the recording.
     WallTime time{};
-    // The frame's effect on the link's loss. Empty if the owner counts loss (`count_loss`).
+    // How this frame changed the link's loss counters. Empty if the owner counts loss (`count_loss`).
     wire::SequenceTracker::Update sequence{};
     // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
     std::uint8_t ring_verdict = 0;
@@ -103,9 +103,10 @@ public:
     // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
     // skipped.
     virtual std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // Queues the frame without signing it. Returns the number of links that queued it and whose endpoint has `sign=`.
+    // Queues the frame without signing it, even if an endpoint has `sign=`. Returns how many links queued it unsigned
+    // although their endpoint has `sign=`.
     virtual std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // For endpoint::RoutingOptions::by_owner: counts the frame being handled in its link's loss.
+    // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
     virtual wire::SequenceTracker::Update count_loss(const RxFrame& rx) = 0;
     // The clock reading that the current turn uses.
     [[nodiscard]] virtual MonoTime now() const noexcept = 0;
@@ -130,8 +131,8 @@ public:
     // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
 
-    // A signed frame of a group may arrive up to this long after a faster link delivered newer ones, and is still
-    // accepted. A caller that detects duplicates by their bytes must remember frames for longer than this.
+    // In a group, a faster link may deliver newer signed frames first. A signed frame is still accepted up to this long
+    // after that. A caller that detects duplicates by their bytes must remember frames for longer than this.
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
@@ -142,8 +143,8 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, several endpoints without name= may have the same address. The caller distinguishes them by their
-    // ids.
+    // Allows several endpoints without name= to have the same address from now on. The caller distinguishes them by
+    // their ids.
     void let_repeat() noexcept;
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads the fields of a payload by their definition, for messages that are known only at run time.
-// A MessageView owns nothing; the definition and the payload must outlive it. Reading allocates nothing and cannot
-// fail. Bytes that the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) read as 0.
+// Reads the fields of a payload by their definition, for messages whose type is known only at run time. A MessageView
+// owns nothing; the definition and the payload must outlive it. Reading allocates nothing and cannot fail. Bytes that
+// the sender cut off (trailing zeros in MAVLink 2, extension fields in MAVLink 1) read as 0.
 // Source: MAVLink guide, "Payload Truncation" and "Message Extensions".
 #pragma once
 

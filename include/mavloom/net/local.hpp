@@ -32,7 +32,8 @@ public:
     static constexpr std::size_t slots = 32;  // datagrams per receive
     static constexpr std::size_t slot_bytes = 65536;
 
-    // Binds to `path`, which must not exist. `mode` sets who may send, regardless of the umask.
+    // Binds to `path`, which must not exist. `mode` sets the file mode, which decides who may send, regardless of the
+    // umask.
     [[nodiscard]] static SetupResult<LocalSocket> open(const std::filesystem::path& path, unsigned mode);
     LocalSocket(LocalSocket&&) noexcept;
     LocalSocket& operator=(LocalSocket&&) noexcept;

@@ -31,8 +31,8 @@ public:
     };
 
     // The helper thread calls `notify` when an answer is ready, without holding a lock. The destructor waits for a
-    // running `notify`; no call follows it. If a look-up is in progress at destruction, `notify` is destroyed later, on
-    // the helper thread, when that look-up ends.
+    // running call of `notify`, and `notify` is not called after it. If a look-up is still in progress then, the helper
+    // thread destroys the `notify` object when that look-up ends.
     explicit Resolver(std::function<void()> notify);
     Resolver(const Resolver&) = delete;
     Resolver& operator=(const Resolver&) = delete;

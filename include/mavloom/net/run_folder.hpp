@@ -15,14 +15,14 @@ namespace mavloom::net {
 
 inline constexpr const char* run_variable = "MAVLOOM_RUN";
 
-// Returns the path at which a program creates its socket NAME.SUFFIX. Creates the folder if necessary. Error texts call
-// the socket `what`. Errors: `usage` for an invalid name; `permission` if there is no folder or the path is too long
-// for a socket.
+// Returns the path at which a program creates its socket NAME.SUFFIX. Creates the folder if necessary. `what` is the
+// name of the socket in error texts. Errors: `usage` for an invalid name; `permission` if there is no folder or the
+// path is too long for a socket.
 [[nodiscard]] SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_view suffix,
                                                           std::string_view what);
 
-// Connects to the first NAME.SUFFIX in these folders that a program serves, whichever user runs it. If none is served,
-// returns the reason why an existing socket cannot be used, or `not_found` if there is none. Creates nothing.
+// Connects to the first socket NAME.SUFFIX in these folders that a program of any user serves. If none is served,
+// returns the reason why an existing socket cannot be used, or `not_found` if there is no socket. Creates nothing.
 [[nodiscard]] SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix);
 
 }  // namespace mavloom::net

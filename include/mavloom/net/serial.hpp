@@ -72,9 +72,9 @@ private:
 };
 
 // Finds one serial device again after it was unplugged. It tracks two names: the path that the user gave, and the link
-// in /dev/serial/by-id that led to the open device. The link still leads to the device if it returns under another
-// number. While that link and the user's path lead to different devices, the path is not tried, because another device
-// may have taken it.
+// in /dev/serial/by-id that led to the open device. If the device returns under another number, the link still leads to
+// it. While the link and the user's path lead to different devices, the path is not tried, because another device may
+// have taken it.
 class SerialDevice {
 public:
     static constexpr std::string_view default_id_folder = "/dev/serial/by-id";

@@ -34,8 +34,8 @@ struct TrafficRow {
     // The average rate between the first and the last frame, in Hz. 0 before the second frame, or if no time has
     // passed.
     [[nodiscard]] double rate_hz() const noexcept;
-    // The rate over the last 5 to 10 s, in Hz. For rarer messages, or after a longer silence, at most one frame per
-    // gap.
+    // The rate over the last 5 to 10 s, in Hz; for rarer messages, over the last gap. If the last frame is more than 10
+    // s old, the rate is at most 1 divided by its age in seconds.
     [[nodiscard]] double recent_rate_hz(WallTime now) const noexcept;
     [[nodiscard]] Nanoseconds mean_gap() const noexcept;
 };

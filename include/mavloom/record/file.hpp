@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An open file for reading or writing recordings. A signal never interrupts a read or write half-way: each one
-// completes or returns an error. Only waiting for a pipe or device can be interrupted.
+// An open file for reading or writing recordings. A signal does not interrupt reads and writes: each one completes or
+// returns an error. A signal only interrupts the wait for a pipe or device.
 //
 // A File keeps its own position in a regular file, apart from the descriptor's. A forked child that continues reading
 // therefore does not move its parent's position. Files are move-only, have one owner thread, and allocate only for

@@ -17,7 +17,7 @@ public:
     struct Limits {
         // A longer gap between records counts as a jump: the clock was changed, or the outage is not worth replaying.
         Nanoseconds longest_gap = std::chrono::seconds{60};
-        // A longer step back in time counts as a jump; a shorter one is only records out of order.
+        // A longer step back in time counts as a jump; a shorter one means that records are out of order.
         Nanoseconds longest_step_back = std::chrono::seconds{1};
     };
 

@@ -20,7 +20,7 @@
 namespace mavloom::record {
 
 struct RecorderCounters {
-    Counter frames, bytes;  // in the file, without what the writer still buffers; `bytes` excludes the time stamps
+    Counter frames, bytes;  // in the file, without records that are still buffered; `bytes` excludes the time stamps
     Counter queue_full;     // frames dropped because the writing thread was too slow
     Counter write_error;    // frames lost because the disk did not take them
 };

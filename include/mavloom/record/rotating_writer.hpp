@@ -3,8 +3,8 @@
 // frame and never replaces a file. Format: docs/formats/tlog.md.
 //
 // Time means the receive time of the frames; the writer reads no clock. A frame that is `every` or more later than the
-// first frame of its segment starts a new segment. Earlier frames, from another link or after a clock was set back,
-// stay in the open segment.
+// first frame of its segment starts a new segment. A frame with an earlier time, from another link or after a clock was
+// set back, stays in the open segment.
 //
 // One owner thread. Opening a segment allocates; `write` within a segment does not. Closing a segment waits for the
 // disk, so do not use this class in a loop that serves sockets.

@@ -38,7 +38,7 @@ public:
         end,          // the end of the file was reached
         failed,       // reading failed; `error` has the reason
         nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; call again
-        damage,       // the byte limit was reached without a record that `next` or `next_of` looks for; call again
+        damage,       // the byte limit was reached without a wanted record; call again
     };
     // Returns the next record; its views are valid until the next call. For a pipe or device, it waits only for the
     // bytes that it needs to judge the record. After `most_damage` bytes without a record it returns Stop::damage, so
@@ -53,7 +53,8 @@ public:
     // Waits for data after Stop::nothing_yet; see File::wait.
     [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept { return file_.wait(limit); }
 
-    // Continues at `offset`, which should be the offset of a record. Fails for pipes. Bytes read again count again.
+    // Continues at `offset`, which should be the offset of a record. Fails for pipes. Bytes that are read again are
+    // counted again.
     [[nodiscard]] SetupResult<void> seek(std::uint64_t offset);
 
     // The offset of the first byte not yet returned or skipped.

@@ -20,16 +20,16 @@ enum class FrameSignature : std::uint8_t {
     bad,        // it is invalid; a router drops such frames and never writes them
 };
 
-// Builds the record's verdict byte. Bits 0 to 3: what became of the frame (0: not recorded). Bits 4 and 5: its
-// signature.
+// Builds the record's verdict byte. Bits 0 to 3 hold the routing verdict plus one (0: not recorded). Bits 4 and 5 hold
+// the result of the signature check.
 [[nodiscard]] constexpr std::uint8_t ring_verdict(FrameSignature signature) noexcept {
     return static_cast<std::uint8_t>(static_cast<unsigned>(signature) << 4u);
 }
 [[nodiscard]] constexpr std::uint8_t ring_verdict(route::Verdict verdict, FrameSignature signature) noexcept {
     return static_cast<std::uint8_t>(ring_verdict(signature) | (static_cast<unsigned>(verdict) + 1u));
 }
-// Returns what became of the frame. Returns nothing if the writer did not record it (mavloom.hear, `shm write`) or if
-// the value is unknown to this version.
+// Returns the routing verdict. Returns nothing if the writer recorded none (mavloom.hear, `shm write`) or if this
+// version does not know the value.
 [[nodiscard]] constexpr std::optional<route::Verdict> verdict_of(std::uint8_t ring_verdict) noexcept {
     const unsigned number = ring_verdict & 15u;
     if (number == 0 || number > static_cast<unsigned>(route::Verdict::unknown_link) + 1u) return std::nullopt;

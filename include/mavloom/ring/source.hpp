@@ -42,8 +42,8 @@ struct RingLosses {
 
 class RingSource {
 public:
-    // Answers are sent through `links`, using the rules of `dialect` if given. `table`, `ids`, `links` and `dialect`
-    // must outlive the object.
+    // Answers are sent through `links`, with the queue rules of `dialect` if it is given. `table`, `ids`, `links` and
+    // `dialect` must outlive the object.
     RingSource(const endpoint::Endpoint& endpoint, const wire::MessageTable& table, RingLinkIds& ids,
                link::Links& links, Copies copies, const dialect::Dialect* dialect = nullptr);
     RingSource(const RingSource&) = delete;

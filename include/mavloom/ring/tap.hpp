@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The writing end of a router's ring: records every good frame once, as received, with its link and verdict. Also
+// The writing end of a router's ring. It records every good frame once, as received, with its link and verdict, and
 // maintains the ring's counter page.
 //
-// Readers can neither delay nor stop the routing. One owner thread. Writing a frame neither allocates nor locks. It
-// makes no system call, except a wake-up at most once per millisecond while a reader sleeps.
+// Readers of the ring can neither delay nor stop the router. One owner thread. Writing a frame neither allocates nor
+// locks. It makes no system call, except a wake-up at most once per millisecond while a reader sleeps.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] LinkId last_link() const noexcept { return last_link_; }
     RingTap(const RingTap&) = delete;
     RingTap& operator=(const RingTap&) = delete;
-    // Removes the ring and its page. If the router could not start, a ring that existed before stays.
+    // Removes the ring and its page. Exception: if the router never ran a turn, it leaves a ring that existed before.
     ~RingTap();
 
     // `verified`: the frame came through an endpoint with verify=.
@@ -94,7 +94,7 @@ private:
     MonoTime page_due_{};
     LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
-    bool told_ring_ = false, told_page_ = false;  // whether the failure to recreate it was already reported
+    bool told_ring_ = false, told_page_ = false;  // whether the failure to recreate the ring or page was reported
 };
 
 }  // namespace mavloom::ring

@@ -4,7 +4,7 @@
 // limits, copies and echoes. It opens nothing, sends nothing and reads no clock. Rules: docs/guide/routing.md.
 //
 // One thread owns an engine; any thread may read the counters. The engine allocates at construction and when links or
-// options change, never for a frame. Its memory is bounded whatever arrives: see the constants of Engine.
+// options change, never for a frame. Its memory is bounded, no matter what arrives: see the constants of Engine.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,8 @@ struct Options {
     std::optional<Source> own{};  // the program's own id; frames targeted at exactly this id are not forwarded
     // How many frames to remember, to detect copies and echoes. Rounded up to a power of two and limited to 8 MiB.
     std::size_t recent_frames = 1u << 16;
-    // Seeds the frame hash. With a random seed, a hostile sender cannot forge frames that pass for copies of others.
+    // Seeds the frame hash. With a random seed, a hostile sender cannot forge frames that the engine would take for
+    // copies of other frames.
     std::uint64_t seed = 0;
 };
 
@@ -47,8 +48,8 @@ struct LinkPolicy {
     std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
     // A tap gets every good frame from the other links, whatever its verdict. Frames from a tap go nowhere.
     bool tap = false;
-    // Frames from a private link go to taps only. The link gets only frames targeted at exactly a system and
-    // component heard on it.
+    // Frames from a private link go to taps only. A private link gets only frames whose target system and component
+    // were both heard on it.
     bool is_private = false;
     dialect::Rates max_rate{};
     std::optional<std::uint64_t> max_bytes_per_s{};
@@ -61,10 +62,10 @@ struct GroupOrder {
 
 enum class Verdict : std::uint8_t {
     forwarded,
-    nowhere,         // no other link qualifies, for example when the target is on the link it came from
+    nowhere,         // no other link qualifies, for example if the target is on the link where the frame arrived
     filtered,        // dropped by the input filter, or by the output filter of every candidate link
     rate_limited,    // dropped by max_rate or max_bytes of every candidate link
-    duplicate,       // already received on another link of the group or within `dedup`, or already sent everywhere
+    duplicate,       // already received in the group or within `dedup`, or a copy that was already sent everywhere
     echo,            // returned on a link that it had been sent to
     unknown_target,  // targeted at an unknown system or component
     consumed,        // targeted at the program's own id
@@ -90,7 +91,7 @@ enum class Reason : std::uint8_t {
     same_group,     // the frame arrived on another link of the same group
     source_here,    // the frame's sender was heard on this link
     other_target,   // the frame's target was not heard on this link
-    private_link,   // a private link, and the frame is not for exactly a system and component heard on it
+    private_link,   // a private link on which the exact target (system and component) was not heard
     filtered,       // by the link's output filter
     other_member,   // another link of the group carries the frame
     already_sent,   // the frame arrived earlier on another link and was already sent to this one
@@ -105,8 +106,8 @@ struct Explanation {
     Reason reason = Reason::sent;
 };
 
-// Counts of one link. `frames` counts the frames that arrived on it and is the sum of the verdict counters. The three
-// `out_` counters count frames that the link's output filter or limits held back.
+// Counts of one link. `frames` counts the frames that arrived on the link; it is the sum of the verdict counters. The
+// three `out_` counters count frames that were not sent to the link because of its output filter or limits.
 struct LinkCounters {
     Counter frames;
     Counter forwarded, nowhere, filtered, rate_limited, duplicate, echo, unknown_target, consumed, tap, private_link;
@@ -117,7 +118,7 @@ struct EngineCounters {
     Counter unknown_link;
     Counter routes_learned;  // new, or learned again after they were forgotten
     Counter routes_expired;
-    Counter routes_evicted;  // the stalest of a full link, or, if the table is full, of the link with most routes
+    Counter routes_evicted;  // the stalest route of a full link; if the table is full, of the link with most routes
     Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
     Counter reboots;         // restarts of a system, see note_reboot
     Counter duplicate_ids;   // sources heard alternately on links that do not share a group
@@ -152,10 +153,10 @@ public:
     static constexpr Nanoseconds echo_window = std::chrono::seconds{2};
     // A group's link is silent after this long without a frame. `best` and `primary` then choose another link.
     static constexpr Nanoseconds member_silence = std::chrono::seconds{3};
-    // `best` leaves a live link only for one that received this many more of the last 128 to 256 HEARTBEATs, that is
-    // 2 % to 4 %. The margin covers HEARTBEATs still in flight on the slower link. With few vehicles it suffices.
-    // A fleet can exceed it: at 20 HEARTBEATs a second and 0.7 s of difference in delay, 14 are in flight. Those may
-    // count as lost.
+    // `best` leaves a live link only for one that received this many more of the last 128 to 256 HEARTBEATs: 2 to 4 %.
+    // The margin covers HEARTBEATs still in flight on the slower link. With few vehicles it suffices. A fleet can
+    // exceed it: at 20 HEARTBEATs a second, and links whose delays differ by 0.7 s, 14 HEARTBEATs are in flight. `best`
+    // may count those as lost.
     static constexpr std::uint32_t better_by_beats = 5;
     static constexpr std::uint32_t most_beats = 256;  // at this count, all links of the group halve their counts
     // A HEARTBEAT that arrives again on the same link within this time is a duplicated datagram and counts once.

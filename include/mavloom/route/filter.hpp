@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A filter decides which frames a link accepts or sends. It is compiled once from the terms that a user typed and a
-// dialect. A frame must match every kind of term (message, system, component) that the allow list contains. It must
-// match no term of the block list. See docs/guide/routing.md, "Filters and limits".
+// dialect. For each kind of term (message, system, component) in the allow list, the frame must match one of the terms.
+// It must match no term of the block list. See docs/guide/routing.md, "Filters and limits".
 //
 // Filters are immutable values, safe to use from any thread. Compiling allocates; `admits` does not.
 #pragma once

@@ -73,7 +73,7 @@ public:
     bool remove(std::string_view label);
     // Applies new [router] values. Links, routes and counters stay.
     void configure(const config::RouterConfig& config);
-    // Replaces the endpoints and recordings by `endpoints`, for which group_modes_of must succeed. An endpoint stays
+    // Makes `endpoints` the router's endpoints and recordings. group_modes_of must succeed for them. An endpoint stays
     // untouched if its options, its group's mode and the contents of its key files are unchanged. If an endpoint cannot
     // be opened, the router reports it and leaves it out, and reopens the former endpoint of the same label, if any.
     void become(const std::vector<endpoint::Endpoint>& endpoints);
@@ -134,7 +134,7 @@ private:
     const dialect::Dialect& dialect_;
     bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
-    // Never null, except `ring_`.
+    // None of these is null, except `ring_` without a ring.
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;

@@ -34,8 +34,8 @@ inline constexpr std::uint64_t max_capacity = std::uint64_t{1} << 36;
 inline constexpr std::uint64_t default_capacity = 8 << 20;
 inline constexpr std::size_t max_record_bytes = 64 << 10;
 
-// The longest payload that a ring accepts, in bytes. A record and the padding before it must fit beside the range that
-// is announced for overwriting.
+// The longest payload that a ring accepts, in bytes. The limit ensures that a record, the padding before it, and the
+// range announced for overwriting fit into the ring together.
 [[nodiscard]] constexpr std::size_t max_payload(std::uint64_t capacity) noexcept {
     return static_cast<std::size_t>(std::min<std::uint64_t>(max_record_bytes, capacity / 4 - record_header_bytes));
 }
@@ -88,7 +88,7 @@ struct RingControl {
     alignas(128) typename Words::Word64 tail;  // end of the committed records; only increases
     typename Words::Word64 records;            // number of committed records
     // Stored once per 1/64 of the capacity, and when readers come and go.
-    alignas(128) typename Words::Word64 intent;  // everything `capacity` or more before this may be overwritten
+    alignas(128) typename Words::Word64 intent;  // bytes more than `capacity` before this may be overwritten
     typename Words::Word64 holders;              // slots whose position the writer may not pass
     typename Words::Word64 attached;             // slots in use, or left behind by a killed reader
     // Read at each commit. Stored by readers that go to sleep, and when the ring is removed.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The types that ring writers and readers share: a record (opaque bytes with a few tags) and the error codes. Plain
-// values; nothing allocates.
+// Types that ring writers and readers share: a record, which is opaque bytes with a few tags, and the error codes.
+// Plain values; nothing allocates.
 #pragma once
 
 #include <cstdint>

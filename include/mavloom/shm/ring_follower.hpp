@@ -21,7 +21,8 @@ public:
     // Opens the ring if it exists. Returns false if it does not exist or cannot be read; see `error`.
     [[nodiscard]] bool try_open();
     // Returns the next record, which is valid until the next call. Waits until `deadline`. Then it returns `no_writer`
-    // if there is no ring or no writer, otherwise `empty`. Returns `damaged` as long as a damaged ring has the name.
+    // if there is no ring or no writer, otherwise `empty`. As long as the ring under this name is damaged, returns
+    // `damaged`.
     [[nodiscard]] ReadResult<RingRecord> read(MonoTime deadline);
 
     // Like `read`, but does not wait; for a loop that sleeps elsewhere. The loop polls again after the time that the

@@ -40,8 +40,8 @@ struct RingStatus {
     std::uint64_t capacity = 0;  // bytes
     WallTime created{};
     bool retired = false;
-    // The data before the end of the ring is not valid records. Readers and writers reject the ring. All fields below
-    // are meaningless.
+    // The data before the end of the ring does not consist of valid records. Readers and writers reject such a ring.
+    // All fields below are meaningless.
     bool damaged = false;
     bool writer_alive = false;
     std::uint32_t writer_pid = 0;  // of the last writer; 0 after a clean close

@@ -5,8 +5,8 @@
 //     while (const auto record = reader->read()) use(record->data);
 //
 // A *lossy* reader gets copies and never blocks the writer. If the writer laps it, `missed` in the next record is the
-// exact number of records lost. A *lossless* reader gets views into the ring, and the writer may not pass the record in
-// view. A writer with the `evict` policy may; then `missed` counts the records lost.
+// exact number of records lost. A *lossless* reader gets views into the ring, and the writer may not overwrite the
+// record in view. A writer with the `evict` policy may overwrite it; `missed` then counts the records lost.
 //
 // One owner thread; move-only. After opening, a reader allocates nothing and makes system calls only to wait.
 #pragma once
@@ -35,8 +35,8 @@ struct ReaderOptions {
     // Busy-waits instead of sleeping. Saves the last microsecond of latency, but needs a CPU core of its own.
     bool spin = false;
     // Maps the ring read-only and leaves no trace in it. Such a reader is lossy and unlisted, and waits by polling
-    // every millisecond. A lossy reader falls back to this in two cases: it may not write to the ring (mode 0640 and
-    // another user), or 64 other readers are registered.
+    // every millisecond. A lossy reader falls back to this if 64 other readers are registered. It also does so if it
+    // may not write to the ring (mode 0640 and another user).
     bool read_only = false;
 };
 
@@ -50,7 +50,7 @@ public:
     ~RingReader();
 
     // Returns the next record, or `empty` if there is none. Releases the previous record: its view becomes invalid, and
-    // the writer may pass it.
+    // the writer may overwrite it.
     [[nodiscard]] ReadResult<RingRecord> try_read() noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
         if (forked()) return tl::unexpected(ReadError::forked);
@@ -59,10 +59,10 @@ public:
         if (found == Found::record) return record;
         return tl::unexpected(found == Found::empty ? ReadError::empty : ReadError::damaged);
     }
-    // For lossless readers; others get `empty`. Passes up to `most` records, at most about 1/8 of the ring, to
-    // `visit(const RingRecord&)`. Returns how many, or `empty` if there are none. The records are contiguous in memory,
-    // in place, and all stay in view until the next call. An exception from `visit` terminates the program. Inside
-    // `visit`, only `holds` of this reader may be called.
+    // For lossless readers; others get `empty`. Calls `visit(const RingRecord&)` for up to `most` records, which span
+    // at most about 1/8 of the ring. Returns how many, or `empty` if there are none. The records lie in the ring,
+    // contiguous in memory, and all stay in view until the next call. An exception from `visit` terminates the program.
+    // Inside `visit`, only `holds` of this reader may be called.
     template <class Visit>
     [[nodiscard]] ReadResult<std::size_t> try_visit(std::size_t most, Visit&& visit) noexcept {
         using Found = detail::Consumer<SharedWords>::Found;
@@ -86,7 +86,7 @@ public:
     // the reason why there is none.
     //
     // `arm` asks the writer to change `wake_word` when it commits a record. It returns how long the loop may sleep
-    // before it polls again, or 0 if it should poll at once. The request holds until the next record.
+    // before it polls again, or 0 if it should poll at once. The request stays in force until the next record.
     [[nodiscard]] ReadResult<RingRecord> poll() noexcept;
     [[nodiscard]] Nanoseconds arm() noexcept;
     // The word that the writer changes. The pointer keeps the ring mapped.
@@ -98,8 +98,8 @@ public:
     void detach() noexcept;
 
     // Returns whether the bytes read from the current view are valid: false once an evicting writer has removed the
-    // hold. Copy or use the data first, then call this. The answer covers what was read before the call. It costs an
-    // atomic read-modify-write of a shared word.
+    // hold. Copy or use the data first, then call this. The result applies to everything that was read before the call.
+    // It costs an atomic read-modify-write of a shared word.
     [[nodiscard]] bool holds() const noexcept { return !consumer_.lossless() || consumer_.holds(); }
     [[nodiscard]] bool is_registered() const noexcept { return slot_.has_value(); }
     [[nodiscard]] bool writer_alive() const noexcept;

@@ -36,8 +36,8 @@ inline constexpr LinkId end_of_link_numbers{0xf000'0000};
 
 class RingWriter {
 public:
-    // Creates or continues the ring `name`. A ring of another capacity whose writer is gone is replaced; its readers
-    // reopen. Errors:
+    // Creates or continues the ring `name`. A ring of another capacity is replaced if its writer is gone; its readers
+    // then reopen the name. Errors:
     // - `in_use` if another writer is alive; the text names its process.
     // - `no_space` if a new ring does not fit; nothing is created.
     // - `bad_input` if the file is not a ring of this version; the file stays untouched.
@@ -77,7 +77,7 @@ public:
     // True if open() or reopen() created the ring; false if it continued an existing one.
     [[nodiscard]] bool created() const noexcept { return created_; }
     [[nodiscard]] std::size_t longest() const noexcept { return max_payload(options_.capacity); }
-    [[nodiscard]] std::uint64_t records() const noexcept { return producer_.records(); }  // since the ring was made
+    [[nodiscard]] std::uint64_t records() const noexcept { return producer_.records(); }  // since the ring was created
     // Returns the largest link number below `end_of_link_numbers` in the ring's records, or 0. A writer that continues
     // a ring numbers its own links above it. Scans all records.
     [[nodiscard]] LinkId last_link() const noexcept;

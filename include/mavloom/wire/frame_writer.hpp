@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Writes a complete frame: header, payload, checksum and, optionally, a signature.
-// MAVLink 2 payloads lose their trailing zero bytes, but at least one byte stays. MAVLink 1 payloads have full length
-// but no extension fields. Writes into the caller's buffer and allocates nothing. Apart from the Signer, which advances
-// its time, there is no state.
+// Writes a complete frame: header, payload, checksum and, optionally, a signature. MAVLink 2 payloads lose their
+// trailing zero bytes, but at least one byte stays. MAVLink 1 payloads have full length but no extension fields. Writes
+// into the caller's buffer and allocates nothing. The only state is in the Signer, which advances its time.
 // Source: MAVLink guide, "Packet Serialization".
 #pragma once
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Computes the frame loss of one link from sequence numbers, and detects restarts of its vehicles.
-// Sequences are tracked per source (system, component), so several sources, redundant copies and reordering do not
-// count as loss. Feed it every well-formed frame of the link, including those with unknown ids and those that are
-// filtered later, but no echoes. One owner thread. Allocates when it sees a new source (at most `max_sources`), never
-// for a known one.
+// Computes the frame loss of one link from sequence numbers, and detects restarts of its vehicles. Sequences are
+// tracked per source (system, component), so several sources, redundant copies and reordering do not count as loss.
+// Call `update` for every well-formed frame of the link, including those with unknown ids and those that are filtered
+// later, but not for echoes. One owner thread. Allocates when it sees a new source (at most `max_sources`), never for a
+// known one.
 //
 // Let d be the signed 8-bit difference between the received and the expected sequence number:
 // - 0: the frame is in order.
 // - 1 to 100: a gap; d frames are lost.
-// - -30 to -1: a duplicate if the same bytes were received before or d is -1, otherwise a late frame, which reduces the
-//   loss by one.
+// - -30 to -1: a duplicate, if the same bytes were received before or if d is -1. Otherwise it is a late frame, which
+//   reduces the loss by one.
 // - any other value: a resync, which counts no loss.
 //
 // A restart is detected when `time_boot_ms` falls by more than `boot_tolerance_ms` between two frames of the same
@@ -51,7 +51,7 @@ public:
         Verdict verdict = Verdict::good;
         std::int32_t lost = 0, late = 0, duplicate = 0, resync = 0;
     };
-    // A smaller fall is taken for two frames that arrived out of order.
+    // A smaller fall means that two frames arrived out of order.
     static constexpr std::uint32_t boot_tolerance_ms = 1000;
 
     SequenceTracker();
@@ -70,7 +70,7 @@ public:
 private:
     // Recent frames remembered per source, to distinguish duplicates from late frames.
     static constexpr std::size_t window = 32;
-    // A sender that repeats its sequence number this many times in a row is taken for one that does not count.
+    // A sender that repeats its sequence number this many times in a row is assumed not to count at all.
     static constexpr std::uint8_t constant_after = 8;
 
     struct Clock {  // time_boot_ms of one message

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Checks frames whose message id has no definition, and so no known CRC_EXTRA. For a given frame, only 256 of the
-// 65,536 possible checksums correspond to a CRC_EXTRA, and a source always uses the same CRC_EXTRA for a message id.
-// This class learns that byte per (system, component, id) of one link and then checks frames as if the id were known.
-// One owner thread; at most 256 entries, all allocated at construction.
+// 65,536 possible checksums correspond to a CRC_EXTRA. A source always uses the same CRC_EXTRA for a message id. This
+// class learns that byte per (system, component, id) of one link and then checks frames as if the id were known. One
+// owner thread; at most 256 entries, all allocated at construction.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ public:
     static constexpr std::uint8_t confirmations = 3;
 
     enum class Verdict : std::uint8_t {
-        impossible,  // no CRC_EXTRA gives this checksum, or not the confirmed one: the frame is damaged
+        impossible,  // no CRC_EXTRA fits, or the one that fits is not the confirmed one: the frame is damaged
         possible,    // some CRC_EXTRA fits, but none is confirmed yet: check the surrounding bytes
         confirmed,   // the confirmed byte fits
     };
@@ -31,8 +31,9 @@ public:
     // Judges the frame; learns nothing.
     [[nodiscard]] Verdict judge(const FrameView& frame) const noexcept;
     // Learns from a frame that was accepted, or that was rejected only because it disagrees with the confirmed byte.
-    // Returns true if the caller should accept the frame. Returns false if no CRC_EXTRA fits or it disagrees with the
-    // confirmed byte. After `confirmations` frames that agree on another byte, that byte becomes the confirmed one.
+    // Returns true if the caller should accept the frame. Returns false if no CRC_EXTRA fits, or if the one that fits
+    // differs from the confirmed byte. After `confirmations` frames that agree on another byte, that byte becomes the
+    // confirmed one.
     bool learn(const FrameView& frame) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }

@@ -13,11 +13,11 @@ namespace mavloom::python {
 
 namespace nb = nanobind;
 
-// The counters of the endpoint, and what the Python objects count themselves.
+// The counters of the endpoint, and those that the Python objects count themselves.
 struct LinkStats : feed::EndpointStats {
     std::uint64_t missed = 0;    // by the link's own reader
-    std::uint64_t not_kept = 0;  // unknown to `latest`
-    std::uint64_t no_peer = 0;   // not sent, because nobody was there
+    std::uint64_t not_kept = 0;  // messages that `latest` does not keep
+    std::uint64_t no_peer = 0;   // messages not sent because there was no peer
     std::vector<std::string> hints{};
 };
 

@@ -114,7 +114,7 @@ void Subscription::close() {
 
 void Subscription::check_target(const std::string& ring) const {
     if (ring == ring_name_)
-        raise_usage(fmt::format("ring {} is what is heard here: it would be filled with itself", ring));
+        raise_usage(fmt::format("this link reads ring {}, so the ring would be filled with its own records", ring));
 }
 
 std::uint64_t Subscription::pump(PyRingWriter& writer, const nb::object& timeout) {
@@ -203,7 +203,7 @@ void bind_subscription(nb::module_& module) {
              "Works in C++ without the GIL. Returns the number of frames written.\n\n"
              "Each record is a whole frame of kind 1 with its receive time and link. `verdict` is 0 for\n"
              "unsigned, 16 for signed but not checked, 32 for signed and verified (docs/formats/ring.md).\n"
-             "Frames for which a full ring has no room stay with this reader.")
+             "If a full ring has no room for a frame, the frame stays with this reader for its next call.")
         .def("event_fd", &Subscription::event_fd)
         .def_prop_ro("missed", &Subscription::missed, "Frames that were overwritten before this reader read them.")
         .def("close", &Subscription::close,

@@ -38,21 +38,22 @@ public:
     nb::object recv_match(const nb::object& condition, const nb::object& type, bool blocking, const nb::object& timeout,
                           const OptionalInteger& system, const OptionalInteger& component);
 
-    // Raises UsageError if `ring` is the ring that is read: it would be filled with itself.
+    // Raises UsageError if this link reads `ring`: `pump` would write the ring's own records into it again.
     void check_target(const std::string& ring) const;
     // Writes frames to a ring without an object for each message; returns how many. After the time-out it still writes
     // the frames that were there when it began, as far as the ring has room.
     std::uint64_t pump(PyRingWriter& writer, const nb::object& timeout);
 
-    // For asyncio: after a poll that found nothing, this descriptor becomes readable when another poll is worthwhile.
+    // For asyncio. After a poll that found nothing, this descriptor becomes readable when another poll may find
+    // something.
     int event_fd();
     [[nodiscard]] std::uint64_t missed() const;
     void close();
     [[nodiscard]] const feed::Consumer& consumer() const noexcept { return *consumer_; }
 
 private:
-    // When a call gives up: at its deadline. A poll gives up once it has looked at every frame that was there when it
-    // began, whatever arrives meanwhile.
+    // When a call gives up: at its deadline. A poll gives up once it has examined every frame that was there when it
+    // began, no matter what arrives meanwhile.
     struct Limit {
         MonoTime deadline;
         std::optional<std::uint64_t> end;  // for a poll: one past the last frame to look at
@@ -63,7 +64,7 @@ private:
         bool full = false, ended = false;
     };
 
-    // Returns an invalid object if nothing came in time or, with `ended` set, if nothing will ever come.
+    // Returns an invalid object if no message arrived in time. Sets `ended` if none will ever arrive.
     nb::object next(const feed::Filter& filter, const Limit& limit, bool& ended);
     nb::object or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline);
     [[nodiscard]] bool is_past(std::uint64_t end);

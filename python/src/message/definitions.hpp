@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Definitions: a dialect together with its field names as interned Python strings.
-// Interned names make reading an attribute a comparison of pointers. Immutable after construction, and shared by every
-// message that was decoded with it. Created and destroyed with the GIL held.
+// Definitions: a dialect together with its field names as interned Python strings. With interned names, reading an
+// attribute only compares pointers. Immutable after construction, and shared by every message that was decoded with it.
+// Created and destroyed with the GIL held.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -32,7 +32,8 @@ public:
 
     // Returns the built-in definitions, which are created once.
     [[nodiscard]] static std::shared_ptr<const Definitions> builtin();
-    // Returns the built-in definitions, with those of an XML file added or in their place. Raises if the file is wrong.
+    // Returns the built-in definitions with those of an XML file, which are added or replace built-in ones. Raises if
+    // the file is wrong.
     [[nodiscard]] static std::shared_ptr<const Definitions> load(const std::string& path);
 
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }

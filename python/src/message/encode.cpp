@@ -57,7 +57,7 @@ void set_number(MessageBuilder& builder, const Field& field, const nb::handle& v
     const double real = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() != nullptr) {
         clear_type_error();
-        refuse(builder, field, fmt::format("a number is wanted, not {}", nb::repr(value).c_str()));
+        refuse(builder, field, fmt::format("expected a number, not {}", nb::repr(value).c_str()));
     }
     value_or_raise(builder.set_number(field, real, index));
 }
@@ -72,7 +72,7 @@ std::string_view utf8_of(const nb::handle& text) {
 void set_text(MessageBuilder& builder, const Field& field, const nb::object& value) {
     if (PyUnicode_Check(value.ptr())) return value_or_raise(builder.set_text(field, utf8_of(value)));
     if (PyObject_CheckBuffer(value.ptr()) == 0)
-        refuse(builder, field, fmt::format("str or bytes are wanted, not {}", nb::repr(value).c_str()));
+        refuse(builder, field, fmt::format("expected str or bytes, not {}", nb::repr(value).c_str()));
     const Buffer buffer(value);
     const auto bytes = buffer.bytes();
     value_or_raise(builder.set_text(field, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
@@ -83,11 +83,11 @@ void set_array(MessageBuilder& builder, const Field& field, const nb::object& va
     if (!list.is_valid()) {
         clear_type_error();
         refuse(builder, field,
-               fmt::format("a sequence of {} numbers is wanted, not {}", field.count(), nb::repr(values).c_str()));
+               fmt::format("expected a sequence of {} numbers, not {}", field.count(), nb::repr(values).c_str()));
     }
     const auto given = static_cast<std::size_t>(PySequence_Fast_GET_SIZE(list.ptr()));
     if (given != field.count())
-        refuse(builder, field, fmt::format("{} elements are wanted, not {}", field.count(), given));
+        refuse(builder, field, fmt::format("expected {} elements, not {}", field.count(), given));
     for (std::size_t i = 0; i < given; ++i)
         set_number(builder, field, PySequence_Fast_GET_ITEM(list.ptr(), static_cast<Py_ssize_t>(i)), i);
 }
@@ -95,7 +95,7 @@ void set_array(MessageBuilder& builder, const Field& field, const nb::object& va
 void set_value(MessageBuilder& builder, const Field& field, const nb::object& value) {
     if (field.type == dialect::FieldType::char8) return set_text(builder, field, value);
     if (PyUnicode_Check(value.ptr())) {  // the name of an enum entry, A|B for flags
-        if (field.enumeration == nullptr || field.is_array()) refuse(builder, field, "a number is wanted, not text");
+        if (field.enumeration == nullptr || field.is_array()) refuse(builder, field, "expected a number, not text");
         return value_or_raise(builder.set_from_text(field, utf8_of(value)));
     }
     if (field.is_array()) return set_array(builder, field, value);
@@ -134,7 +134,7 @@ bool has_objects(const nb::object& array) {
 
 Buffer::Buffer(const nb::object& object) {
     if (PyObject_CheckBuffer(object.ptr()) != 0 && has_objects(object))
-        raise_usage("an array of Python objects: bytes are wanted");
+        raise_usage("expected bytes, not an array of Python objects");
     if (PyObject_GetBuffer(object.ptr(), &view_, PyBUF_SIMPLE) != 0) throw nb::python_error();
 }
 
@@ -157,7 +157,7 @@ MessageBuilder build(const Definitions& definitions, const nb::object& message, 
         return builder;
     }
     if (!nb::isinstance<Message>(message)) {
-        PyErr_SetString(PyExc_TypeError, "a message's name or a Message is wanted");
+        PyErr_SetString(PyExc_TypeError, "expected the name of a message, or a Message");
         throw nb::python_error();
     }
     const auto& given = *nb::inst_ptr<Message>(message);
@@ -175,7 +175,7 @@ wire::Version version_of(const char* what, const Integer& given) {
 
 void check_version(wire::Version version, const dialect::Message& message) {
     if (version == wire::Version::v1 && !wire::fits_v1(message.wire))
-        raise_usage(fmt::format("{} has id {}: MAVLink 1 ends at 255", message.name, message.id().value));
+        raise_usage(fmt::format("{} has id {}: MAVLink 1 allows at most 255", message.name, message.id().value));
 }
 
 wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header, const MessageBuilder& builder) {
@@ -185,16 +185,16 @@ wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header, c
 
 wire::FrameView whole_frame(const dialect::Dialect& dialect, ByteView bytes) {
     const auto length = wire::frame_length(bytes);
-    if (length == 0) raise_input("no MAVLink frame: it begins with 0xfd or 0xfe and has at least 8 bytes");
+    if (length == 0) raise_input("not a MAVLink frame: a frame begins with 0xfd or 0xfe and has at least 8 bytes");
     if (length != bytes.size())
-        raise_input(fmt::format("{} bytes given, the frame's header says {}", bytes.size(), length));
+        raise_input(fmt::format("{} bytes given, but the frame's header states {}", bytes.size(), length));
     const auto frame = wire::FrameView::unchecked(bytes);
     const auto* definition = dialect.find(frame.id());
     const auto before = wire::checksum_before_extra(frame);
     const bool good = definition == nullptr ? wire::crc_extra_between(before, frame.checksum()) >= 0
                                             : wire::crc_update(before, definition->wire.crc_extra) == frame.checksum();
     if (!good)
-        raise_input(fmt::format("{}: wrong checksum: damaged, or made with another definition of the message",
+        raise_input(fmt::format("{}: wrong checksum: damaged, or encoded with another definition of the message",
                                 definition == nullptr ? "an id without definition" : definition->name));
     if ((frame.incompat_flags() & ~wire::incompat_signed) != 0)
         raise_input(fmt::format("incompatibility flags {:#x}, which are not defined", frame.incompat_flags()));

@@ -16,7 +16,7 @@ namespace mavloom::python {
 // Sets the fields that are given by name and leaves the others unchanged.
 void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builder, const nb::kwargs& fields);
 
-// Builds a message from a name, with these fields and zeros elsewhere; or from a Message, with these fields replaced.
+// Builds a message from a name, with these fields and 0 in all others, or from a Message, with these fields replaced.
 [[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
                                             const nb::kwargs& fields);
 
@@ -24,11 +24,11 @@ void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builde
 // Raises UsageError if MAVLink 1 cannot carry the message.
 void check_version(wire::Version version, const dialect::Message& message);
 
-// Writes the frame to `out`. Raises UsageError if the header asks for MAVLink 1 and the message does not fit there.
+// Writes the frame to `out`. Raises UsageError if the header asks for MAVLink 1, which cannot carry the message.
 [[nodiscard]] wire::FrameView write(wire::FrameBuffer& out, const wire::FrameHeader& header,
                                     const message::MessageBuilder& builder);
 
-// Returns the frame that these bytes are. Raises InputError if they are not exactly one valid frame.
+// Returns a view of `bytes` as a frame. Raises InputError if they are not exactly one valid frame.
 [[nodiscard]] wire::FrameView whole_frame(const dialect::Dialect& dialect, ByteView bytes);
 // Decodes such bytes to a Message.
 [[nodiscard]] nb::object decode(const std::shared_ptr<const Origin>& origin, ByteView bytes, std::int64_t time_ns);

@@ -97,7 +97,7 @@ void suggest_attribute(const Message& message, std::string_view name) {
 
 PyObject* get_attribute(PyObject* self, PyObject* name) noexcept {
     if (!nb::inst_ready(self)) {
-        PyErr_SetString(PyExc_TypeError, "a Message is made by a Dialect, a link or a recording");
+        PyErr_SetString(PyExc_TypeError, "a Message is created by a Dialect, a link or a recording");
         return nullptr;
     }
     const Message& message = *nb::inst_ptr<Message>(self);
@@ -233,7 +233,7 @@ nb::tuple reduce(nb::handle self) {
 nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_t time_ns, std::uint32_t link,
                    std::string link_name, std::uint8_t verdict) {
     const ByteView bytes(static_cast<const std::uint8_t*>(frame.data()), frame.size());
-    if (wire::frame_length(bytes) != bytes.size()) raise_input("these bytes are no pickled message");
+    if (wire::frame_length(bytes) != bytes.size()) raise_input("these bytes are not a pickled message");
     auto origin = std::make_shared<Origin>(dialect.definitions);
     origin->link_names().add(LinkId{link}, std::move(link_name));
     const auto view = wire::FrameView::unchecked(bytes);

@@ -58,7 +58,7 @@ struct Columns {
     std::vector<Values> fields;         // in the order of the definition
 };
 
-// Reads on until `most_bytes` of the file have passed, whatever they hold, or to its end. Returns true if there may be
+// Reads the next `most_bytes` bytes of the file, whatever they hold, or up to its end. Returns true if there may be
 // more. Errors are those of TlogReader.
 [[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
                                           std::uint64_t most_bytes);

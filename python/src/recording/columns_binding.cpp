@@ -44,7 +44,7 @@ nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Fie
 const dialect::Message& message_of(const dialect::Dialect& dialect, const std::string& name, bool with_instance) {
     const auto* message = value_or_raise(dialect.message(name));
     if (with_instance && feed::instance_field(*message) == nullptr)
-        raise_usage(fmt::format("{} has no field that tells instances apart", name));
+        raise_usage(fmt::format("{} has no field that distinguishes instances", name));
     return *message;
 }
 

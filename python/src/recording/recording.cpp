@@ -221,8 +221,8 @@ void bind_recording(nb::module_& module) {
                      "blocking: bool = False, timeout: float | None = None, system: int | None = None, component: int "
                      "| None = None) -> Message | None"),
              "Returns the next message of these types for which `condition(message)` is true. Returns None at\n"
-             "the end, or if none was found within `timeout` seconds (0: looks through the whole file, or\n"
-             "through what a pipe holds).\n\n"
+             "the end, or if none was found within `timeout` seconds. With `timeout=0` it searches the whole\n"
+             "file, or everything that a pipe holds now.\n\n"
              "`blocking` has no effect: reading a file never waits, and reading a pipe always does.")
         .def(
             "recv",

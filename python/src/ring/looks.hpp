@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks: counts the accesses in progress to bytes that another party may end. Any thread.
+// Looks: counts the accesses in progress to bytes that another thread may end. Any thread.
 #pragma once
 
 #include <atomic>
@@ -19,8 +19,8 @@ public:
     // Returns true if no access is left.
     bool end() noexcept { return count_.fetch_sub(1, std::memory_order_acq_rel) == 1; }
 
-    // Ends the bytes: no access can begin any more. Returns false while an access is in progress, and true again on
-    // later calls.
+    // Ends the bytes: no access can begin any more. Returns false while an access is in progress. Once it has returned
+    // true, later calls return true, too.
     [[nodiscard]] bool finish() noexcept {
         int nobody = 0;
         return count_.compare_exchange_strong(nobody, over, std::memory_order_acq_rel) || nobody == over;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RingSource: a ring's reader that several Python objects share. Lease: the records that it returned.
-// Neither uses Python, except to work without the GIL. Any thread.
+// RingSource: a ring's reader that several Python objects share. Lease: the records that it returned. Neither calls
+// Python, except to release the GIL. Any thread.
 #pragma once
 
 #include <atomic>
@@ -22,8 +22,8 @@ class RingSource;
 
 // Records that were read together: copies, or views into the ring (lossless). Views end or become copies:
 // - The next read of the thread that took the views ends them. It fails while they are in use.
-// - The next read of another thread waits while they are in use, and then replaces them by copies: the first thread may
-//   be about to use them again.
+// - The next read of another thread waits while they are in use. It then replaces them by copies, because the first
+//   thread may be about to use them again.
 class Lease {
 public:
     Lease(std::shared_ptr<RingSource> source, std::vector<shm::RingRecord> records)
@@ -44,9 +44,9 @@ public:
     enum class Look : std::uint8_t { refused, counted, free };
     [[nodiscard]] Look look() noexcept;
     void look_away() noexcept;
-    // Whether at most one thread has looked, and it is not this one.
+    // Returns false if this thread has looked, or if several threads have.
     [[nodiscard]] bool is_another_threads() const noexcept;
-    // Ends the records. Returns false while they are in use, and true again on later calls.
+    // Ends the records. Returns false while they are in use. Once it has returned true, later calls return true, too.
     [[nodiscard]] bool release() noexcept { return looks_.finish(); }
     // Replaces views by copies while the ring is still held for them. Returns false while they are in use.
     [[nodiscard]] bool keep();
@@ -86,11 +86,10 @@ public:
         used_elsewhere
     };
     // Reading takes two steps, because a signal handler may run between them: `fetch` makes records pending, and
-    // `take`, by any thread, takes them.
-    // `fetch` reads up to `most` records, unless some are pending already. It waits until `deadline`, but at most for a
-    // slice. To wait, call it without the GIL. MonoTime{} means not to wait.
-    // `nothing`: call again; it may have been another thread's turn. `used_elsewhere`: another thread is using the
-    // records that were read last.
+    // `take`, by any thread, takes them. `fetch` reads up to `most` records, unless some are pending already. It waits
+    // until `deadline`, but at most for one slice (feed/turns.hpp); with MonoTime{} it does not wait. To wait, call it
+    // without the GIL. `nothing`: call again; it may have been another thread's turn. `used_elsewhere`: another thread
+    // is using the records that were read last.
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
     // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
     [[nodiscard]] State take(std::size_t most, Portion& out);
@@ -105,7 +104,8 @@ public:
     [[nodiscard]] bool release(Lease& lease);
     // Gives the reader slot back. Returns false while the records that were read last are in use.
     [[nodiscard]] bool close();
-    // The owner is gone: closes the reader at once, or when its records are no longer in use (`nobody_looks`).
+    // `abandon`: the owner is gone. Closes the reader at once, or as soon as its records are no longer in use
+    // (`nobody_looks`).
     void abandon();
     void nobody_looks();
 

@@ -57,7 +57,7 @@ private:
         if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
     }
     [[noreturn]] static void raise_taken_away() {
-        raise_error("the writer took the record away from this reader (it evicts slow readers)");
+        raise_error("the writer evicted this reader and may have overwritten the record");
     }
 
     std::shared_ptr<Lease> lease_;
@@ -456,13 +456,13 @@ void bind_ring_reader(nb::module_& module) {
     nb::class_<PyRingReader>(
         module, "RingReader", nb::is_final(),
         "A reader of the ring NAME in shared memory.\n\n"
-        "- Lossy: never delays the writer and gets copies. `missed` counts the records that it was too\n"
-        "  slow for.\n"
+        "- Lossy: never delays the writer and gets copies. `missed` counts the records that it lost\n"
+        "  because it was too slow.\n"
         "- Lossless: gets views. The writer waits for this reader, or evicts it (full=\"evict\").\n\n"
-        "`start`: `newest` reads records from now on, `oldest` also those that the ring holds. Iteration\n"
+        "`start`: `newest` reads records from now on, `oldest` also those already in the ring. Iteration\n"
         "ends when everything is read and no process writes the ring.\n\n"
         "Safe from any thread. Threads that share a reader take turns, and each record goes to one of\n"
-        "them. A read by one thread does not end the records of another.")
+        "them. A read by one thread does not end records that another thread has read.")
         .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
              "start"_a = "newest",
              nb::sig(
@@ -480,8 +480,8 @@ void bind_ring_reader(nb::module_& module) {
         .def(
             "batches", [](PyRingReader& self, const nb::object& timeout) { return Batches(self, timeout_of(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def batches(self, timeout: float | None = None) -> RecordBatches"),
-            "Iterates over batches of up to 1024 records and at most 1 MiB or an eighth of the ring. Waits\n"
-            "like `read`, and ends where `read` returns None.")
+            "Iterates over batches of up to 1024 records. A batch holds about 1 MiB at most, or for a lossless\n"
+            "reader an eighth of the ring. Waits like `read`, and ends where `read` returns None.")
         .def("__iter__", itself, nb::sig("def __iter__(self) -> RingReader"))
         .def("__next__", &PyRingReader::next, nb::sig("def __next__(self) -> Record"))
         .def(
@@ -491,7 +491,8 @@ void bind_ring_reader(nb::module_& module) {
             "ring. Ends when the ring is removed or the reader is closed.")
         .def("event_fd", &PyRingReader::event_fd,
              "For other event loops: a descriptor. After `poll()` has returned None, the descriptor becomes\n"
-             "readable when another call is worthwhile. Read its 8 bytes first. The reader closes it.")
+             "readable when another call may return a record. Before that call, read the 8 bytes from it. The\n"
+             "reader closes it.")
         .def("poll", &PyRingReader::poll_record, nb::sig("def poll(self) -> Record | None"),
              "Returns the next record, or None if there is none yet. Raises ClosedError when everything is\n"
              "read and the ring was removed.")

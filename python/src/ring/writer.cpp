@@ -241,7 +241,8 @@ void PyRingWriter::close(bool remove) {
     }();
     if (is_filled) raise_looked_at();
     if (comes_late)
-        raise_closed(fmt::format("the writer of ring {} was closed and left the ring: remove_ring takes it away", name_));
+        raise_closed(
+            fmt::format("the writer of ring {} was closed and kept the ring; remove it with remove_ring", name_));
     value_or_raise(std::move(closed));
 }
 

@@ -20,7 +20,8 @@
 
 namespace mavloom::python {
 
-// Memory for one record to be filled: room in the ring, or memory to be discarded if a full ring drops the record.
+// Memory for one record that the user fills: room in the ring, or memory that is discarded afterwards because a full
+// ring drops the record.
 struct Claimed {
     explicit Claimed(ByteSpan room) : bytes(room) {}
     explicit Claimed(std::size_t length) : thrown_away(length), bytes(thrown_away), is_dropped(true) {}
@@ -48,13 +49,13 @@ public:
     // Waits while lossless readers hold the ring. Returns false if the record was dropped and counted (`drop_newest`).
     bool write(const nb::object& data, const shm::RecordInfo& info);
     void close(bool remove);
-    // Closes a writer that the end of the interpreter did not destroy: one of a daemon thread, or one that the frames
-    // of such a thread keep alive. Runs without Python, when those threads already sleep for ever. A claim in use keeps
-    // its writer open.
+    // Closes a writer that the end of the interpreter did not destroy, because a daemon thread or a frame of such a
+    // thread keeps it alive. Runs without Python, when those threads already sleep forever. A claim in use keeps its
+    // writer open.
     void close_at_exit() noexcept;
 
     // Returns room for one record. Only one claim is open at a time: other threads wait until it is committed or given
-    // up. The thread that has it gets BufferError from everything that writes.
+    // up. If the claiming thread calls any other function that writes, it gets BufferError.
     [[nodiscard]] std::shared_ptr<Claimed> claim(std::size_t length);
     // Publishes the first `length` bytes; false if the record was dropped. Raises BufferError while the bytes are in
     // use, and ClosedError if the claim is over.
@@ -83,7 +84,8 @@ public:
 
 private:
     void check_open() const;
-    // Returns the lock, with no claim open. The lock is not owned if that took longer than `deadline` or a slice.
+    // Waits until no claim is open and returns the lock. The lock is not owned if `deadline` or one slice has passed
+    // first.
     [[nodiscard]] feed::Turns::Lock turn(MonoTime deadline);
     // Waits until no other thread has a claim open.
     void let_claim_end();
@@ -92,7 +94,7 @@ private:
     enum class Committed : std::uint8_t { yes, dropped, over, looked_at };
     [[nodiscard]] Committed commit_locked(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
     void end_claim() noexcept;
-    // Releases the GIL only if there is no room at once, and then waits for at most a slice.
+    // If there is no room at once, releases the GIL and waits for at most one slice.
     [[nodiscard]] shm::WriteResult<void> put_or_wait(ByteView data, const shm::RecordInfo& info);
     [[nodiscard]] shm::WriteResult<void> put_locked(ByteView data, const shm::RecordInfo& info, MonoTime deadline);
     [[nodiscard]] SetupResult<void> close_locked(bool remove);

@@ -65,10 +65,11 @@ private:
     // Attributes a missing include to the including file. A malformed file keeps its own error, with its own line.
     static SetupResult<void> unreadable(const Step& step, SetupError error) {
         if (step.from.file.empty() || error.code == SetupCode::bad_input) return tl::unexpected(std::move(error));
-        return setup_error(SetupCode::bad_input,
-                           fmt::format("{}: cannot include {}; expected a file beside the including one (the public "
-                                       "definitions lie in share/mavloom/dialects, to be copied)",
-                                       step.from.text(), error.text));
+        return setup_error(
+            SetupCode::bad_input,
+            fmt::format("{}: cannot include {}; expected a file beside the including one (copy the public "
+                        "definitions from share/mavloom/dialects)",
+                        step.from.text(), error.text));
     }
 
     Records& records_;

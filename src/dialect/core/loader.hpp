@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads an XML file with all its includes, and merges the definitions into one set of records.
-// Includes are followed breadth first and each file is read once, so circular and repeated includes are harmless.
-// The number of files and their total size are limited.
-// Merging follows pymavlink's mavgen: enums with the same name are merged. If values of two files overlap, entries
-// without an explicit value are renumbered.
+// Reads an XML file with all its includes, and merges the definitions into one set of records. Includes are followed
+// breadth first and each file is read once, so circular and repeated includes are harmless. The number of files and
+// their total size are limited. Merging follows pymavlink's mavgen: enums with the same name become one enum. If the
+// value ranges of two files overlap, entries without an explicit value are renumbered.
 #pragma once
 
 #include <filesystem>

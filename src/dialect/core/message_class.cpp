@@ -163,7 +163,7 @@ const Entry* find(const Entry (&table)[n], MessageId id) noexcept {
 
 std::string_view harm_of(Use use) noexcept {
     switch (use) {
-        case Use::presence: return "the far side may take the sender for gone";
+        case Use::presence: return "the far side may assume that the sender is gone";
         case Use::control: return "a change of mode or of operator may get lost";
         case Use::parameters: return "reading and writing of parameters may fail";
         case Use::missions: return "upload and download of missions may fail";
@@ -199,7 +199,7 @@ std::string_view harm_of_thinning(MessageId id, const wire::MessageInfo* info) n
     switch (meaning_of(id)) {
         case piece: return "a transfer fails if one piece is missing";
         case event: return "an event may get lost";
-        case answer: return "an answer that somebody waits for may get lost";
+        case answer: return "an answer that a program waits for may get lost";
         default: break;
     }
     return can_be_thinned(id, info) ? std::string_view{} : "frames addressed to one system may get lost";

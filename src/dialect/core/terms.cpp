@@ -34,8 +34,8 @@ SetupResult<MessageId> parse_id(std::string_view digits) {
     std::uint32_t id = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
     if (error != std::errc{} || end != digits.data() + digits.size() || id > max_message_id)
-        return usage(
-            fmt::format("{} is no message id, not a whole number from 0 to {}", in_quotes(digits), max_message_id));
+        return usage(fmt::format("{} is not a message id; expected a whole number from 0 to {}", in_quotes(digits),
+                                 max_message_id));
     return MessageId{id};
 }
 
@@ -43,7 +43,7 @@ SetupResult<MessageId> parse_id(std::string_view digits) {
 
 SetupResult<std::string> parse_message_term(std::string_view text) {
     if (!is_name(text))
-        return usage(fmt::format("{} is no message name or id; type for example ATTITUDE or 30", in_quotes(text)));
+        return usage(fmt::format("{} is not a message name or id; for example, type ATTITUDE or 30", in_quotes(text)));
     if (is_number(text))
         if (const auto id = parse_id(text); !id) return tl::unexpected(id.error());
     return std::string(text);
@@ -62,7 +62,7 @@ SetupResult<double> parse_positive(std::string_view text) {
 SetupResult<RateTerm> parse_rate_term(std::string_view text) {
     const auto colon = text.rfind(':');
     if (colon == std::string_view::npos)
-        return usage(fmt::format("{} has no rate; type for example ATTITUDE:10 or *:50", in_quotes(text)));
+        return usage(fmt::format("{} has no rate; for example, type ATTITUDE:10 or *:50", in_quotes(text)));
     RateTerm term{"*", 0};
     if (const auto name = text.substr(0, colon); name != "*") {
         auto message = parse_message_term(name);

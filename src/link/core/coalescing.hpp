@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Delays turns under heavy load, much as network cards coalesce interrupts. When frames arrive in quick succession, one
-// turn for each frame would spend most of the time on waking up. With a minimum interval between turns, several frames
-// share system calls and datagrams. Private to module link; single owner thread.
+// Delays turns under heavy load, much as network cards coalesce interrupts. When frames arrive in quick succession, a
+// turn for each frame would spend most of its time on waking up. With a minimum interval between turns, several frames
+// share one turn's system calls and datagrams. Private to module link; single owner thread.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The core of a Links object: the parts that all endpoints share, and the turn that drives them. Passes frames from
-// parsers to the handler and from `send` to queues. Private to module link; single owner thread.
+// The core of a Links object: the parts that all endpoints share, and the turn that drives them. It passes frames from
+// parsers to the handler, and from `send` to queues. docs/design/turn.md lists the steps of a turn. Private to module
+// link; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@
 
 namespace mavloom::link::detail {
 
-// A frame that is sent to one or more links. Its class and key are computed again only for a link with another
+// A frame that is sent to one or more links. Computes the frame's class and key again only for a link with another
 // language.
 class Departure {
 public:
@@ -137,7 +138,7 @@ public:
     Coalescing coalescing;
     KeyStates key_states;
     SigningIds signing_ids;
-    // Scratch memory of a call that reads or writes a socket.
+    // Scratch memory for calls that read or write a socket.
     net::ReceiveBatch receive_batch;
     net::SendBatch send_batch;
     std::vector<std::uint8_t> stream_buffer;

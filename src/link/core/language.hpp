@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A language is what the links of an endpoint take from their dialect: the table for finding frames, and the rules for
-// queueing them. Private to module link; single owner thread.
+// A Language holds what the links of an endpoint need from their dialect: the table for finding frames, and the rules
+// for queueing them. Private to module link; single owner thread.
 #pragma once
 
 #include <map>

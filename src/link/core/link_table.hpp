@@ -15,7 +15,7 @@ namespace mavloom::link::detail {
 class LinkTable {
 public:
     LinkTable() : places_(64) {}
-    // Assigns the link's id, and appends " (2)" or more to a name that another link has.
+    // Assigns the link's id. If another link has the same name, appends " (2)" or a higher number.
     void add(Link& link);
     // Numbers the next links from `last` + 1.
     void count_from(LinkId last) noexcept { last_ = std::max(last_, last.value); }

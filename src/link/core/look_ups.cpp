@@ -34,7 +34,7 @@ std::optional<net::Resolver::Answer> Asker::look_up_now(const endpoint::HostPort
 }
 
 SetupError no_answer(const endpoint::HostPort& host) {
-    return {SetupCode::unreachable, 0, fmt::format("no answer about host '{}' within 5 s", host.host)};
+    return {SetupCode::unreachable, 0, fmt::format("the look-up of host '{}' took longer than 5 s", host.host)};
 }
 
 }  // namespace mavloom::link::detail

@@ -54,7 +54,7 @@ private:
     LookUps& look_ups_;
 };
 
-// How long an endpoint waits for the address of the host that it calls.
+// How long an endpoint waits for the address of its far side's host.
 [[nodiscard]] constexpr std::chrono::milliseconds look_up_limit(bool required) noexcept {
     return std::chrono::milliseconds(required ? 5000 : 250);
 }

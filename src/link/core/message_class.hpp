@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which messages a full queue drops first, and which newer frames supersede older ones (docs/guide/queues.md).
-// Immutable after construction; look-ups do not allocate. Private to module link.
+// Decides which messages a full queue drops first, and which older frames a newer frame supersedes
+// (docs/guide/queues.md). Immutable after construction; look-ups do not allocate. Private to module link.
 #pragma once
 
 #include <array>

@@ -2,8 +2,8 @@
 // Notifies the handler of links that come up or go down, and of other events. Private to module link; single owner
 // thread.
 //
-// Inside a turn, it notifies the handler at once. Outside a turn, it reports events and links that come up at the start
-// of the next turn. It does not report a link that goes down outside a turn.
+// Inside a turn, it notifies the handler at once. If an event occurs or a link comes up between two turns, it notifies
+// the handler at the start of the next turn. It does not report a link that goes down between turns.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ public:
 
 private:
     LinkHandler* handler_ = nullptr;
-    std::vector<std::pair<EndpointId, std::string>> notices_;  // since the last turn, as is `came_up_`
+    std::vector<std::pair<EndpointId, std::string>> notices_;  // since the last turn, like `came_up_`
     std::vector<LinkId> came_up_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sockets and streams that have frames to send at the end of a turn. Private to module link; single owner thread.
+// Keeps the sockets and streams that have frames to send at the end of a turn. Private to module link; single owner
+// thread.
 #pragma once
 
 #include <utility>

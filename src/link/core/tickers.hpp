@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stream parsers that hold bytes back until a deadline. Private to module link; single owner thread.
+// Keeps the stream parsers that hold bytes back until a deadline. Private to module link; single owner thread.
 #pragma once
 
 #include <optional>

@@ -100,13 +100,13 @@ SetupResult<void> take_over(const std::filesystem::path& path) {
     if (probe) {
         const auto process = net::process_serving(path);
         return setup_error(SetupCode::in_use,
-                           fmt::format("{} is served by {} already; end it, or take another ring", path.string(),
+                           fmt::format("{} is already served by {}; end it, or use another ring", path.string(),
                                        process ? fmt::format("process {}", *process) : "another process"));
     }
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) return {};
     if (!S_ISSOCK(status.st_mode))
-        return setup_error(SetupCode::in_use, fmt::format("{} is there and no socket; remove it", path.string()));
+        return setup_error(SetupCode::in_use, fmt::format("{} exists and is not a socket; remove it", path.string()));
     if (probe.error().sys_errno == ECONNREFUSED) ::unlink(path.c_str());
     return {};
 }
@@ -142,7 +142,7 @@ Inlet::~Inlet() {
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
     const auto anew = bind();
-    if (anew) core_.news.notice(info.id, fmt::format("inlet {} was removed, and is made anew", path_.string()));
+    if (anew) core_.news.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
     else if (!told_)
         core_.news.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
     told_ = !anew;
@@ -213,7 +213,7 @@ bool Inlet::make_room() {
     Sender* const first = senders_.to_evict(core_.now());
     if (first == nullptr) return false;
     counters.peers_evicted.add();
-    drop(*first, "more senders than there may be, and this one was silent for longest");
+    drop(*first, "too many senders, and this one was silent longest");
     return true;
 }
 

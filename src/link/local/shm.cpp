@@ -110,10 +110,9 @@ void InletSender::connect_or_retry() {
     const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
     if (!is_absent || (!told_no_way_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
     if (!std::exchange(told_no_way_, true))
-        core_.news.notice(info.id,
-                          fmt::format("{}: this ring has no way back: nobody serves its inlet; what is sent there is "
-                                      "dropped until somebody does",
-                                      info.endpoint.label()));
+        core_.news.notice(info.id, fmt::format("{}: no program serves the inlet of this ring; frames sent to it are "
+                                               "dropped until one does",
+                                               info.endpoint.label()));
     retry_.fail_silently(done.error());
 }
 
@@ -122,7 +121,7 @@ void InletSender::connect_or_retry() {
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
-    core_.news.set_down(peer_, "the router went");
+    core_.news.set_down(peer_, "the router is gone");
     const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
     if (!worked || !connect()) retry_.later();
 }
@@ -197,8 +196,9 @@ void InletSender::skip_one() {
 SetupResult<void> check_inlet(const endpoint::Endpoint& endpoint) {
     const auto& options = endpoint.options;
     if (!options.from_oldest && !options.lossless) return {};
-    return setup_error(SetupCode::usage, fmt::format("{}: '{}' is for a ring that is read; this one is sent to",
-                                                     endpoint.label(), options.lossless ? "lossless" : "from"));
+    return setup_error(SetupCode::usage,
+                       fmt::format("{}: '{}' applies to a ring that is read; this one is a destination",
+                                   endpoint.label(), options.lossless ? "lossless" : "from"));
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ private:
 // Watches the folders before trying to open, so that a device that appears in between is not missed.
 SetupResult<void> Serial::open() {
     watch_folders(true);
-    SetupError last{SetupCode::not_found, 0, fmt::format("{} is new and has no link yet", device_.path())};
+    SetupError last{SetupCode::not_found, 0,
+                    fmt::format("{} is new and has no link in /dev/serial/by-id yet", device_.path())};
     for (const std::string& name : device_.places()) {
         auto done = open_as(name);
         if (done) return done;
@@ -119,10 +120,10 @@ void Serial::tell_settings() {
     // The deviation of the baud rate that a receiver of ten-bit characters tolerates.
     constexpr std::uint32_t tolerance_percent = 3;
     if (apart > std::uint64_t{baud()} * tolerance_percent / 100)
-        core_.news.notice(info.id,
-                          fmt::format("{}: asked for {} baud, the driver took {}", info.endpoint.label(), baud(), got));
+        core_.news.notice(
+            info.id, fmt::format("{}: requested {} baud, but the driver set {}", info.endpoint.label(), baud(), got));
     if (options.low_latency && !peer_.stream().low_latency())
-        core_.news.notice(info.id, fmt::format("{}: its driver has no low_latency", info.endpoint.label()));
+        core_.news.notice(info.id, fmt::format("{}: its driver does not support low_latency", info.endpoint.label()));
     if (was_up_ && peer_.stream())
         core_.news.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Limits the bytes that wait in a serial driver to what the line carries in 50 ms. All others wait in the queue, where
-// frames can expire and be dropped. The assumed speed is at least the baud rate. If the driver drains faster, the pacer
-// learns that speed, because USB ignores the baud rate and pseudo-terminals do not report one. Private to module link;
-// plain values.
+// Limits the bytes that wait in a serial driver to those that the line carries in 50 ms. All other bytes wait in the
+// queue, where frames can expire and be dropped. The assumed speed is at least the baud rate. USB ignores the baud rate
+// and pseudo-terminals do not report one, so a driver may drain faster. The pacer then learns that speed. Private to
+// module link; plain values.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,11 @@ class SerialPacer {
 public:
     explicit SerialPacer(std::uint32_t baud) noexcept : slowest_(std::max(baud / bits_per_byte, 1u)) {}
 
-    // How many more bytes to give the driver while it holds `unsent` bytes.
+    // Returns how many more bytes the driver may get while it holds `unsent` bytes.
     [[nodiscard]] std::size_t room(std::size_t unsent) const noexcept {
         return unsent < budget() ? budget() - unsent : 0;
     }
-    // The time in which the driver sends half of the allowed bytes.
+    // The time in which the line carries half of the allowed bytes.
     [[nodiscard]] static constexpr Nanoseconds interval() noexcept { return depth / 2; }
     // Call it one interval after filling the driver, with the bytes that it still holds.
     void learn(std::size_t unsent) noexcept {

@@ -14,8 +14,8 @@ namespace mavloom::link::detail {
 class SerialOwner {
 public:
     virtual ~SerialOwner() = default;
-    // Called for a frame of a defined message with a good checksum, before the frame's handler. It proves that the baud
-    // rate is right.
+    // Called for a frame of a defined message with a good checksum, before the frame's handler. Such a frame proves
+    // that the baud rate is right.
     virtual void on_good_frame() = 0;
     // Called when the port is gone. The peer is already detached.
     virtual void on_gone(std::string_view why) = 0;
@@ -50,7 +50,7 @@ private:
     void on_end(net::IoError) override { close("unplugged"); }
 
     SerialOwner& owner_;
-    net::TimerId pace_;  // runs while the driver holds as much as it may
+    net::TimerId pace_;  // runs while the driver holds as many bytes as it may
     SerialPacer pacer_{0};
 };
 

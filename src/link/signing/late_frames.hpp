@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Separates late frames from replays among signed frames that arrive over several links of a group.
 //
-// The class remembers the newest timestamp that the group had received from the sender at an earlier moment, between
-// `least` and `oldest` ago. A late frame is accepted if its timestamp is newer than that. If the frame is a replay, its
-// first copy was accepted after that moment, so the router still remembers it and recognises the replay by its bytes.
-// The router relies on the bound Links::longest_late. Under a flood of other frames the router may forget copies early;
-// its counter `recent_evicted` shows that.
+// For each sender, the class remembers the newest timestamp that the group had received at an earlier moment, between
+// `least` and `oldest` ago. A late frame is accepted if its timestamp is newer than that. If such a frame is a replay,
+// its first copy arrived after that moment. The router then still remembers the copy and recognises the replay by its
+// bytes. The router relies on the bound Links::longest_late. Under a flood of other frames the router may forget copies
+// early; its counter `recent_evicted` shows that.
 //
 // Only arrival times count, because signers' clocks need not match ours. Private to module link; single owner thread;
 // allocates only for a new sender.

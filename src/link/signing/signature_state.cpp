@@ -73,7 +73,7 @@ SetupResult<std::string> read_file(const std::filesystem::path& path) {
     struct stat status {};
     if (file && (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)))
         return setup_error(SetupCode::bad_input,
-                           fmt::format("{} is no regular file; signing times begin anew", path.string()));
+                           fmt::format("{} is not a regular file; signing times start over", path.string()));
     std::string text(longest_file, '\0');
     const ssize_t size = !file ? -1 : ::read(file.get(), text.data(), text.size());
     if (size < 0) return system_error(fmt::format("cannot read {}", path.string()), errno);
@@ -145,7 +145,7 @@ SetupResult<void> KeyFile::load() {
     auto read = parse_key_state(*text);
     if (!read)
         return setup_error(SetupCode::bad_input,
-                           fmt::format("{} is no record of signing times; it begins anew", path_.string()));
+                           fmt::format("{} does not contain signing times; they start over", path_.string()));
     state = std::move(*read);
     written_ = state.last_signed;
     return {};
@@ -161,7 +161,7 @@ SetupResult<void> KeyFile::write(KeyState wanted) {
     }
     if (const int error = replace_file(path_, text_of(wanted)); error != 0)
         return system_error(
-            fmt::format("cannot write {}: after a restart old signed frames could be replayed", path_.string()), error);
+            fmt::format("cannot write {}: after a restart, old signed frames could be replayed", path_.string()), error);
     written_ = wanted.last_signed;
     return {};
 }
@@ -207,7 +207,7 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
     if (const auto loaded = file->load(); !loaded) notices.push_back(loaded.error().text);
     file->state.belong_to(key);
     if (const auto ahead = seconds_ahead(file->state, now); ahead != 0)
-        notices.push_back(fmt::format("{}: its times are {} s ahead of the clock; signing goes on from there",
+        notices.push_back(fmt::format("{}: its times are {} s ahead of the clock; signing continues from there",
                                       file->path().string(), ahead));
     if (const auto written = file->write(file->state); !written) notices.push_back(written.error().text);
     files_.push_back(file);

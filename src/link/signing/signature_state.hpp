@@ -76,8 +76,8 @@ struct KeyJudge {
 
 class KeyStates {
 public:
-    // The signing time in the file is ahead of the one in use by this much (10 s). A program that was killed therefore
-    // never reuses timestamps after a restart.
+    // The signing time in the file is this much (10 s) ahead of the time in use. After a kill and a restart, the
+    // program therefore never reuses a timestamp.
     static constexpr std::uint64_t reserve_ticks = 10 * 100'000;
     static constexpr std::chrono::seconds save_interval{2};
 

@@ -19,7 +19,7 @@ public:
     virtual void on_closed(TcpPeer& peer, std::string_view why) = 0;
 };
 
-// A far side that reads slowly is never disconnected for that reason.
+// A far side is never disconnected because it reads slowly.
 class TcpPeer final : public StreamPeer<TcpPeer, net::TcpStream> {
 public:
     TcpPeer(Core& core, TcpOwner& owner, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)

@@ -68,7 +68,8 @@ void TcpOut::on_resolved(net::Resolver::Answer&& answer) {
     if (!answer) return fail(answer.error());
     addresses_.assign(answer->rbegin(), answer->rend());
     if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
-    if (addresses_.empty()) return fail({SetupCode::not_found, 0, "the host has no address of the family of bind="});
+    if (addresses_.empty())
+        return fail({SetupCode::not_found, 0, "the host has no address of the same family as bind="});
     const net::Address next = addresses_.back();
     addresses_.pop_back();
     if (auto done = connect_to(next); !done) fail(done.error());
@@ -143,7 +144,7 @@ SetupResult<void> TcpOut::begin_and_wait() {
     auto answer = look_up_now(info.endpoint.address, look_up_limit(true));
     if (!answer) return tl::unexpected(no_answer(info.endpoint.address));
     if (!*answer) return tl::unexpected(std::move(answer->error()));
-    SetupError last{SetupCode::not_found, 0, "the host has no address of the family of bind="};
+    SetupError last{SetupCode::not_found, 0, "the host has no address of the same family as bind="};
     for (const net::Address& address : **answer) {
         if (local_ && address.family() != local_->family()) continue;
         auto done = connect_to(address);

@@ -57,7 +57,7 @@ bool UdpPeers::make_room() {
     UdpPeer* const first = peers_.to_evict(core_.now());
     if (first == nullptr) return false;
     endpoint_.counters.peers_evicted.add();
-    drop(*first, "more peers than max_peers, and this one was silent for longest");
+    drop(*first, "max_peers is reached, and this peer was silent longest");
     return true;
 }
 

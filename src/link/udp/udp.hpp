@@ -35,11 +35,11 @@ struct UdpPeer final : Link {
     // Notes that the far side's port is closed. ICMP does not report every datagram sent to a closed port, so frames
     // sent in the next second also count as refused.
     void note_refusal(MonoTime now) noexcept;
-    // Changes the far side's address. Refusals by the old address no longer apply.
+    // Changes the far side's address. Refusals from the old address are forgotten.
     void move_to(const net::Address& where) noexcept;
     // Counts sent frames at once only if the peer was heard since its last refusal. Otherwise `settle` counts them.
     void count_sent(std::uint32_t frames, std::uint32_t bytes, MonoTime now) noexcept;
-    // Counts the frames that were not refused as sent.
+    // Counts as sent the frames that were not refused.
     void settle() noexcept;
     [[nodiscard]] bool is_settled() const noexcept { return unsettled_frames_ == 0; }
 
@@ -124,7 +124,7 @@ private:
     std::vector<Part> parts_;
     bool blocked_ = false;  // the socket's send buffer is full
     std::vector<UdpPeer*> unsettled_;
-    std::uint64_t unsettled_turn_ = 0;  // Core::turns() when `unsettled_` were sent to
+    std::uint64_t unsettled_turn_ = 0;  // Core::turns() when frames were sent to the peers in `unsettled_`
     std::uint32_t last_drops_ = 0;
 };
 

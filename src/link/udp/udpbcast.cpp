@@ -93,7 +93,7 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
 void UdpBroadcast::on_send_error(net::IoError error) {
     if (error == net::IoError::refused) return;  // a peer's port was closed
     if (std::exchange(told_unreachable_, true)) return;
-    core_.news.notice(info.id, fmt::format("{}: no network reaches {} now; sending goes on", info.endpoint.label(),
+    core_.news.notice(info.id, fmt::format("{}: no network reaches {} now; sending continues", info.endpoint.label(),
                                            everybody_.address.text()));
 }
 

@@ -59,10 +59,9 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     }
     core_.news.notice(info.id, fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
     if (info.rcvbuf_bytes < options.receive_buffer_bytes)
-        core_.news.notice(info.id,
-                          fmt::format("{}: a larger receive buffer loses less when very much comes at once; to "
-                                      "allow it: sysctl net.core.rmem_max={}",
-                                      info.label(), options.receive_buffer_bytes));
+        core_.news.notice(info.id, fmt::format("{}: a larger receive buffer loses fewer datagrams in a burst; to "
+                                               "allow one: sysctl net.core.rmem_max={}",
+                                               info.label(), options.receive_buffer_bytes));
     return {};
 }
 

@@ -114,7 +114,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
     const auto group = net::Address::parse(endpoint.address.host, endpoint.address.port);
     if (!group || !group->is_multicast() || group->port() == 0) {
         return setup_error(SetupCode::usage,
-                           fmt::format("{}: '{}' is no multicast group with a port, or its interface is not there",
+                           fmt::format("{}: '{}' is not a multicast group with a port, or its interface does not exist",
                                        endpoint.label(), endpoint.address.host));
     }
     auto opened = std::make_unique<UdpMulticast>(opening, *group);

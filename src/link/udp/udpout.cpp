@@ -71,7 +71,7 @@ SetupResult<void> UdpOut::start(net::Resolver::Answer answer) {
     addresses_ = std::move(*answer);
     if (local_) std::erase_if(addresses_, [&](const net::Address& a) { return a.family() != local_->family(); });
     if (addresses_.empty()) {
-        return setup_error(SetupCode::usage, fmt::format("'{}' has no address of the family of bind={}",
+        return setup_error(SetupCode::usage, fmt::format("'{}' has no address of the same family as bind={}",
                                                          info.endpoint.address.host, local_->text()));
     }
     current_ = 0;
@@ -123,8 +123,8 @@ void UdpOut::on_send_error(net::IoError error) {
     if (!peer_) return;
     const bool refused = error == net::IoError::refused;
     if (!retry_.failing())
-        retry_.tell(peer_->address.text() + (refused ? " refuses (nobody listens there yet)" : " cannot be reached"),
-                    "sending goes on");
+        retry_.tell(peer_->address.text() + (refused ? " refuses (no program listens there yet)" : " cannot be reached"),
+                    "sending continues");
     if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.begin_anew();
     const bool choice = is_name_ || addresses_.size() > 1;
     if (choice && !retry_.within(Retry::longest)) retry_.later();

@@ -42,7 +42,8 @@ Later<Lines> add(Router& router, const std::string& url) {
 // Removes an endpoint, a recording or a link by its name.
 Later<Lines> remove(Router& router, const std::string& name) {
     if (!router.remove(name))
-        return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
+        return failed(fmt::format(
+            "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
     router.tell(config::LogLevel::info, name + ": removed by ctl");
     return done();
 }
@@ -60,8 +61,9 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
     const bool has_port = endpoint->scheme != endpoint::Scheme::tlog && endpoint->scheme != endpoint::Scheme::serial &&
                           endpoint->scheme != endpoint::Scheme::shm;  // Router::add rejects shm://
     if (has_port && endpoint->address.port == 0)
-        return setup_error(SetupCode::usage,
-                           fmt::format("{}: a router's port is known to others; name one", endpoint->label()));
+        return setup_error(
+            SetupCode::usage,
+            fmt::format("{}: other programs must know a router's port; choose one from 1 to 65535", endpoint->label()));
     return endpoint;
 }
 

@@ -116,7 +116,7 @@ std::vector<double> Streams::group_rates(const LinkOptions& options) const {
     constexpr double usual = 4, fastest = 1000;
     std::vector<double> rates;
     if (options.profile != Profile::ardupilot) return rates;
-    for (const StreamGroup& group : stream_groups()) 
+    for (const StreamGroup& group : stream_groups())
         rates.push_back(std::min(parameters_.get(group.parameter, usual), fastest));
     return rates;
 }

@@ -177,34 +177,34 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[router]\nroute_timeot = 1\n", "did you mean 'route_timeout'?"},
         Bad{"[router]\n\ndedup_ms = -1\n", "r.toml:3: dedup_ms: '-1' is not a whole number"},
         Bad{"[router]\nunknown_target = \"floot\"\n", "did you mean 'flood'?"},
-        Bad{"[router]\nroute_timeout = 2024-01-01\n", "of a kind that it cannot have"},
+        Bad{"[router]\nroute_timeout = 2024-01-01\n", "of the wrong type"},
         Bad{"[router]\nheartbeat = \"255\"\n", "neither off nor SYS/COMP"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\nheartbeat = true\n",
             "r.toml:3: heartbeat=true needs heartbeat = \"SYS/COMP\" in [router]"},
         Bad{"[[endpoint]]\nurl = \"udpout://127.0.0.1:1\"\nheartbeat = false\ntap = true\n",
-            "r.toml:1: heartbeat= does not go with tap=true"},
-        Bad{"[ring]\ncapacity = 3000000\n", "no power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
-        Bad{"[ring]\nmode = 0o640\n", "in quotes"}, Bad{"[ring]\nmode = \"640\"\n", "no file mode"},
+            "r.toml:1: heartbeat= and tap=true exclude each other"},
+        Bad{"[ring]\ncapacity = 3000000\n", "not a power of two"}, Bad{"[ring]\nmode = 600\n", "in quotes"},
+        Bad{"[ring]\nmode = 0o640\n", "in quotes"}, Bad{"[ring]\nmode = \"640\"\n", "not a file mode"},
         Bad{"[ring]\nmode = \"0968\"\n", "three octal digits"},
-        Bad{"[ring]\nfull = \"wait\"\n", "a router waits for no reader: type evict"},
-        Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "no ring name"},
-        Bad{"[record]\nrotate_every = \"10ms\"\n", "1s is the least"},
+        Bad{"[ring]\nfull = \"wait\"\n", "a router does not wait for readers: type evict"},
+        Bad{"[ring]\nfull = \"evikt\"\n", "did you mean 'evict'?"}, Bad{"[ring]\nname = \"a b\"\n", "not a ring name"},
+        Bad{"[record]\nrotate_every = \"10ms\"\n", "the minimum is 1s"},
         Bad{"[record]\nrotate_bytes = 1\n", "out of range (4096 to"},
         Bad{"[web]\nlisten = \"8088\"\n", "the host is missing"},
         Bad{"[[endpoint]]\nname = \"x\"\n", "r.toml:1: an endpoint needs url"},
         Bad{"[[endpoint]]\nurk = \"udpin://0.0.0.0:1\"\n",
             "r.toml:2: [[endpoint]] has no key 'urk', did you mean 'url'?"},
         Bad{"[[endpoint]]\nurl = \"udp://:14540\"\n", "type udpin://0.0.0.0:14540"},
-        Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nport = 1\n", "r.toml:3: 'port' stands beside url"},
+        Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nport = 1\n", "r.toml:3: 'port' is given beside url"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550?idle=1\"\nidle = 2\n",
-            "r.toml:3: 'idle' stands in the url already"},
+            "r.toml:3: 'idle' is already set in the url"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nqueue_byte = 2\n",
             "r.toml:3: there is no option 'queue_byte', did you mean 'queue_bytes'?"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\ndedup_ms = 5\n",
             "r.toml:3: there is no option 'dedup_ms'; 'dedup_ms' is a key of [router] in a configuration file"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:14550\"\nbaud = 2\n", "does not take the option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"udpn\"\n", "did you mean 'udpin'?"},
-        // routing.md MR26
+        // A missing or malformed host, port or path.
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nport = 14550\n", "udpin needs host"},
         Bad{"[[endpoint]]\nscheme = \"udpin\"\nhost = \"\"\nport = 14550\n",
             "r.toml:3: host: the address to listen on is missing"},
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[[endpoint]]\nscheme = \"serial\"\npath = \"/dev/ttyS0\"\nbaud = 0\n", "r.toml:4: option 'baud'"},
         Bad{"[[endpoint]]\nscheme = \"shm\"\n", "shm needs ring"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\n[[endpoint]]\nurl = \"udpin:0.0.0.0:1\"\n",
-            "r.toml:3: 'udpin://0.0.0.0:1' stands there twice"}));
+            "r.toml:3: two endpoints are named 'udpin://0.0.0.0:1'"}));
 
 TEST(Config, AVariableThatSetsNothingIsAnError) {
     const auto misspelt = parse_config("", "r.toml", {{"MAVLOOM_ROUTER_DEDUPMS", "1"}});
@@ -228,7 +228,7 @@ TEST(Config, AVariableThatSetsNothingIsAnError) {
     EXPECT_THAT(misspelt.error().text, HasSubstr("did you mean 'MAVLOOM_ROUTER_DEDUP_MS'?"));
     ASSERT_FALSE(wrong.has_value());
     EXPECT_THAT(wrong.error().text,
-                HasSubstr("environment: MAVLOOM_LOG_LEVEL: 'loud' is none of debug, info, warning, error"));
+                HasSubstr("environment: MAVLOOM_LOG_LEVEL: 'loud' is not one of debug, info, warning, error"));
 }
 
 TEST(Config, AVariableWithAMisspeltSectionIsAnError) {
@@ -276,10 +276,10 @@ TEST(Config, TwoRecordingsInOneFileAreAnErrorOfTheSecond) {
         return config ? std::string("good") : config.error().text;
     };
     EXPECT_EQ(error_of("[record]\npath = \"a.tlog\"\n[[endpoint]]\nurl = \"tlog://./a.tlog?name=b\"\n"),
-              "r.toml:4: './a.tlog' is recorded already");
+              "r.toml:4: another recording already writes to './a.tlog'");
     EXPECT_EQ(error_of("[[endpoint]]\nurl = \"tlog://a.tlog\"\n[[endpoint]]\nscheme = \"tlog\"\nname = \"b\"\npath = "
                        "\"a.tlog\"\n"),
-              "r.toml:6: 'a.tlog' is recorded already");
+              "r.toml:6: another recording already writes to 'a.tlog'");
 }
 
 TEST(Config, TwoEndpointsThatBindOnePortAreAnErrorOfTheSecond) {
@@ -289,7 +289,7 @@ TEST(Config, TwoEndpointsThatBindOnePortAreAnErrorOfTheSecond) {
         return config ? std::string("good") : config.error().text;
     };
     EXPECT_EQ(with("udpin://0.0.0.0:14550", "udpin://127.0.0.1:14550"),
-              "r.toml:5: 'b' binds UDP port 14550, which 'udpin://0.0.0.0:14550' of line 2 has already");
+              "r.toml:5: 'b' binds UDP port 14550, which 'udpin://0.0.0.0:14550' in line 2 already uses");
     EXPECT_EQ(with("udpout://127.0.0.1:1?bind=127.0.0.1:5000", "tcpin://127.0.0.1:5000"), "good");
     for (const auto& [a, b, meet] : {std::tuple{"tcpin://0.0.0.0:5760", "tcpin://[::]:5760", true},
                                      {"tcpin://0.0.0.0:5760", "tcpin://[::1]:5760", false},

@@ -235,7 +235,7 @@ TEST(ConvertMavlinkRouter, NamesWithQuotesAndBackslashesSurvive) {
 TEST(ConvertMavlinkRouter, ErrorsNameFileAndLine) {
     EXPECT_THAT(error_of("Mode=Normal\n"), HasSubstr("main.conf:1: "));
     EXPECT_THAT(error_of("# x\n\n[General\n"), HasSubstr("main.conf:3: the bracket"));
-    EXPECT_THAT(error_of("[General] more\n"), HasSubstr("main.conf:1: 'more' stands behind"));
+    EXPECT_THAT(error_of("[General] more\n"), HasSubstr("main.conf:1: 'more' follows"));
     EXPECT_THAT(error_of("[ General]\n"), HasSubstr("main.conf:1: "));
     EXPECT_THAT(error_of("[General]\nTcpServerPort\n"), HasSubstr("main.conf:2: "));
     EXPECT_THAT(error_of("[General]\n=1\n"), HasSubstr("main.conf:2: there is no key"));

@@ -43,8 +43,8 @@ TEST(ReaderErrors, MissingIncludeNamesTheIncludingLine) {
     EXPECT_EQ(folder.load().error().code, SetupCode::bad_input);
     EXPECT_EQ(
         folder.error(),
-        "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one (the public "
-        "definitions lie in share/mavloom/dialects, to be copied)");
+        "a.xml:3: cannot include sub/none.xml: no such file; expected a file beside the including one (copy the public "
+        "definitions from share/mavloom/dialects)");
 }
 
 TEST(ReaderErrors, MalformedXmlNamesTheLine) {

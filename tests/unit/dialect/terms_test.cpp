@@ -26,8 +26,8 @@ TEST(RateTerm, HasANameAnIdOrAStar) {
 
 TEST(RateTerm, RefusesWhatIsNone) {
     EXPECT_THAT(error_of("ATTITUDE"), HasSubstr("has no rate"));
-    EXPECT_THAT(error_of(":1"), HasSubstr("no message name"));
-    EXPECT_THAT(error_of("A-B:1"), HasSubstr("no message name"));
+    EXPECT_THAT(error_of(":1"), HasSubstr("not a message name"));
+    EXPECT_THAT(error_of("A-B:1"), HasSubstr("not a message name"));
     EXPECT_THAT(error_of("16777216:1"), HasSubstr("0 to 16777215"));
     for (const auto* rate : {"A:", "A:0", "A:-1", "A:+1", "A:nan", "A:inf", "A:1x", "A:1e999"})
         EXPECT_THAT(error_of(rate), HasSubstr("not a number above 0")) << rate;

@@ -42,8 +42,8 @@ TEST_P(GoodAddresses, AreTaken) {
 
 INSTANTIATE_TEST_SUITE_P(
     ParseEndpoint, GoodAddresses,
-    testing::Values(GoodAddress{"udpin://127.0.0.1:14550", Scheme::udpin, "127.0.0.1", 14550},  // routing.md MR26
-                    GoodAddress{"udpin://[::1]:14550", Scheme::udpin, "::1", 14550},            // routing.md MR26
+    testing::Values(GoodAddress{"udpin://127.0.0.1:14550", Scheme::udpin, "127.0.0.1", 14550},
+                    GoodAddress{"udpin://[::1]:14550", Scheme::udpin, "::1", 14550},
                     GoodAddress{"udpin://0.0.0.0:14550", Scheme::udpin, "0.0.0.0", 14550},
                     GoodAddress{"udpin://[::]:14550", Scheme::udpin, "::", 14550},
                     GoodAddress{"udpin://localhost:0", Scheme::udpin, "localhost", 0},
@@ -118,13 +118,13 @@ INSTANTIATE_TEST_SUITE_P(
     Spelling, BadEndpoints,
     testing::Values(
         Bad{"", "it is empty"},
-        // routing.md MR26
+        // A missing or malformed host or port.
         Bad{"udpin://:14550", "udpin://127.0.0.1:14550 (this machine only) or udpin://0.0.0.0:14550"},
         Bad{"udpin://[127.0.0.1]:14550", "brackets are for IPv6 only; type udpin://127.0.0.1:14550"},
         Bad{"udpin://::1:14550", "needs brackets; type udpin://[::1]:14550"},
         Bad{"udpin://::1:5760", "needs brackets; type udpin://[::1]:5760"},
         Bad{"udpin://::1", "needs brackets and a port; type udpin://[::1]:14550"},
-        Bad{"udpout://127.0.0.1:0", "port 0 is no destination"},
+        Bad{"udpout://127.0.0.1:0", "port 0 is not a destination"},
         Bad{"udpin://127.0.0.1", "the port is missing; type udpin://127.0.0.1:14550"},
         Bad{"serial://", "the device is missing"},
         Bad{"serial:///dev/ttyACM0?baud=0", "'0' is not a whole number from 1 to"},
@@ -147,11 +147,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpbcast:192.168.1.255:14550", "type udpbcast://192.168.1.255:14550"},
         Bad{"serial:/dev/ttyACM0", "type serial:///dev/ttyACM0"},
         Bad{"serial:///dev/ttyACM0:57600", "type serial:///dev/ttyACM0?baud=57600"},
-        Bad{"serial://dev/ttyACM0", "needs its whole path"}, Bad{"serial://COM3", "needs its whole path"},
+        Bad{"serial://dev/ttyACM0", "needs its full path"}, Bad{"serial://COM3", "needs its full path"},
         Bad{"/dev/ttyACM0,", "type /dev/ttyACM0,57600"}, Bad{"/dev/ttyACM0,fast", "'fast' is not a whole number"},
         Bad{"/dev/ttyACM0,57600?baud=9600", "twice"},
-        Bad{"udpin://0.0.0.0:14550/", "'/' stands behind the port; type udpin://0.0.0.0:14550"},
-        Bad{"udpin://0.0.0.0:14550/path", "'/path' stands behind the port"}));
+        Bad{"udpin://0.0.0.0:14550/", "'/' follows the port; type udpin://0.0.0.0:14550"},
+        Bad{"udpin://0.0.0.0:14550/path", "'/path' follows the port"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Address, BadEndpoints,
@@ -161,25 +161,28 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpin://14550", "type udpin://127.0.0.1:14550 (this machine only)"},
         Bad{"udpin://127.0.0.1:65536", "port '65536' is not a number from 1 to 65535"},
         Bad{"udpin://127.0.0.1:-1", "port '-1'"}, Bad{"udpin://127.0.0.1:14550x", "port '14550x'"},
-        Bad{"udpin://127.0.0.1: 14550", "port ' 14550'"}, Bad{"udpin://127.0.0.256:1", "no IPv4 address"},
-        Bad{"udpin://127.1:1", "no IPv4 address"}, Bad{"udpin://[::1:14550", "bracket"},
-        Bad{"udpin://[::g]:14550", "no IPv6 address"}, Bad{"udpin://[localhost]:14550", "type udpin://localhost:14550"},
-        Bad{"udpin://fe80::1%eth0:14550", "type udpin://[fe80::1%eth0"}, Bad{"udpin://a b:14550", "no host name"},
-        Bad{"udpin://user@host:14550", "no host name"}, Bad{"udpin://-x:14550", "no host name"},
+        Bad{"udpin://127.0.0.1: 14550", "port ' 14550'"}, Bad{"udpin://127.0.0.256:1", "not an IPv4 address"},
+        Bad{"udpin://127.1:1", "not an IPv4 address"}, Bad{"udpin://[::1:14550", "bracket"},
+        Bad{"udpin://[::g]:14550", "not an IPv6 address"},
+        Bad{"udpin://[localhost]:14550", "type udpin://localhost:14550"},
+        Bad{"udpin://fe80::1%eth0:14550", "type udpin://[fe80::1%eth0"}, Bad{"udpin://a b:14550", "not a host name"},
+        Bad{"udpin://user@host:14550", "not a host name"}, Bad{"udpin://-x:14550", "not a host name"},
         Bad{"udpin://255.255.255.255:14550", "type udpin://0.0.0.0:14550"},
         Bad{"udpin://239.255.145.50:14550", "type udpmcast://239.255.145.50:14550"},
         Bad{"udpout://0.0.0.0:14550",
-            "where to listen, not where to send; type udpout://127.0.0.1:14550 for this machine, udpin://0.0.0.0:14550 "
+            "an address to listen on, not a destination; type udpout://127.0.0.1:14550 for this machine, "
+            "udpin://0.0.0.0:14550 "
             "to listen"},
         Bad{"udpout://[::]:14550", "udpin://[::]:14550"}, Bad{"tcpout://0.0.0.0:5760", "tcpin://0.0.0.0:5760"},
         Bad{"udpout://255.255.255.255:14550", "type udpbcast://255.255.255.255:14550"},
         Bad{"udpout://239.255.145.50:14550", "type udpmcast://"}, Bad{"tcpout://239.255.145.50:14550", "one machine"},
-        Bad{"udpmcast://192.168.1.1:14550", "no multicast group"}, Bad{"udpmcast://239.255.145.50:0", "port 0"},
+        Bad{"udpmcast://192.168.1.1:14550", "not a multicast group"}, Bad{"udpmcast://239.255.145.50:0", "port 0"},
         Bad{"udpbcast://[fe80::1]:14550", "type udpmcast://[ff02::1]:14550"},
-        Bad{"udpbcast://0.0.0.0:14550", "not where to send"}, Bad{"shm://", "no ring name"},
-        Bad{"shm://a/b", "no ring name"}, Bad{"shm://a%2fb", "no ring name"}, Bad{"tlog://", "the path is missing"},
-        Bad{"tlog://logs/", "is a folder"}, Bad{"tlog://a%zz", "type %25 for a percent sign"},
-        Bad{"tlog://a%4", "type %25 for a percent sign"}, Bad{"tlog://a%00b", "'%00'"}));
+        Bad{"udpbcast://0.0.0.0:14550", "not a destination"}, Bad{"shm://", "not a ring name"},
+        Bad{"shm://a/b", "not a ring name"}, Bad{"shm://a%2fb", "not a ring name"},
+        Bad{"tlog://", "the path is missing"}, Bad{"tlog://logs/", "is a folder"},
+        Bad{"tlog://a%zz", "type %25 for a percent sign"}, Bad{"tlog://a%4", "type %25 for a percent sign"},
+        Bad{"tlog://a%00b", "'%00'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Options, BadEndpoints,
@@ -198,24 +201,25 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"tcpout://127.0.0.1:1?route_timeout=9", "'route_timeout' is a key of [router]"},
         Bad{"udpout://127.0.0.1:1?heartbeat=255/191", "is heartbeat = \"SYS/COMP\" in [router]"},
         Bad{"udpout://127.0.0.1:1?heartbeat=1", "neither true nor false"},
-        Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= does not go with tap=true"},
-        Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= does not go with tap=true"},
+        Bad{"udpout://127.0.0.1:1?heartbeat=true&tap=true", "heartbeat= and tap=true exclude each other"},
+        Bad{"tcpin://127.0.0.1:1?tap=true&heartbeat=false", "heartbeat= and tap=true exclude each other"},
         Bad{"serial:///dev/ttyACM0?request_streams=4", "'request_streams' is a key of [router]"},
         Bad{"udpin://127.0.0.1:1?un=drop", "udpin takes name, group"},
-        Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' stands there twice"},
+        Bad{"udpin://127.0.0.1:1?name=a&name=b", "option 'name' is given twice"},
         Bad{"udpin://127.0.0.1:1?baud=57600", "udpin does not take the option 'baud' (it belongs to serial)"},
         Bad{"serial:///dev/ttyACM0?mtu=0", "it belongs to udpin, udpout, udpbcast, udpmcast"},
         Bad{"tcpin://127.0.0.1:1?bind=0.0.0.0:1", "does not take the option 'bind'"},
         Bad{"tlog://a.tlog?tap=true", "does not take"}, Bad{"tlog://a.tlog?max_rate=*:1", "does not take"},
         Bad{"tlog://a.tlog?in_allow=ATTITUDE", "does not take"}, Bad{"a.tlog?out_block=sys:1", "does not take"},
-        Bad{"udpin://127.0.0.1:1?name=", "option 'name'"}, Bad{"udpin://127.0.0.1:1?group=a%20b", "no group name"},
+        Bad{"udpin://127.0.0.1:1?name=", "option 'name'"}, Bad{"udpin://127.0.0.1:1?group=a%20b", "not a group name"},
         Bad{"udpin://127.0.0.1:1?mtu=279", "neither 0 (one frame a datagram) nor"},
         Bad{"udpin://127.0.0.1:1?mtu=65508", "nor from 280 to 65507"},
-        Bad{"udpin://127.0.0.1:1?idle=0", "1000h, for never"}, Bad{"udpin://127.0.0.1:1?idle=-1", "no duration"},
-        Bad{"udpin://127.0.0.1:1?idle=2sec", "no duration"}, Bad{"udpin://127.0.0.1:1?idle=inf", "no duration"},
-        Bad{"udpin://127.0.0.1:1?idle=nan", "no duration"}, Bad{"udpin://127.0.0.1:1?idle=1e99", "ten years"},
-        Bad{"udpin://127.0.0.1:1?queue_bytes=279", "out of range"}, Bad{"udpin://127.0.0.1:1?queue_bytes=1x", "no size"},
-        Bad{"udpin://127.0.0.1:1?queue_bytes=99999999999999999999", "no size"},
+        Bad{"udpin://127.0.0.1:1?idle=0", "1000h, for never"}, Bad{"udpin://127.0.0.1:1?idle=-1", "not a duration"},
+        Bad{"udpin://127.0.0.1:1?idle=2sec", "not a duration"}, Bad{"udpin://127.0.0.1:1?idle=inf", "not a duration"},
+        Bad{"udpin://127.0.0.1:1?idle=nan", "not a duration"}, Bad{"udpin://127.0.0.1:1?idle=1e99", "ten years"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=279", "out of range"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=1x", "not a size"},
+        Bad{"udpin://127.0.0.1:1?queue_bytes=99999999999999999999", "not a size"},
         Bad{"udpin://127.0.0.1:1?queue_bytes=9999999999999G", "larger than any disk"},
         Bad{"udpin://127.0.0.1:1?max_rate=ATTITUDE", "has no rate"},
         Bad{"udpin://127.0.0.1:1?max_rate=ATTITUDE:0", "not a number above 0"},
@@ -223,13 +227,13 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"udpin://127.0.0.1:1?max_rate=A:1,A:2", "A has two rates"},
         Bad{"udpin://127.0.0.1:1?max_rate=*:nan", "not a number above 0"},
         Bad{"udpin://127.0.0.1:1?in_allow=sys:256", "not a whole number from 0 to 255"},
-        Bad{"udpin://127.0.0.1:1?in_allow=system:1", "no filter term"},
-        Bad{"udpin://127.0.0.1:1?in_allow=ATT%20", "no message name or id"},
+        Bad{"udpin://127.0.0.1:1?in_allow=system:1", "not a filter term"},
+        Bad{"udpin://127.0.0.1:1?in_allow=ATT%20", "not a message name or id"},
         Bad{"udpin://127.0.0.1:1?in_allow=16777216", "from 0 to 16777215"},
         Bad{"udpin://127.0.0.1:1?out_block=,", "empty term"},
         Bad{"udpin://127.0.0.1:1?tap=yes", "neither true nor false"},
         Bad{"udpin://127.0.0.1:1?tap=1", "neither true nor false"},
-        Bad{"udpin://127.0.0.1:1?group_mode=first", "none of all, best, primary"},
+        Bad{"udpin://127.0.0.1:1?group_mode=first", "not one of all, best, primary"},
         Bad{"udpin://127.0.0.1:1?max_peers=0", "from 1 to"}, Bad{"udpin://127.0.0.1:1?ttl=256", "from 0 to 255"},
         Bad{"udpin://127.0.0.1:1?iface=0123456789abcdef", "interface"},
         Bad{"udpout://127.0.0.1:1?bind=14550", "the host is missing"},
@@ -322,7 +326,7 @@ TEST(CheckSourceOptions, RefusesWhatOnlyADestinationHas) {
     EXPECT_TRUE(check_source_options(parsed("a.tlog?speed=10&name=a")).has_value());
     EXPECT_TRUE(check_source_options(parsed("udpin://127.0.0.1:14550?tap=true")).has_value());
     EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_every=1h")).error().text,
-              "'tlog://a.tlog': 'rotate_every' is for a recording that is written; this one is read");
+              "'tlog://a.tlog': 'rotate_every' applies to a recording that is written; this one is read");
     EXPECT_EQ(check_source_options(parsed("a.tlog?rotate_bytes=1M")).error().code, SetupCode::usage);
 }
 

@@ -21,22 +21,22 @@ struct Refusal {
 
 TEST(LinksOptions, NothingIsSilentlyIgnored) {
     for (const auto& [url, says] : {
-             Refusal{"shm://ring?lossless=false", "'lossless' is for a ring that is read"},
-             Refusal{"shm://ring?from=oldest", "'from' is for a ring that is read"},
-             Refusal{"shm://ring?verify=key", "verify= belongs to the endpoint that the frames came in by"},
-             Refusal{"shm://ring?tap=true", "tap= is for mavloom route"},
-             Refusal{"tlog://flight.tlog", "a recording is no link"},
-             Refusal{"udpin://127.0.0.1:1?group=air", "group= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?max_bytes=5000", "max_bytes= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?in_allow=sys:1", "in_allow= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?tap=true", "tap= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?private=true", "private= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?heartbeat=true", "heartbeat= is for mavloom route"},
-             Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps the datagrams of a group"},
-             Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no meaning"},
-             Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no meaning"},
+             Refusal{"shm://ring?lossless=false", "'lossless' applies to a ring that is read"},
+             Refusal{"shm://ring?from=oldest", "'from' applies to a ring that is read"},
+             Refusal{"shm://ring?verify=key", "set verify= at the endpoint that receives the frames"},
+             Refusal{"shm://ring?tap=true", "tap= applies only to mavloom route"},
+             Refusal{"tlog://flight.tlog", "a recording is not a link"},
+             Refusal{"udpin://127.0.0.1:1?group=air", "group= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?max_rate=ATTITUDE:10", "max_rate= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?max_bytes=5000", "max_bytes= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?in_allow=sys:1", "in_allow= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?out_block=ATTITUDE", "out_block= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?tap=true", "tap= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?private=true", "private= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?heartbeat=true", "heartbeat= applies only to mavloom route"},
+             Refusal{"udpin://127.0.0.1:1?ttl=0", "ttl=0 keeps datagrams of a multicast group"},
+             Refusal{"udpmcast://239.255.145.50:14550?max_peers=3", "max_peers= has no effect"},
+             Refusal{"udpbcast://127.255.255.255:14550?fixed=true&max_peers=3", "max_peers= has no effect"},
              Refusal{"udpin://127.0.0.1:1?queue_bytes=2000000000", "queue_bytes= goes up to 1 GiB"},
          }) {
         Node node;
@@ -59,7 +59,7 @@ TEST(LinksOptions, WhatIsNoDestinationIsRefusedWithTheSpellingToType) {
     EXPECT_THAT(node.links->add(endpoint).error().text,
                 AllOf(HasSubstr("udpin://[::]:14550"), HasSubstr("udpout://[::1]:14550")));
     endpoint.address = {"127.0.0.1", 0};
-    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("port 0 is no destination"));
+    EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("port 0 is not a destination"));
     endpoint.address = {"239.1.2.3", 14550};
     EXPECT_THAT(node.links->add(endpoint).error().text, HasSubstr("udpmcast://239.1.2.3:14550"));
     endpoint.scheme = endpoint::Scheme::tcpout;
@@ -91,7 +91,7 @@ TEST(LinksOptions, NobodyWaitsForANameOnceTheTurnsHaveBegun) {
 TEST(LinksOptions, TwoEndpointsOfOneNameAreRefused) {
     Node node;
     node.add("udpout://127.0.0.1:14550?name=gcs");
-    EXPECT_THAT(node.refused("udpout://127.0.0.1:14551?name=gcs").text, HasSubstr("two endpoints are called gcs"));
+    EXPECT_THAT(node.refused("udpout://127.0.0.1:14551?name=gcs").text, HasSubstr("two endpoints are named gcs"));
 }
 
 TEST(LinksOptions, BindFixesTheLocalSide) {

@@ -68,7 +68,7 @@ TEST_F(LinksSerial, ADeletedByteCostsOneFrame) {
     EXPECT_EQ(counters.lost.value(), 1u);
 }
 
-// routing.md N12: what such a UART sends back is heard, and nothing else suffers.
+// The link receives the bytes that such a UART sends back, and all other traffic is unaffected.
 TEST_F(LinksSerial, AnEchoingUartLosesNothing) {
     const Pty far;
     const auto port = node.add("serial://" + far.device());
@@ -116,7 +116,7 @@ TEST_F(LinksSerial, APortThatIsRemovedAndMadeAgainComesBack) {
 TEST_F(LinksSerial, WhileTurnsGoOnARequiredPortIsAwaited) {
     node.poll();
     node.add("serial://" + name + "?required=true");
-    EXPECT_THAT(node.refused("serial:///dev/null?required=true").text, HasSubstr("is no serial port"));
+    EXPECT_THAT(node.refused("serial:///dev/null?required=true").text, HasSubstr("is not a serial port"));
 }
 
 // By then the back-off alone would wait for three seconds.
@@ -228,7 +228,7 @@ TEST_F(LinksSerial, ADriverWithoutLowLatencyIsTold) {
     const Pty far;
     node.add("serial://" + far.device() + "?low_latency=true");
     node.poll();
-    EXPECT_THAT(node.recorder.notices, Contains(HasSubstr("has no low_latency")));
+    EXPECT_THAT(node.recorder.notices, Contains(HasSubstr("does not support low_latency")));
 }
 
 // 50 ms of 57600 baud, ten bits a byte, are 288 bytes.

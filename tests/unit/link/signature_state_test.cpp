@@ -164,7 +164,7 @@ TEST_F(SigningTimes, APipeInPlaceOfTheFileIsToldAndHoldsNobodyUp) {
     KeyStates states;
     (void)states.open(key, *wire::SigningKey::load(key), notices);
 
-    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no regular file")));
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is not a regular file")));
 }
 
 TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
@@ -172,7 +172,7 @@ TEST_F(SigningTimes, ABrokenFileIsToldAndBeginsAnew) {
     KeyStates states;
     (void)states.open(key, *wire::SigningKey::load(key), notices);
 
-    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state is no record of signing times")));
+    EXPECT_THAT(notices, ElementsAre(HasSubstr("link.key.state does not contain signing times")));
     EXPECT_EQ(content(file), fmt::format("mavloom signing times 1\nsigned 0\n{}", key_line));
 }
 

@@ -90,7 +90,8 @@ TEST(MessageBuilder, WritesTextAndClearsTheRest) {
     EXPECT_TRUE(sut.set_text(text, std::string(50, 'x')));
     EXPECT_TRUE(sut.set_text(text, "Höhe"));
     EXPECT_EQ(MessageView(statustext, sut.payload()).text(text), "Höhe");
-    EXPECT_EQ(error_of(sut.set_text(text, std::string(51, 'x'))), "STATUSTEXT.text: text of 51 bytes, at most 50 fit");
+    EXPECT_EQ(error_of(sut.set_text(text, std::string(51, 'x'))),
+              "STATUSTEXT.text: a text of 51 bytes is too long; at most 50 fit");
     EXPECT_EQ(error_of(sut.set_text(field(statustext, "severity"), "x")), "STATUSTEXT.severity: is not a text field");
     EXPECT_EQ(MessageView(statustext, sut.payload()).text(text), "Höhe");
 }
@@ -148,7 +149,8 @@ TEST(MessageBuilder, SaysWhatWasExpected) {
               "SAMPLE.small: expected [a,b,...] with 3 elements, not 2");
     EXPECT_EQ(error_of(sut.set_from_text(field(sample, "small"), "[1,2,x]")),
               "SAMPLE.small: 'x' is not a whole number");
-    EXPECT_EQ(error_of(sut.set_from_text(field(sample, "c"), "xy")), "SAMPLE.c: text of 2 bytes, at most 1 fit");
+    EXPECT_EQ(error_of(sut.set_from_text(field(sample, "c"), "xy")),
+              "SAMPLE.c: a text of 2 bytes is too long; at most 1 fit");
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(SerialPort, SaysWhatIsNone) {
     const auto null = SerialPort::open("/dev/null", {});
     ASSERT_FALSE(null);
     EXPECT_EQ(null.error().code, SetupCode::usage);
-    EXPECT_EQ(null.error().text, "/dev/null is no serial port");
+    EXPECT_EQ(null.error().text, "/dev/null is not a serial port");
 }
 
 TEST(SerialPort, TellsThatItWasUnplugged) {

@@ -57,7 +57,6 @@ TEST(RotatingWriter, WritesExactlyThePathWithoutRotation) {
     EXPECT_EQ(writer.written_bytes(), 3 * heartbeat_record_bytes);
 }
 
-// Case P6 of the routing rules.
 TEST(RotatingWriter, TwoFramesElevenTenthsApartWithSegmentsOfASecondAreTwoFiles) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog", {.every = 1s});

@@ -117,7 +117,7 @@ TEST(RingTap, WhatIsRemovedIsMadeAnewWithTheNames) {
 
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty()) << "another thread makes it";
     ASSERT_TRUE(ready.try_acquire_for(std::chrono::seconds(60)));
-    EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is made anew")));
+    EXPECT_THAT(tap->look_after(*node.links), ::testing::ElementsAre(::testing::HasSubstr("is created again")));
     EXPECT_THAT(tap->look_after(*node.links), ::testing::IsEmpty());
     const auto page = shm::read_counters(name.text());
     ASSERT_TRUE(page);

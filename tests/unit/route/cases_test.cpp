@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cases of other routers' tests (MR: mavlink-router, P: mavp2p, G: gomavlib) and those that nobody has (N), by
-// their numbers in the project's list. Links A, B, C are 1, 2, 3.
+// Routing cases from the tests of other routers (MR: mavlink-router, P: mavp2p, G: gomavlib), and cases that none of
+// them tests (N). The numbers in the test names only tell the cases apart. Links A, B, C are 1, 2, 3.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -31,7 +31,7 @@ TEST(Groups, WithTwoModesAreRefusedByTheSecondName) {
 
     ASSERT_FALSE(modes);
     EXPECT_EQ(modes.error().code, SetupCode::usage);
-    EXPECT_THAT(modes.error().text, HasSubstr("spare: group 'air' has group_mode=best already"));
+    EXPECT_THAT(modes.error().text, HasSubstr("spare: group 'air' already has group_mode=best"));
 }
 
 TEST(Groups, AnEmptiedGroupMayTakeAnotherMode) {

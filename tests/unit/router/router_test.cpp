@@ -120,7 +120,7 @@ TEST_F(RouterTest, WhatCannotBeOpenedIsLeftOutAndItsFormerSelfGoesOn) {
     become({udpin(taken.port(), "?name=air")});
 
     EXPECT_THAT(labels(), ElementsAre("air"));
-    EXPECT_THAT(notices, AllOf(Contains(HasSubstr("left out:")), Contains("air: goes on with its former options")));
+    EXPECT_THAT(notices, AllOf(Contains(HasSubstr("left out:")), Contains("air: continues with its former options")));
     const auto vehicle = PlainSocket::udp();
     EXPECT_TRUE(heard(vehicle, port, 1));
 }
@@ -144,7 +144,7 @@ TEST_F(RouterTest, AGroupHasOneMode) {
 
     ASSERT_FALSE(added);
     EXPECT_EQ(added.error().code, SetupCode::usage);
-    EXPECT_THAT(added.error().text, HasSubstr("has group_mode=best already"));
+    EXPECT_THAT(added.error().text, HasSubstr("already has group_mode=best"));
     add(udpin(free_port(), "?group=air"));
 }
 

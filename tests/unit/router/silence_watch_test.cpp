@@ -76,7 +76,7 @@ TEST(SilenceText, SaysWhatToLookAt) {
     EXPECT_THAT(text_of("udpout://127.0.0.1:18570?name=px4"),
                 AllOf(StartsWith("px4: nothing heard for 5 s; "), HasSubstr("127.0.0.1:18570"), HasSubstr("PX4")));
     EXPECT_THAT(text_of("serial:///dev/ttyACM0?baud=115200"), HasSubstr("115200 here"));
-    EXPECT_THAT(text_of("tcpout://10.0.0.1:5760"), HasSubstr("10.0.0.1:5760 took the connection"));
+    EXPECT_THAT(text_of("tcpout://10.0.0.1:5760"), HasSubstr("10.0.0.1:5760 accepted the connection"));
     EXPECT_THAT(text_of("udpbcast://10.0.0.255:14550"), HasSubstr("listen on port 14550"));
     EXPECT_THAT(text_of("udpmcast://239.255.145.50:14550"), HasSubstr("iface="));
 }
@@ -86,8 +86,8 @@ TEST(SilenceText, NamesWhatCameInstead) {
     junk.junk_bytes.add(512);
     foreign.bad_signature.add(3);
     EXPECT_THAT(text_of("serial:///dev/ttyACM0", junk), AllOf(HasSubstr("512 bytes"), HasSubstr("baud=auto")));
-    EXPECT_THAT(text_of("udpout://127.0.0.1:1", foreign), HasSubstr("3 frames came without the signature"));
-    EXPECT_THAT(text_of("udpout://127.0.0.1:1", {}, 9), HasSubstr("9 datagrams came from another address"));
+    EXPECT_THAT(text_of("udpout://127.0.0.1:1", foreign), HasSubstr("3 frames arrived without the signature"));
+    EXPECT_THAT(text_of("udpout://127.0.0.1:1", {}, 9), HasSubstr("9 datagrams came from an address other than"));
 }
 
 }  // namespace

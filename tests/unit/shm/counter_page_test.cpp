@@ -176,7 +176,7 @@ TEST(CounterPage, DamagedFilesAreErrors) {
         EXPECT_EQ(snapshot.error().code, SetupCode::bad_input);
         EXPECT_THAT(snapshot.error().text, HasSubstr(text));
     };
-    expect_error(0, 'X', "no counter page");
+    expect_error(0, 'X', "not a Mavloom counter page");
     expect_error(8, 3, "version 3.0");
     expect_error(12, 9, "byte order");
     expect_error(17, 9, "truncated");

@@ -669,11 +669,11 @@ protected:
 
 TEST_F(RingDamage, AnotherMagicIsNoRing) {
     put(0, {'X'});
-    expect_refused("is no ring of Mavloom");
+    expect_refused("is not a Mavloom ring");
 }
 TEST_F(RingDamage, AnotherVersionNamesBoth) {
     put(8, {2, 0, 7, 0});
-    expect_refused("is a ring of version 2.7; this program knows 1.0");
+    expect_refused("is a ring of version 2.7; this program supports 1.0");
 }
 TEST_F(RingDamage, AHigherMinorVersionIsRead) {
     put(10, {9, 0});

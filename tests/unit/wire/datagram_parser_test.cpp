@@ -45,7 +45,7 @@ TEST_F(DatagramParserTest, NeverJoinsTwoDatagrams) {
     EXPECT_THAT(parse(test::heartbeat_v2), ElementsAre("frame 0/7"));
 }
 
-// gomavlib's case G1: a lone start byte, an unknown flag, a heartbeat with junk behind, a heartbeat.
+// The datagrams of a gomavlib test: a lone start byte, an unknown flag, a heartbeat followed by junk, a heartbeat.
 TEST_F(DatagramParserTest, CaseG1) {
     EXPECT_THAT(parse({0xfd}), ElementsAre("junk 1"));
     EXPECT_THAT(parse(heartbeat_flag_4), ElementsAre("flags 0"));

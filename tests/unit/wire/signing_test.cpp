@@ -137,7 +137,7 @@ TEST(Verifier, LetsANewStreamBeAMinuteBehindAndNoMore) {
     EXPECT_EQ(sut.verify(sender.at({noon.ticks - minute}), noon), SignatureVerdict::good);
 }
 
-// python-users.md row 23: in pymavlink a forged frame with a future time locks the true sender out.
+// In pymavlink, a forged frame with a future timestamp locks out the true sender.
 TEST(Verifier, AForgedFrameFromTheFutureDoesNotLockTheTrueSenderOut) {
     Verifier sut(key_from(0));
     Sender honest, forger{key_from(99)};
@@ -218,7 +218,7 @@ TEST_F(KeyFile, RefusesWhatIsNoRegularFileAtOnce) {
     for (const auto* key : {&fifo, &folder}) {
         ASSERT_FALSE(*key);
         EXPECT_EQ(key->error().code, SetupCode::bad_input);
-        EXPECT_NE(key->error().text.find("is no regular file"), std::string::npos) << key->error().text;
+        EXPECT_NE(key->error().text.find("is not a regular file"), std::string::npos) << key->error().text;
     }
 }
 

@@ -53,8 +53,7 @@ TEST_F(StreamParserTest, FindsFramesCutAnywhereInTwo) {
     }
 }
 
-// routing.md case N5: one byte is missing; at most that frame is lost and what is behind it comes without waiting for
-// more input.
+// One byte is missing. At most that frame is lost, and the frames behind it arrive without waiting for more input.
 TEST_F(StreamParserTest, LosesOnlyTheFrameThatLacksAByte) {
     auto first = test::attitude_v1;
     first.erase(first.begin() + 12);
@@ -65,8 +64,7 @@ TEST_F(StreamParserTest, LosesOnlyTheFrameThatLacksAByte) {
     EXPECT_EQ(sut.counters().junk_bytes.value(), first.size());
 }
 
-// Case N6: a start byte in noise announces 255 bytes; what is held back is fewer than 280 bytes and no false frame
-// comes of it.
+// A start byte in noise announces 255 bytes. The parser holds back fewer than 280 bytes and reports no false frame.
 TEST_F(StreamParserTest, AFalseStartHoldsBackLessThan280Bytes) {
     feed({0xfd, 255, 0, 0, 0, 1, 1, 30, 0, 0});
     std::size_t fed = 10;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reader's side of the ring algorithm, over memory that is already mapped. RingReader handles slots, locks and
-// liveness. One thread; allocates only at construction.
+// liveness. One thread; allocates only at construction. docs/design/ring.md explains the algorithm, and
+// docs/formats/ring.md its terms.
 //
 // A lossy reader copies a record, then checks whether the writer has announced (`intent`) that it may overwrite the
 // record. If so, the reader discards the copy and continues at a mark. The mark's sequence number gives the exact
@@ -41,7 +42,8 @@ public:
             const std::uint64_t tail = ring_.control->tail.load(std::memory_order_acquire);  // pairs with commit()
             auto at = where == Start::oldest ? find_mark(ring_, 0) : newest_mark(ring_);
             if (at && where == Start::newest) at = walk(ring_, *at, tail);
-            // Overtaken or damaged. It is damage if the writer has not moved, or if all attempts fail.
+            // The writer has overtaken this reader, or the ring is damaged. It is damaged if the writer has not moved,
+            // or if all attempts fail.
             if (!at) {
                 if (ring_.control->intent.load(std::memory_order_acquire) == intent) return false;
                 continue;
@@ -94,8 +96,8 @@ public:
 
     // For lossless readers. Passes up to `most` records (at least 1), but at most about 1/8 of the ring, to `visit`.
     // The records are contiguous in memory, and all stay in view until the next call. Returns `record`, or the reason
-    // why there is none. After the first record, it stops at anything but a plain valid record, and leaves that to
-    // next().
+    // why there is none. After the first record, it stops at anything that is not a plain valid record; the next call
+    // of next() handles that.
     template <class Visit>
     [[nodiscard]] Found visit(std::size_t most, Visit&& visit) noexcept {
         RingRecord record;
@@ -149,8 +151,8 @@ public:
     // Sleeps until a commit, until the writer closes, or until `longest` is over. A reader without a slot may sleep for
     // all of `longest`, because the writer does not know about it.
     //
-    // The first sleep after a record is a nap of at most `wake_distance`, without asking the writer for a wake-up. So
-    // while records arrive continuously, the writer neither reads the clock nor makes a system call.
+    // The first sleep after a record is a nap of at most `wake_distance`, without asking the writer for a wake-up.
+    // While records arrive continuously, the writer therefore neither reads the clock nor makes a system call.
     //
     // The second sleep sets this reader's bit in `sleepers`, but is just as short, because the writer may overlook a
     // bit that was just set:

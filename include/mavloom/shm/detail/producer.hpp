@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The writer's side of the ring algorithm, over memory that is already mapped. RingWriter handles locks, policies and
-// waiting. One thread; allocates nothing.
+// waiting. One thread; allocates nothing. docs/design/ring.md explains the algorithm, and docs/formats/ring.md its
+// terms.
 //
 //   claim   announces what will be overwritten (`intent`), checks that no reader holds it (`holders`), and marks the
 //           record as being written
@@ -110,7 +111,7 @@ public:
         return found;
     }
 
-    // Removes the holds of these slots' readers. The readers notice before they read on.
+    // Removes the holds of these slots' readers. A reader notices that before it reads the next record.
     void drop_holds(std::uint64_t slots) noexcept {
         ring_.control->holders.fetch_and(~slots, std::memory_order_seq_cst);
     }
@@ -126,10 +127,10 @@ public:
         control.room_wanted.store(0, std::memory_order_relaxed);
     }
 
-    // Wakes all sleeping readers, at most once per `wake_distance`. A reader that the writer skips set its bit after
-    // the last wake-up. Its first sleep with the bit set is no longer than `wake_distance` (Consumer::sleep()). For the
-    // same reason, commit() need not order its load of `sleepers` behind its store of `tail`: an overlooked reader
-    // looks again by itself.
+    // Wakes all sleeping readers, at most once per `wake_distance`. If the last wake-up is more recent than that, does
+    // nothing. Every sleeping reader has then set its bit after that wake-up. It wakes by itself, because its first
+    // sleep with the bit set lasts at most `wake_distance` (Consumer::sleep()). For the same reason, commit() need not
+    // order its load of `sleepers` after its store of `tail`. A reader that it overlooks checks again by itself.
     [[gnu::noinline]] void wake_readers() noexcept {
         const MonoTime now = Words::now();
         if (now < next_wake_) return;
@@ -146,7 +147,7 @@ public:
 private:
     static constexpr std::size_t header_words = record_header_bytes / sizeof(std::uint64_t);
 
-    // The slow path of claim(): at the end of a lap, or where the known limit of the holds is reached.
+    // The slow path of claim(), for the end of a lap and for a record that extends beyond limit_.
     [[nodiscard, gnu::noinline]] bool claim_farther(std::uint64_t size) noexcept {
         const std::uint64_t left = ring_.left_in_lap(tail_);
         const std::uint64_t padding = size <= left ? 0 : left;

@@ -87,7 +87,8 @@ template <class Words>
     // Both acquire and pair with the release stores in Producer::set_marks().
     const Mark mark{words.position.load(std::memory_order_acquire), words.sequence.load(std::memory_order_acquire)};
     const std::uint64_t begin = number * ring.mark_distance();
-    // Before the writer replaces a mark, `intent` reaches the start of the mark that replaces it, one lap later.
+    // Before the writer replaces a mark, it raises `intent` to at least the start of the replacement, which lies one
+    // lap later.
     const std::uint64_t intent = ring.control->intent.load(std::memory_order_acquire);
     if (intent >= begin + ring.capacity || mark.position < begin || mark.position > tail) return std::nullopt;
     if (mark.position % record_alignment != 0) return std::nullopt;
@@ -107,7 +108,7 @@ template <class Words>
     return std::nullopt;
 }
 
-// Returns the newest mark. Only the writer can rely on getting one.
+// Returns the newest mark. In a reader, the writer may have overtaken the mark; then it returns nothing.
 template <class Words>
 [[nodiscard]] std::optional<Mark> newest_mark(const RingMemory<Words>& ring) noexcept {
     const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds frames in bytes; both parsers use it. It steps from frame to frame by their lengths and checks each one.
-// After anything that is not a good frame it continues at the next byte, so it finds every intact frame that
-// overlaps no damaged byte. One owner thread; allocates nothing after construction.
+// Finds frames in bytes, for the datagram and the stream parser. It steps from frame to frame by their lengths and
+// checks each one. After anything that is not a good frame it continues at the next byte, so it finds every intact
+// frame that overlaps no damaged byte. One owner thread; allocates nothing after construction.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace mavloom::wire::detail {
 
-// Whether more bytes may follow those that were passed.
+// Whether more bytes may follow those that were passed to the scanner.
 enum class End : std::uint8_t {
     open,    // more bytes of the stream: an incomplete frame waits
     idle,    // none for now: an incomplete frame still waits, but a whole frame of unknown id is accepted
@@ -26,9 +26,9 @@ public:
 
     explicit Scanner(const MessageTable& table) : table_(&table) {}
 
-    // Consumes the bytes that can be decided, calls sink(const ParseEvent&) for each event, and returns the number of
-    // bytes consumed. The scanner may also read `slack` bytes behind `bytes`; their values do not matter. With at least
-    // `enough_slack`, it checks frames at the end of `bytes` as fast as all others.
+    // Consumes the bytes that already form a frame or junk, calls sink(const ParseEvent&) for each event, and returns
+    // the number of bytes consumed. The scanner may also read `slack` bytes behind `bytes`; their values do not matter.
+    // With at least `enough_slack`, it checks frames at the end of `bytes` as fast as all others.
     template <class Sink>
     std::size_t scan(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {
         std::size_t at = 0;
