@@ -9,6 +9,7 @@ namespace {
 
 using namespace msg;
 using test::FlightRig;
+using test::ready;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Each;
@@ -21,7 +22,6 @@ using ::testing::Not;
 using enum LandedState;
 
 constexpr float not_given = std::numeric_limits<float>::quiet_NaN();
-constexpr VehicleOptions ready{.ready_after = Nanoseconds{0}};
 
 class MissionTest : public ::testing::Test {
 protected:

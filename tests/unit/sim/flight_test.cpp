@@ -9,6 +9,7 @@ namespace mavloom::sim {
 namespace {
 
 using test::FlightRig;
+using test::ready;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -17,7 +18,6 @@ using ::testing::HasSubstr;
 using ::testing::Le;
 using enum LandedState;
 
-constexpr VehicleOptions ready{.ready_after = Nanoseconds{0}};
 constexpr VehicleOptions copter_of_ardupilot{.autopilot = Autopilot::ardupilot, .ready_after = Nanoseconds{0}};
 
 VehicleOptions of(Kind kind, Autopilot autopilot = Autopilot::px4) {

@@ -14,6 +14,9 @@
 
 namespace mavloom::sim::test {
 
+// Can be armed at once.
+inline constexpr VehicleOptions ready{.ready_after = Nanoseconds{0}};
+
 class FlightRig : public FlightObserver {
 public:
     explicit FlightRig(const VehicleOptions& given = {})
