@@ -30,7 +30,7 @@ SetupResult<void> put_choice(Text text, const std::string_view (&choices)[n], E&
 SetupResult<void> set_name(Text text, std::string_view what, std::string& target) {
     if (!is_name(text))
         return endpoint::usage(
-            fmt::format("{} is no {} name (letters, digits, '_' and '-', at most 64)", in_quotes(text), what));
+            fmt::format("{} is not a {} name (letters, digits, '_' and '-', at most 64)", in_quotes(text), what));
     target = std::string(text);
     return {};
 }
@@ -51,7 +51,7 @@ SetupResult<void> set_profile(Scenario& scenario, Text text) {
 
 SetupResult<void> set_metrics(Scenario& scenario, Text text) {
     const auto address = endpoint::parse_host_port(text, {});
-    if (!address) return endpoint::usage(fmt::format("{} is no HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
+    if (!address) return endpoint::usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
     scenario.metrics = *address;
     return {};
 }
@@ -78,7 +78,8 @@ constexpr std::array<Key<Scenario>, 9> all_sim_keys{{
 SetupResult<void> set_system(ScenarioVehicle& vehicle, Text text) {
     const auto system = parse_integer(text, 1, 254);
     if (!system)
-        return endpoint::usage(fmt::format("{} is no system id of a vehicle, which is from 1 to 254", in_quotes(text)));
+        return endpoint::usage(
+            fmt::format("{} is not a system id of a vehicle, which is from 1 to 254", in_quotes(text)));
     vehicle.options.system = SystemId{static_cast<std::uint8_t>(*system)};
     return {};
 }

@@ -242,9 +242,9 @@ private:
         section.line = table.line;
         for (const config::Section& other : scenario_.sections)
             if (other.name == section.name && other.label == section.label)
-                return document_.error(table.line,
-                                       fmt::format("{} stands there twice; give one of them another name = \"...\"",
-                                                   in_quotes(section.label)));
+                return document_.error(
+                    table.line, fmt::format("two endpoints are named {}; give one of them another name = \"...\"",
+                                            in_quotes(section.label)));
         section.settings.insert(section.settings.end(), own.begin(), own.end());
         given.endpoint = std::move(placed->endpoint);
         scenario_.endpoints.push_back(std::move(given));

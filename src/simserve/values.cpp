@@ -62,7 +62,7 @@ SetupResult<sim::Home> parse_home(std::string_view text) {
     const auto values = parse_list(text, ranges, names);
     if (!values) return tl::unexpected(values.error());
     if (values->size() < 3)
-        return usage(fmt::format("{} is no LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90", in_quotes(text)));
+        return usage(fmt::format("{} is not LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90", in_quotes(text)));
     const auto& v = *values;
     return sim::Home{v[0], v[1], v[2], v.size() > 3 ? std::fmod(v[3], 360) : 0};
 }
@@ -73,7 +73,7 @@ SetupResult<sim::Wind> parse_wind(std::string_view text) {
     const auto values = parse_list(text, ranges, names);
     if (!values) return tl::unexpected(values.error());
     if (values->size() < 2)
-        return usage(fmt::format("{} is no SPEED,DIR: m/s, and the degrees that the wind comes from, as in 5,270",
+        return usage(fmt::format("{} is not SPEED,DIR: m/s, and the degrees that the wind comes from, as in 5,270",
                                  in_quotes(text)));
     const auto& v = *values;
     return sim::Wind{v[0], std::fmod(v[1] + 180, 360), v.size() > 2 ? v[2] : 0};
@@ -84,7 +84,7 @@ SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string
     const auto add = [&](std::string_view term) -> SetupResult<void> {
         const auto colon = term.find(':');
         if (colon == std::string_view::npos || colon == 0)
-            return usage(fmt::format("{} is no NAME:VALUE", in_quotes(term)));
+            return usage(fmt::format("{} is not NAME:VALUE", in_quotes(term)));
         constexpr double most = 3.4e38;  // of a parameter, which is a 32-bit float
         const auto value = parse_number(term.substr(colon + 1), {-most, most});
         if (!value) return tl::unexpected(SetupError(value.error()).within(shown(term.substr(0, colon))));

@@ -295,24 +295,24 @@ def test_what_max_bytes_allows_is_kept(sim, station, run):
     (("--autopilot", "ardupilt"), "--autopilot: 'ardupilt' is none of px4, ardupilot, did you mean 'ardupilot'?"),
     (("--profile", "px4-norml"), "did you mean 'px4-normal'?"),
     (("--motion", "randm"), "did you mean 'random'?"),
-    (("--home", "47,8"), "--home: '47,8' is no LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90"),
+    (("--home", "47,8"), "--home: '47,8' is not LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90"),
     (("--home", "97,8,0,0"), "--home: latitude: '97' is not a number from -90 to 90"),
     (("--home", "nan,8,0,0"), "--home: latitude: 'nan' is not a number from -90 to 90"),
     (("--home", "1,2,3,4,5"), "--home: '5' is one value too many"),
-    (("--wind", "5"), "--wind: '5' is no SPEED,DIR"),
+    (("--wind", "5"), "--wind: '5' is not SPEED,DIR"),
     (("--wind", "inf,0"), "--wind: speed: 'inf' is not a number from 0 to 60"),
     (("--speed", "0"), "--speed: '0' is not a number from 0.1 to 100"),
     (("--seed", "-1"), "--seed: '-1' is not a whole number"),
-    (("--system", "255"), "--system: '255' is no system id of a vehicle, which is from 1 to 254"),
+    (("--system", "255"), "--system: '255' is not a system id of a vehicle, which is from 1 to 254"),
     (("--vehicles", "0"), "--vehicles: '0' is not a whole number from 1 to 254"),
     (("--vehicles", "100", "--system", "200"), "would have id 299"),
     (("--traffic", "65"), "--traffic: '65' is not a whole number from 0 to 64"),
-    (("--for", "soon"), "--for: 'soon' is no duration"),
-    (("--name", "a b"), "--name: 'a b' is no simulator name"),
-    (("--ring", "a/b"), "--ring: 'a/b' is no ring name"),
-    (("--metrics", "9090"), "--metrics: '9090' is no HOST:PORT"),
-    (("--to", "udpin://127.0.0.1:14550"), "put udpin://127.0.0.1:14550 behind --listen"),
-    (("--listen", "udpout://127.0.0.1:14550"), "put udpout://127.0.0.1:14550 behind --to"),
+    (("--for", "soon"), "--for: 'soon' is not a duration"),
+    (("--name", "a b"), "--name: 'a b' is not a simulator name"),
+    (("--ring", "a/b"), "--ring: 'a/b' is not a ring name"),
+    (("--metrics", "9090"), "--metrics: '9090' is not HOST:PORT"),
+    (("--to", "udpin://127.0.0.1:14550"), "put udpin://127.0.0.1:14550 after --listen"),
+    (("--listen", "udpout://127.0.0.1:14550"), "put udpout://127.0.0.1:14550 after --to"),
     (("--to", "udp://127.0.0.1:14550"), "udpout://127.0.0.1:14550"),
     (("--to", "udpout://127.0.0.1:1?max_rate=*:5"), "max_rate"),
     (("--to", "tlog://x.tlog"), "a simulator writes no recordings"),
@@ -394,7 +394,7 @@ def test_check_shows_the_values_of_a_scenario_with_their_origin(run, tmp_path):
     ("[sim]\n[[endpoint]]\nurl = 'udpout://127.0.0.1:14550'\nmax_rat = 1\n", "4: "),
     ("[sim]\n[[endpoint]]\nurl = 'udpout://127.0.0.1:14550?max_rate=*:5'\n", "2: "),
     ("[sim]\n[[endpoint]]\nurl = 'udpin://127.0.0.1:14550'\n[[endpoint]]\nurl = 'udpin://0.0.0.0:14550'\n",
-     "5: 'udpin://0.0.0.0:14550' binds UDP port 14550, which 'udpin://127.0.0.1:14550' of line 3 has already"),
+     "5: 'udpin://0.0.0.0:14550' binds UDP port 14550, which 'udpin://127.0.0.1:14550' in line 3 already uses"),
     ("[sim\n", "1: "),
 ])
 def test_a_bad_scenario_is_status_3_with_its_line(run, tmp_path, text, expected):
@@ -470,7 +470,7 @@ def test_two_simulators_of_one_name(sim, station, run):
     client.until(HEARTBEAT)
     done = run("sim", "--to", url, "--name", running.name, "--for", "1s")
 
-    assert done.status == 1 and "--name gives this one another name" in done.stderr, done
+    assert done.status == 1 and "give this one another name with --name" in done.stderr, done
 
 
 def test_a_vanished_peer_disturbs_nobody(sim, station, udp_socket):
@@ -520,7 +520,7 @@ def test_ctl_chooses_a_vehicle(sim, station, ctl):
     (("param", "MIS_TAKEOFF_ALTT", "1"), 1, "there is no parameter 'MIS_TAKEOFF_ALTT', did you mean"),
     (("takeoff", "-5"), 1, "takeoff needs an altitude above home"),
     (("takeoff",), 2, "takeoff takes the altitude above home in metres"),
-    (("takeoff", "high"), 2, "altitude: 'high' is no number"),
+    (("takeoff", "high"), 2, "altitude: 'high' is not a number"),
     (("mode",), 2, "mode takes the name of a mode"),
     (("state", "now"), 2, "state takes no argument"),
     (("stats", "--system", "1"), 2, "--system is not for stats"),

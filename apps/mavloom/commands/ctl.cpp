@@ -79,7 +79,7 @@ SetupResult<double> number_of(std::string_view what, const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return setup_error(SetupCode::usage, fmt::format("{}: {} is no number", what, in_quotes(text)));
+        return setup_error(SetupCode::usage, fmt::format("{}: {} is not a number", what, in_quotes(text)));
     return value;
 }
 

@@ -89,8 +89,8 @@ SetupResult<void> add_endpoints(const std::vector<std::string>& texts, std::stri
         if (listens != is_listening)
             return setup_error(
                 SetupCode::usage,
-                fmt::format("{} is for {}; put {} {}", option, listens ? "udpin:// and tcpin://" : "what is called",
-                            endpoint->label(), listens ? "behind --to" : "behind --listen"));
+                fmt::format("{} is for {}; put {} {}", option, listens ? "udpin:// and tcpin://" : "destinations",
+                            endpoint->label(), listens ? "after --to" : "after --listen"));
         if (auto good = Simulator::check(*endpoint); !good) return good;
         scenario.endpoints.push_back({std::move(*endpoint)});
     }
