@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the benchmarks behind docs/performance.md, one after another: ./run bench
-[parse|decode|python|listen|inside|shm|sim|pipeline|route ...]. Most of them compare Mavloom with another program. If one
-benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
+[parse|decode|python|listen|inside|shm|sim|pipeline|route ...]. Most of them compare Mavloom with another program. If
+one benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
 import argparse
 import pathlib
 import platform

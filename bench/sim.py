@@ -333,7 +333,8 @@ class Bench:
         sizes = []
         for vehicles in (1, 51):
             receiver = Receiver()
-            with running(self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--vehicles", str(vehicles))) as process:
+            command = self.sim("--to", f"udpout://127.0.0.1:{receiver.port}", "--vehicles", str(vehicles))
+            with running(command) as process:
                 receiver.wait()
                 receiver.run(self.warm_up_s)
                 sizes.append(anonymous_kib(process.pid))

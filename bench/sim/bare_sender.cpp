@@ -3,7 +3,7 @@
 // until each instant, then sends one datagram.
 //
 // Usage: bare_sender PORT SCHEDULE. The schedule has a line for each datagram: nanoseconds since the start, and bytes.
-// The program begins when it has read it, and repeats it without end, with the time of its last line as its length.
+// The program begins when it has read it, and repeats it indefinitely, with the time of its last line as its length.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "mavloom/sim/vehicle.hpp"
+#include "sim/command/commands.hpp"
 #include "sim/firmware/firmware.hpp"
 #include "sim/flight/flight.hpp"
 #include "sim/payload/servo_outputs.hpp"
 #include "sim/radio/radio.hpp"
 #include "sim/service/announcer.hpp"
-#include "sim/command/commands.hpp"
 #include "sim/service/service.hpp"
 #include "sim/telemetry/streams.hpp"
 

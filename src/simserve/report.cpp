@@ -178,7 +178,7 @@ Later<Lines> report_stats(Simulator& simulator) {
 
 namespace {
 
-// What one row shows. Rates and jitter are those that the peer sees: of real time.
+// One row of the report. Rates and jitter are those that the peer sees: of real time.
 struct Row {
     double asked_hz, achieved_hz, median_ms, p99_ms;
 };

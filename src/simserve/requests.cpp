@@ -57,8 +57,8 @@ SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const 
     return vehicles;
 }
 
-// Gives all these vehicles an order, and reports their states after it. Of several vehicles, the error names the one that
-// refused.
+// Gives all these vehicles an order, and reports their states after it. Of several vehicles, the error names the one
+// that refused.
 Later<Lines> order(Simulator& simulator, const Json& request, const Simulator::Order& order) {
     const auto vehicles = vehicles_of(simulator, request);
     if (!vehicles) return failed(vehicles.error().text);

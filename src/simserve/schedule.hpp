@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which vehicle is due first: a binary heap of vehicles by the flight time at which they are due, with the place of each
-// vehicle. An update takes logarithmic time and allocates nothing. Private to module simserve; single owner thread.
+// Which vehicle is due first: a binary heap of vehicles by the flight time at which they are due, with the place of
+// each vehicle. An update takes logarithmic time and allocates nothing. Private to module simserve; single owner
+// thread.
 #pragma once
 
 #include <cstddef>

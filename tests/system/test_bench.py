@@ -96,15 +96,15 @@ def test_every_byte_of_the_recorded_mix_comes_through(kit):
 
 
 def test_every_part_of_bench_sim_gives_its_rows(kit, program):
-    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "sim.py", "--program", program, "--tools", kit.tools,
-                           "--quick", "--json"], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "sim.py", "--program", program, "--tools",
+                           kit.tools, "--quick", "--json"], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     rows = [json.loads(line) for line in done.stdout.splitlines()]
     assert len(rows) == 8 and all(row["value"] >= 0 for row in rows), rows
     assert next(row for row in rows if "lost" in row["bench"])["value"] == 0
 
 
-# Stands in for `mavloom sim` and loses every 50th datagram on the way to the port that it is told.
+# Stands in for `mavloom sim` and loses every 50th datagram on the way to the port of its options.
 LOSSY_SIMULATOR = """#!{python}
 import re, select, signal, socket, subprocess, sys
 sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

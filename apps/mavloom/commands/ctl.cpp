@@ -42,7 +42,7 @@ struct CtlOptions {
     bool force = false;
 };
 
-// What an action takes: the keys of its arguments in the request.
+// An action, and the keys of its arguments in the request.
 struct Action {
     std::string_view name;
     std::vector<std::string_view> arguments{};

@@ -66,7 +66,7 @@ struct SimOptions {
     std::vector<std::string> texts = std::vector<std::string>(std::size(key_options));
     bool gimbal = false, report = false, json = false;
 
-    // What the options set, for the scenario.
+    // The options as settings that take precedence over the scenario's.
     [[nodiscard]] std::vector<Override> overrides() const {
         std::vector<Override> all;
         for (std::size_t i = 0; i < std::size(key_options); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The counter page of a router's ring or of a simulator: link names, and copies of counters for other processes to read.
+// The counter page of a router's ring or of a simulator: link names, and copies of counters for other processes to
+// read.
 //
 // The owner's thread refreshes the copies from time to time. One owner thread.
 #pragma once

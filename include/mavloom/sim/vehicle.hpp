@@ -71,8 +71,8 @@ public:
 
     // Flight time at which `advance` has something to do.
     [[nodiscard]] FlightTime next_due() const noexcept;
-    // Moves the vehicle up to `now` and sends everything that is due. Call it at `next_due()`; if a call comes late, the
-    // vehicle skips the instants that it missed and counts them.
+    // Moves the vehicle up to `now` and sends everything that is due. Call it at `next_due()`; if a call comes late,
+    // the vehicle skips the instants that it missed and counts them.
     void advance(Moment now);
 
     // Orders of an operator at the simulator's console. They follow the same rules as commands by MAVLink; a refusal is

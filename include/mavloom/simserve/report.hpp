@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reports of a simulator: JSON, one object a line, for `mavloom ctl` and `mavloom sim --json`; text for people; metrics.
-// docs/guide/sim.md documents the keys.
+// Reports of a simulator: JSON, one object a line, for `mavloom ctl` and `mavloom sim --json`; text for people;
+// metrics. docs/guide/sim.md documents the keys.
 //
 // Call the functions that take a Simulator on its thread. They only copy data; the function that they return makes the
 // text, on any thread. All of them allocate.

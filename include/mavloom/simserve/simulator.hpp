@@ -35,8 +35,8 @@ class LinkSink;
 class SharedMemory;
 
 struct SimEndpoint {
-    // The option `max_bytes` limits the telemetry of each of its links, all vehicles together. A serial endpoint without
-    // it gets half of what its baud rate carries, so that parameters get through.
+    // The option `max_bytes` limits the telemetry of each of its links, all vehicles together. A serial endpoint
+    // without it gets half of what its baud rate carries, so that parameters get through.
     endpoint::Endpoint endpoint;
     std::optional<sim::Profile> profile{};  // empty: the simulator's
     std::vector<sim::MessageRate> rates{};  // before the simulator's
@@ -53,8 +53,8 @@ struct SimulatorOptions {
 struct LinkReport {
     std::string link;                     // its name
     std::uint64_t frames = 0, bytes = 0;  // that left
-    // Frames that the vehicles numbered but that did not leave, because the link's queue was full or the kernel rejected
-    // them. The peer sees a gap in the sequence numbers for each.
+    // Frames that the vehicles numbered but that did not leave, because the link's queue was full or the kernel
+    // rejected them. The peer sees a gap in the sequence numbers for each.
     std::uint64_t gaps = 0;
     std::vector<sim::StreamReport> streams{};
 };
@@ -80,8 +80,8 @@ public:
 
     // The calls that set the simulator up come before the first turn, in this order.
 
-    // Opens a ring of the simulator's own, which programs read as shm://NAME. It is a link: all that the vehicles send on
-    // it is in the ring. The counter page of the ring has the simulator's counters.
+    // Opens a ring of the simulator's own, which programs read as shm://NAME. It is a link: all that the vehicles send
+    // on it is in the ring. The counter page of the ring has the simulator's counters.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
     // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
@@ -96,8 +96,8 @@ public:
     [[nodiscard]] SetupResult<void> add(const SimEndpoint& endpoint);
     // Refuses an endpoint that a simulator cannot have. Opens nothing.
     [[nodiscard]] static SetupResult<void> check(const endpoint::Endpoint& endpoint);
-    // Removes an endpoint by its label. If `label` is the name of a link, closes only that link. Returns false if nothing
-    // has that name.
+    // Removes an endpoint by its label. If `label` is the name of a link, closes only that link. Returns false if
+    // nothing has that name.
     bool remove(std::string_view label);
 
     // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.

@@ -22,8 +22,8 @@ struct VersionInfo {
     std::uint16_t vendor = 0, product = 0;
 };
 
-// The texts that a vehicle sends. `{}` stands for a number or a mode's name. Where a firmware sends nothing, the text is
-// empty.
+// The texts that a vehicle sends. `{}` stands for a number or a mode's name. Where a firmware sends nothing, the text
+// is empty.
 struct Texts {
     std::string_view banner{};  // name and version, for a client that connects
     std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};

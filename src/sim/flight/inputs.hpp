@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs that clients must repeat, and when they last came by FlightContext::input_time(). Private to module sim; single
-// owner; plain values.
+// Inputs that clients must repeat, and when they last came by FlightContext::input_time(). Private to module sim;
+// single owner; plain values.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ constexpr double airspeed_sigma = 0.2;       // m/s
 constexpr double calm_share = 0.2;           // of the noise, while motors and vehicle rest
 constexpr double estimated_rate_sigma = to_radians(0.2);
 constexpr double resting_vibration = 0.02, flying_vibration = 2;  // m/s^2
-constexpr double self_heating = 3;                               // K, of the board above the air
+constexpr double self_heating = 3;                                // K, of the board above the air
 
 // The magnetic field at Zurich, gauss, north east down.
 const Vector3 field{0.21, 0.01, 0.43};

@@ -182,7 +182,8 @@ constexpr std::array projection_table{
 };
 
 constexpr auto projection_id = [](const Projection& projection) { return projection.info.id; };
-static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_equal{}, projection_id) == projection_table.end(),
+static_assert(std::ranges::adjacent_find(projection_table, std::ranges::greater_equal{}, projection_id) ==
+                  projection_table.end(),
               "the table is sorted by id, without repetition");
 
 }  // namespace

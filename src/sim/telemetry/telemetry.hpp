@@ -31,7 +31,7 @@ struct View {
     const Firmware& firmware;
     const Parameters& parameters;
     const Flight& flight;
-    const class Gimbal* gimbal = nullptr;  // null: none is simulated
+    const class Gimbal* gimbal = nullptr;        // null: none is simulated
     const class ServoOutputs* servos = nullptr;  // what clients set; null: nothing
     FlightTime since_boot{};
     WallTime utc{};  // the epoch: unknown

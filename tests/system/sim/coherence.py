@@ -184,7 +184,7 @@ def accelerometers_show_the_change_of_velocity(recording):
             if angles is not None:
                 forces.append(matrix_of(quaternion_of_angles(*angles)) @ row[1:4] + (0, 0, G))
         off = np.linalg.norm(np.mean(forces, axis=0) - (v1 - v0) / 0.5)
-        wrong.check(off < 0.35, f"{start:.2f} s", f"{off:.2f} m/s^2 apart: {np.mean(forces, axis=0)}, {(v1 - v0) / 0.5}")
+        wrong.check(off < 0.35, f"{start:.2f} s", f"{off:.2f} m/s^2: {np.mean(forces, axis=0)}, {(v1 - v0) / 0.5}")
     return wrong[:3]
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What MAVSDK does in the tests: python mavsdk_steps.py URL STEP ARGUMENTS-AS-JSON. Each step prints its answers as
-lines of JSON. Runs without pytest; mavsdks.py starts it."""
+"""The steps that tests take with MAVSDK: python mavsdk_steps.py URL STEP ARGUMENTS-AS-JSON. Each step prints its
+answers as lines of JSON. Runs without pytest; mavsdks.py starts it."""
 import enum
 import json
 import math

@@ -43,7 +43,7 @@ class Client:
             kept.append(line)
 
     def proceed(self):
-        """Tells a step that waits for it to go on."""
+        """Lets a waiting step continue."""
         self.process.stdin.write("\n")
         self.process.stdin.flush()
 

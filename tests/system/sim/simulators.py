@@ -128,7 +128,7 @@ ITEM_FIELDS = ("seq", "frame", "command", "autocontinue", "param1", "param2", "p
 
 
 def plain(item_message):
-    """What must come back of an item; NaN compares equal."""
+    """An item as the vehicle must return it; NaN compares equal."""
     def same(value):
         return "nan" if isinstance(value, float) and math.isnan(value) else value
     packed = mavlink.MAVLink(None)

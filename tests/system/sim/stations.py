@@ -288,13 +288,15 @@ class Station:
     def parameter(self, name, timeout=RESULT_TIMEOUT_S):
         mark = self.mark()
         self.send_to_vehicle("param_request_read", name.encode(), -1)
-        return self.expect("PARAM_VALUE", "PARAM_ERROR", since=mark, where=lambda m: m.param_id == name, timeout=timeout)
+        return self.expect("PARAM_VALUE", "PARAM_ERROR", since=mark, timeout=timeout,
+                           where=lambda m: m.param_id == name)
 
     def set_parameter(self, name, value, kind=9, timeout=RESULT_TIMEOUT_S):
         """Sends the value as it is: the caller converts integers of PX4 (float_of). The first answer."""
         mark = self.mark()
         self.send_to_vehicle("param_set", name.encode(), value, kind)
-        return self.expect("PARAM_VALUE", "PARAM_ERROR", since=mark, where=lambda m: m.param_id == name, timeout=timeout)
+        return self.expect("PARAM_VALUE", "PARAM_ERROR", since=mark, timeout=timeout,
+                           where=lambda m: m.param_id == name)
 
     # ---- plans
 

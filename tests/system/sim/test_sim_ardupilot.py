@@ -43,9 +43,10 @@ def test_b79_pymavlinks_names_select_modes(sim, kind, mapping):
 
 
 def number_is_selectable(kind, name):
-    """Not simulated: modes of hardware, of VTOL planes and helicopters, and one that the vehicle shows while it boots."""
+    """Not simulated: modes of hardware, of VTOL planes and helicopters, and the mode during boot."""
     return name not in ("INITIALISING", "FLIP", "AUTOTUNE", "THROW", "AVOID_ADSB", "FLOWHOLD", "ZIGZAG", "SYSTEMID",
-                        "AUTOROTATE", "AUTO_RTL", "TURTLE", "RATE_ACRO", "LEARNING", "OF_LOITER", "POSITION", "THERMAL", "DOCK") and \
+                        "AUTOROTATE", "AUTO_RTL", "TURTLE", "RATE_ACRO", "LEARNING", "OF_LOITER", "POSITION", "THERMAL",
+                        "DOCK") and \
         not (kind == "plane" and name.startswith("Q") or "QLAND" in name)
 
 

@@ -444,7 +444,8 @@ def test_three_clients_through_a_router(sim, spawn, mavproxy, udp_port):
 
 def test_a_flight_through_a_router(sim, spawn, udp_port):
     vehicle_port, ground_port = udp_port(), udp_port()
-    spawn("route", f"udpin://127.0.0.1:{vehicle_port}", f"udpin://127.0.0.1:{ground_port}").wait_output("listening|udpin")
+    router = spawn("route", f"udpin://127.0.0.1:{vehicle_port}", f"udpin://127.0.0.1:{ground_port}")
+    router.wait_output("listening|udpin")
     simulator = start(sim, "px4", 10, "--to", f"udpout://127.0.0.1:{vehicle_port}", listen=())
     station = simulator.station(port=ground_port)
     with mavsdks.started(ground_port, "short_flight", 6.0) as client:

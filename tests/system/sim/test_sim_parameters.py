@@ -14,7 +14,7 @@ from stations import bits_of, float_of, mavlink
 
 INT32, REAL32 = mavlink.MAV_PARAM_TYPE_INT32, mavlink.MAV_PARAM_TYPE_REAL32
 
-# What QGroundControl's setup pages for PX4 read by name; an absent one is reported as missing from the firmware.
+# QGroundControl's setup pages for PX4 read these by name; an absent one is reported as missing from the firmware.
 QGC_SETUP = """
 SYS_AUTOSTART SYS_AUTOCONFIG SYS_HITL SYS_HAS_MAG SYS_HAS_BARO SYS_HAS_GPS SYS_PARAM_VER MAV_SYS_ID MAV_TYPE
 CAL_ACC0_ID CAL_GYRO0_ID CAL_MAG0_ID CAL_ACC1_ID CAL_GYRO1_ID CAL_MAG1_ID CAL_ACC2_ID CAL_GYRO2_ID CAL_MAG2_ID

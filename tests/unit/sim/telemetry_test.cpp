@@ -215,7 +215,8 @@ TEST(TelemetryAtRest, FieldsAreThoseOfPx4ForACompanionComputer) {
 }
 
 // Messages a second in the recordings, which are longer than the files in tests/data: counts of 180 s on the link for
-// ground stations and 60 s on that for companion computers. PX4's simulated clock ran at 0.982 and 0.9764 of the wall's.
+// ground stations and 60 s on that for companion computers. PX4's simulated clock ran at 0.982 and 0.9764 of the
+// wall's.
 struct Count {
     std::uint32_t id;
     int count;
