@@ -14,6 +14,28 @@ import pytest
 
 import harness
 
+# MAVSDK's older form, whose Python package talks to a server process over gRPC.
+GRPC_FLIGHT = """
+import asyncio, sys
+from mavsdk_grpc import System
+
+async def first(stream, condition):
+    async for value in stream:
+        if condition(value):
+            return value
+
+async def fly(vehicle_port, server_port):
+    drone = System(port=int(server_port))
+    await drone.connect(system_address=f"udpout://127.0.0.1:{vehicle_port}")
+    await first(drone.core.connection_state(), lambda state: state.is_connected)
+    await first(drone.telemetry.health_all_ok(), bool)
+    await drone.action.set_takeoff_altitude(5)
+    await drone.action.arm()
+    await drone.action.takeoff()
+    print((await first(drone.telemetry.position(), lambda p: p.relative_altitude_m > 4.5)).relative_altitude_m)
+
+asyncio.run(fly(*sys.argv[1:]))
+"""
 STEPS = pathlib.Path(__file__).with_name("mavsdk_steps.py")
 ANSWER_TIMEOUT_S = 100
 
@@ -73,3 +95,11 @@ def run(port, step, *arguments, **options):
     """The one answer of a step."""
     with started(port, step, *arguments, **options) as client:
         return client.answer()
+
+
+def fly_over_grpc(port, server_port):
+    """Connects, arms and takes off to 5 m; returns the altitude reached, in metres."""
+    done = subprocess.run([sys.executable, "-c", GRPC_FLIGHT, str(port), str(server_port)], capture_output=True,
+                          text=True, timeout=ANSWER_TIMEOUT_S, env=harness.environment())
+    assert done.returncode == 0, done
+    return float(done.stdout.split()[-1])

@@ -168,6 +168,10 @@ def test_mavsdk_flies(sim):
     assert {"TAKEOFF", "HOLD", "RETURN_TO_LAUNCH"} <= set(answer["modes"])
 
 
+def test_mavsdk_over_grpc_takes_off(sim, tcp_port):
+    assert 4.5 < mavsdks.fly_over_grpc(start(sim).port, tcp_port()) < 5.5
+
+
 def test_mavsdk_flies_missions(sim):
     simulator = start(sim)
     simulator.station()
