@@ -138,6 +138,7 @@ void read_px4_copter(const Reader& read, Tuning& t) {
 }
 
 void read_px4_plane(const Reader& read, Tuning& t) {
+    t.min_airspeed = read.number("FW_AIRSPD_MIN", 10, 5, fastest);
     t.max_speed = read.number("FW_AIRSPD_MAX", 20, 5, fastest);
     t.cruise_speed = std::min(read.number("FW_AIRSPD_TRIM", 15, 5, fastest), t.max_speed);
     t.climb_speed = read.number("FW_T_CLMB_R_SP", 3, 0.5, fastest);
@@ -250,6 +251,7 @@ void read_ardupilot_copter(const Reader& read, Tuning& t) {
 }
 
 void read_ardupilot_plane(const Reader& read, Tuning& t) {
+    t.min_airspeed = read.number("AIRSPEED_MIN", 9, 5, fastest);
     t.max_speed = read.number("AIRSPEED_MAX", 22, 5, fastest);
     t.cruise_speed = std::min(read.number("AIRSPEED_CRUISE", 15, 5, fastest), t.max_speed);
     t.climb_speed = t.takeoff_speed = read.number("TECS_CLMB_MAX", 5, 0.5, fastest);

@@ -14,6 +14,7 @@ enum class FailsafeAction : std::uint8_t { none, warn, hold, return_home, land, 
 
 struct Tuning {
     double cruise_speed = 5, max_speed = 12;                   // m/s, horizontal
+    double min_airspeed = 10;                                  // m/s; planes
     double climb_speed = 3, descent_speed = 1.5;               // m/s
     double takeoff_speed = 1.5, land_speed = 0.7;              // m/s
     double land_slow_height = 5, land_ramp_height = 10;        // m: below the first at land_speed, above the second not

@@ -621,6 +621,16 @@ TEST_P(PlaneTest, TakesOffCirclesReturnsAndLands) {
     EXPECT_LT(rig.ground_speed(), 0.5);
     ASSERT_TRUE(rig.run_until([&] { return !rig.flight.armed(); }, 30));
 }
+
+TEST_P(PlaneTest, FliesNoSlowerThanItsSmallestAirspeed) {
+    FlightRig rig(of(Kind::plane, GetParam()));
+    const bool is_px4 = GetParam() == Autopilot::px4;
+    rig.take_off(50);
+    rig.set(is_px4 ? "FW_AIRSPD_TRIM" : "AIRSPEED_CRUISE", 10);
+    rig.set(is_px4 ? "FW_AIRSPD_MIN" : "AIRSPEED_MIN", 14);
+    rig.run(40);
+    EXPECT_NEAR(rig.ground_speed(), 14, 1);
+}
 INSTANTIATE_TEST_SUITE_P(Firmwares, PlaneTest, ::testing::Values(Autopilot::px4, Autopilot::ardupilot));
 
 class RoverFlightTest : public ::testing::TestWithParam<Autopilot> {};

@@ -139,6 +139,7 @@ SpeedLimits Guidance::limits() const noexcept {
             .acceleration = tuning.acceleration,
             .tilt = tuning.max_tilt,
             .yaw_rate = heading_.fastest(),
+            .air_minimum = tuning.min_airspeed,
             .air_maximum = std::max(tuning.max_speed, tuning.cruise_speed + 1),
             .turn_radius = tuning.rover_turn_radius};
 }

@@ -40,6 +40,7 @@ SpeedLimits ManualControl::limits() const noexcept {
             .acceleration = std::max(tuning.acceleration, 5.0),
             .tilt = tuning.max_tilt,
             .yaw_rate = turn_rate,
+            .air_minimum = tuning.min_airspeed,
             .air_maximum = std::max(tuning.max_speed, tuning.cruise_speed + 1),
             .turn_radius = tuning.rover_turn_radius,
             .jerk = jerk};

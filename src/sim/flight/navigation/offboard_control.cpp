@@ -40,6 +40,7 @@ Setpoint OffboardControl::followed(const OffboardSetpoint& given) const {
                        .acceleration = tuning.acceleration,
                        .tilt = tuning.max_tilt,
                        .yaw_rate = 2 * tuning.max_yaw_rate,
+                       .air_minimum = tuning.min_airspeed,
                        .air_maximum = std::max(tuning.max_speed, tuning.cruise_speed + 1),
                        .turn_radius = tuning.rover_turn_radius,
                        .jerk = 0};
