@@ -302,12 +302,16 @@ class Station:
 
     def upload(self, items, plan=0, timeout=harness.DEFAULT_TIMEOUT_S, sends=None):
         """Uploads MISSION_ITEM_INT messages, lost ones again, and returns the MISSION_ACK."""
-        mark = at = self.mark()
+        at = self.mark()
         deadline = time.monotonic() + timeout
 
-        def count():
-            self.send_to_vehicle("mission_count", len(items), plan)
-        count()
+        def step(seq=None):
+            if seq is None:
+                self.send_to_vehicle("mission_count", len(items), plan)
+            else:
+                self.send(items[seq])
+        last = None
+        step()
         while True:
             assert time.monotonic() < deadline, f"no end of the upload within {timeout:g} s"
             try:
@@ -315,15 +319,15 @@ class Station:
                                      where=lambda m: (m.target_system, m.target_component, m.mission_type) ==
                                      (self.system, self.component, plan))
             except AssertionError:
-                if not self.since(mark, "MISSION_REQUEST_INT"):
-                    count()  # the vehicle did not get it
+                step(last)  # it was lost, or the answer to it
                 continue
             at = next(i for i in range(at, self.mark()) if self.log[i][1] is answer) + 1
             if answer.get_type() == "MISSION_ACK":
                 return answer
             if sends is not None:
                 sends(answer.seq)
-            self.send(items[answer.seq])
+            last = answer.seq
+            step(last)
 
     def download(self, plan=0, timeout=harness.DEFAULT_TIMEOUT_S, acknowledges=True):
         """The items of a plan, requested one by one and again when one is lost."""
