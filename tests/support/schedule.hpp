@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs a few actors step by step, in every order that a bound on preemptions allows: exhaustive for the schedules that
 // find faults, unlike stress. A step is one operation on a ModelWord. Stores that are not sequentially consistent may
-// be delayed in the actor's store buffer, as x86 does it.
+// be delayed in the actor's store buffer, as x86 does it. A relaxed store may overtake delayed stores of other words,
+// as ARM does it.
 //
 //     explore({.preemptions = 2}, [](Schedule& schedule) {
 //         ...state of this run...
@@ -182,6 +183,13 @@ public:
         return found == buffer.rend() ? nullptr : &found->value;
     }
     void flush() { flush(actors_[current_]); }
+    // Only the stores of this word.
+    void flush(const void* word) {
+        auto& buffer = actors_[current_].buffer;
+        for (const Store& store : buffer)
+            if (store.word == word) store.apply();
+        std::erase_if(buffer, [&](const Store& store) { return store.word == word; });
+    }
 
     // Until `wake` of the same word.
     void sleep(const void* word) {
@@ -318,7 +326,8 @@ public:
             running_schedule->buffer(this, value, [this, value] { value_ = value; });
             return;
         }
-        running_schedule->flush();
+        if (order == std::memory_order_relaxed) running_schedule->flush(this);
+        else running_schedule->flush();
         value_ = value;
     }
     T fetch_or(T bits, std::memory_order) {

@@ -208,6 +208,17 @@ TEST(Stage, GivesEachSourceItsOwnSequence) {
     EXPECT_EQ(sequence_of(test::heartbeat_v2), 0);
 }
 
+// Receivers see the ids that are sent.
+TEST(Stage, CountsTheSequenceOfASourceAfterItsRemap) {
+    const auto sut = stage({.remap_system = {"1=42"}, .resequence = true});
+    auto other = test::heartbeat_v2;
+    other[5] = 42;  // it has that id already
+
+    EXPECT_EQ(view(forwarded(*sut, test::heartbeat_v2)).sequence(), 0);
+    EXPECT_EQ(view(forwarded(*sut, other)).sequence(), 1);
+    EXPECT_EQ(view(forwarded(*sut, test::heartbeat_v2)).sequence(), 2);
+}
+
 TEST(Stage, AnEditedFrameKeepsBytesBeyondItsDefinition) {
     const auto sut = stage({.set = {"HEARTBEAT.custom_mode=7"}});
 

@@ -6,6 +6,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+
+#include "mavloom/endpoint/grammar.hpp"
 
 namespace mavloom::endpoint {
 namespace {
@@ -398,6 +404,27 @@ TEST(SetEndpointOption, TakesTheTextOfAFilesKey) {
     EXPECT_TRUE(set_endpoint_option(endpoint, "idle", "1m").has_value());
     EXPECT_EQ(endpoint.options.idle, 60s);
     EXPECT_FALSE(set_endpoint_option(endpoint, "speed", "1").has_value());
+}
+
+// {option of a ring: its default}, from the table of docs/guide/endpoints.md.
+std::map<std::string, std::string> ring_options_of_the_guide() {
+    std::ifstream file(MAVLOOM_TEST_DATA "/../../docs/guide/endpoints.md");
+    const std::regex row(R"(\| `(\w+)` \| ([^|]*) \| (?:`([^|]*)`)? ?\| .*)");
+    std::map<std::string, std::string> options;
+    for (std::string line; std::getline(file, line);) {
+        std::smatch cells;
+        if (!std::regex_match(line, cells, row)) continue;
+        const std::string schemes = cells[2];
+        if (schemes.starts_with("all") || schemes == "shm") options[cells[1]] = cells[3];
+    }
+    return options;
+}
+
+// `check` shows the options of all other schemes: tests/system/test_check.py.
+TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
+    std::map<std::string, std::string> options;
+    for (const auto name : option_names_for(Scheme::shm)) options.emplace(name, default_option_text(Scheme::shm, name));
+    EXPECT_EQ(options, ring_options_of_the_guide());
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {

@@ -387,6 +387,45 @@ TEST_F(ChannelTest, AMessageThatWasNeverReceivedWholeIsNamed) {
     EXPECT_FALSE(errors.at(MessageId{0}).always);
 }
 
+// For the thread sanitizer. Each question has a thread of its own, and the flag is relaxed: whatever orders the threads
+// would hide a question that takes no lock. The sanitizer reports a race only while it remembers what both threads did,
+// so they ask a few times only.
+TEST_F(ChannelTest, WhatItKnowsMayBeAskedWhileItReceives) {
+    constexpr int times = 10;
+    Consumer reader(channel, {});
+    const std::vector<std::function<void()>> questions{[&] { EXPECT_LE(channel->target().system.value, 4); },
+                                                       [&] { EXPECT_LE(channel->losses().size(), 1u); },
+                                                       [&] { EXPECT_LE(channel->crc_errors().size(), 1u); },
+                                                       [&] { EXPECT_LE(channel->peers(), 1u); },
+                                                       [&] { EXPECT_LE(reader.seen(), 10u); },
+                                                       [&] { EXPECT_LE(reader.newest(), 10u); },
+                                                       [&] { EXPECT_EQ(reader.missed(), 0u); },
+                                                       [&] {
+                                                           FrameBatch some;
+                                                           EXPECT_TRUE(reader.take(some, 10));
+                                                       }};
+    std::atomic<bool> done{false};
+    std::vector<std::thread> threads;
+    for (const auto& ask : questions)
+        threads.emplace_back([&] {
+            for (int i = 0; i < times; ++i) ask();
+            while (!done.load(std::memory_order_relaxed)) std::this_thread::sleep_for(1ms);
+            for (int i = 0; i < times; ++i) ask();
+        });
+    const wire::SequenceStats loss{.source = {SystemId{1}, ComponentId{1}}, .received = 1, .lost = 2};
+    for (int i = 0; i < times; ++i) {
+        channel->on_link_up(LinkId{1}, "peer");
+        channel->on_bad_checksum(MessageId{attitude_id});
+        receive(*channel, frame_of(0, {0, 0, 0, 0, 2, 3}, {SystemId{4}, ComponentId{5}}));
+        channel->on_link_down(LinkId{1}, {&loss, 1});
+    }
+    done.store(true, std::memory_order_relaxed);
+    for (auto& thread : threads) thread.join();
+    EXPECT_EQ(channel->target().system.value, 4);
+    EXPECT_EQ(channel->crc_errors().at(MessageId{attitude_id}).count, 10u);
+    EXPECT_EQ(channel->losses().begin()->second.lost, 20u);
+}
+
 TEST_F(ChannelTest, ForgedIdsAndLinksTakeBoundedMemory) {
     for (std::uint32_t id = 0; id < 5000; ++id) channel->on_bad_checksum(MessageId{id});
     EXPECT_EQ(channel->crc_errors().size(), 1024u);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The parts of module link that a turn drives: the table of links, outlets, tickers and the class of a frame.
+// The parts of module link that a turn drives: the table of links, outlets, tickers, lists of peers and the class of a
+// frame.
 #include <gmock/gmock.h>
 
 #include "link/core/core.hpp"
+#include "link/peer_list.hpp"
 #include "unit/dialect/xml_folder.hpp"
 #include "unit/link/fixture.hpp"
 
@@ -179,6 +181,33 @@ TEST(Tickers, MayForgetThemselvesWhileTheyTick) {
     EXPECT_EQ(first.ticks.size(), 1u);
     EXPECT_EQ(second.ticks.size(), 1u);
     EXPECT_TRUE(sut.empty());
+}
+
+struct PlainEndpoint final : OpenEndpoint {
+    using OpenEndpoint::OpenEndpoint;
+    std::size_t send(const wire::FrameView&) override { return 0; }
+    [[nodiscard]] std::size_t queued_bytes() const override { return 0; }
+};
+
+struct PlainPeer final : Link {
+    PlainPeer() : Link(EndpointId{0}, {}) {}
+    void schedule() override {}
+    MonoTime last_heard{};
+};
+
+TEST(PeerList, ExpiresASilentPeerAtItsTimeThoughAnotherWasHeardLater) {
+    Core core(dialect::default_dialect(), std::move(*net::EventLoop::create()), std::move(*net::ReceiveBatch::create()));
+    const auto where = testing::endpoint_of("udpin://127.0.0.1:1");
+    Opening opening{core, where, EndpointId{0}, nullptr};
+    PlainEndpoint endpoint(opening);
+    PeerList<PlainPeer> sut(core, endpoint);
+    for (const auto heard : {0s, 3s}) sut.add(std::make_unique<PlainPeer>()).last_heard = MonoTime{heard};
+    const auto drop = [&](PlainPeer& peer) { sut.remove(peer, "idle"); };
+
+    EXPECT_EQ(sut.expire(MonoTime{4s}, 5s, drop), MonoTime{5s});
+    EXPECT_EQ(sut.size(), 2u);
+    EXPECT_EQ(sut.expire(MonoTime{5s}, 5s, drop), MonoTime{8s});
+    EXPECT_EQ(sut.size(), 1u);
 }
 
 // The class and the key belong to a language: what supersedes itself here is unknown there.

@@ -214,6 +214,19 @@ TEST(LinksTcpOut, ARequiredFarSideThatIsAbsentIsAnError) {
     EXPECT_THAT(error.text, HasSubstr("Connection refused"));
 }
 
+TEST(LinksTcpOut, BindFixesTheLocalSide) {
+    const PlainSocket listening(SOCK_STREAM);
+    ASSERT_EQ(::listen(listening.fd(), 1), 0);
+    Node caller;
+    caller.add(fmt::format("tcpout://127.0.0.1:{}?bind=127.0.0.2:0", listening.port()));
+    ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == 1; }, caller));
+    sockaddr_in from{};
+    socklen_t size = sizeof from;
+    const int connection = ::accept(listening.fd(), reinterpret_cast<sockaddr*>(&from), &size);
+    EXPECT_EQ(from.sin_addr.s_addr, htonl(INADDR_LOOPBACK + 1));
+    ::close(connection);
+}
+
 // A listener whose backlog is full does not answer: the connect stays under way.
 TEST(LinksTcpOut, ABlackHoleHoldsNobodyUp) {
     const PlainSocket hole(SOCK_STREAM);
@@ -265,6 +278,28 @@ TEST(LinksTcpOut, ANewConnectionBeginsWithAWholeFrame) {
     EXPECT_EQ(begin[0], wire::stx_v2);
     EXPECT_NE(known.find(MessageId{begin[7] | std::uint32_t{begin[8]} << 8}), nullptr);
     ::close(second);
+}
+
+// Otherwise the delay would be longer than three seconds after six connections. A slow machine has further rounds.
+TEST(LinksTcpOut, AfterAConnectionThatWasHeardTheDelayBeginsAgain) {
+    constexpr std::size_t usual_rounds = 6, most_rounds = 10;
+    constexpr std::chrono::seconds grown{3};
+    const PlainSocket listening(SOCK_STREAM);
+    ASSERT_EQ(::listen(listening.fd(), 1), 0);
+    Node caller;
+    caller.add(fmt::format("tcpout://127.0.0.1:{}", listening.port()));
+    bool is_short = false;
+    for (std::size_t round = 0; round < most_rounds && !is_short; ++round) {
+        const MonoTime down = mono_now();
+        ASSERT_TRUE(until([&] { return caller.recorder.ups.size() == round + 1; }, caller));
+        is_short = round >= usual_rounds && mono_now() - down < grown;
+        const int connection = ::accept(listening.fd(), nullptr, nullptr);
+        const Bytes beat = heartbeat(static_cast<std::uint8_t>(round));
+        ASSERT_EQ(::send(connection, beat.data(), beat.size(), MSG_NOSIGNAL), static_cast<ssize_t>(beat.size()));
+        ::close(connection);
+        ASSERT_TRUE(until([&] { return caller.recorder.downs.size() == round + 1; }, caller));
+    }
+    EXPECT_TRUE(is_short);
 }
 
 // The far side was away for longer than queue_age: what was meant for then is not said now.

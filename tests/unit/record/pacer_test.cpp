@@ -35,6 +35,13 @@ TEST(Pacer, DividesTheDistancesByTheSpeed) {
     EXPECT_EQ(slow.due(recorded + 10s), start + 20s);
 }
 
+TEST(Pacer, AtAVerySlowSpeedTheNextRecordIsDueInYears) {
+    Pacer pacer(1e-300, start);
+
+    EXPECT_EQ(pacer.due(recorded), start);
+    EXPECT_GT(pacer.due(recorded + 10s), start + 24h * 3650);
+}
+
 TEST(Pacer, AtMaximumSpeedEverythingIsDueAtOnce) {
     Pacer pacer(Pacer::max_speed, start);
 

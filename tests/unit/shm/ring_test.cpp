@@ -520,6 +520,16 @@ TEST(Ring, SixtyFourReadersRegisterAndTheSlotOfOneThatWentIsTakenAgain) {
     for (auto& reader : readers) EXPECT_EQ(text_of(*reader.read(soon())), "for all");
 }
 
+// A wake word or a view may keep the ring of such a reader mapped for long.
+TEST(Ring, TheSlotOfAReaderThatDetachesIsTakenAgain) {
+    const RingName name;
+    const auto writer = open_writer(name);
+    std::vector<RingReader> readers;
+    for (std::size_t i = 0; i < reader_slots; ++i) readers.push_back(open_reader(name, lossless));
+    readers[30].detach();
+    EXPECT_TRUE(RingReader::open(name.text(), lossless));
+}
+
 TEST(Ring, AReadOnlyReaderTakesNoSlotAndHoldsNobody) {
     const RingName name;
     auto writer = open_writer(name, WhenFull::drop_newest);
