@@ -158,23 +158,19 @@ void FileService::list(const Request& request, Reply& reply, bool with_time) {
 }
 
 void FileService::open_for_reading(Peer& peer, const Request& request, Reply& reply) {
-    Session opened{.number = request.header.session, .used = request.now.real};
     const auto path = path_of(request.text());
-    if (path && !parts_.firmware.is_px4()) opened.made = parameter_pack(parts_.parameters, *path);
-    const auto file = !path         ? tl::unexpected(path.error())
-                      : opened.made ? FileResult<FileRef>{FileRef{}}
-                                    : tree_.find(*path);
+    auto made = path && !parts_.firmware.is_px4() ? parameter_pack(parts_.parameters, *path) : std::nullopt;
+    const auto file = !path ? tl::unexpected(path.error()) : made ? FileResult<FileRef>{FileRef{}} : tree_.find(*path);
     if (!file) {
         reply.error = file.error();
         return;
     }
-    opened.file = *file;
     Session* const session = open_session(peer, request);
     if (session == nullptr) {
         reply.error = {MAV_FTP_ERR_NOSESSIONSAVAILABLE};
         return;
     }
-    *session = std::move(opened);
+    *session = {.number = request.header.session, .file = *file, .made = std::move(made), .used = request.now.real};
     reply.put(session->made ? static_cast<std::uint32_t>(session->made->size()) : tree_.size(*file).value_or(0));
 }
 
