@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Runs the benchmarks behind docs/performance.md, one after another: ./run bench
-[parse|decode|python|listen|inside|shm|pipeline|route ...]. Most of them compare Mavloom with another program. If one
-benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
+[parse|decode|python|listen|inside|shm|sim|pipeline|route ...]. Most of them compare Mavloom with another program. If
+one benchmark is named, options that this script does not know are passed to it: ./run bench route --quick"""
 import argparse
 import pathlib
 import platform
@@ -22,6 +22,8 @@ def commands(program, build):
         "listen": [[sys.executable, HERE / "listen.py", "--program", program, "--load", folder / "load_bench"]],
         "inside": [[folder / "inside_bench", FLIGHT, frames] for frames in ("8", "1")],
         "shm": [[sys.executable, HERE / "shm.py", "--tools", folder]],
+        "sim": [[program, "bench", "sim"], [program, "bench", "sim", "--fly", "--vehicles", "100", "--seconds", "10"],
+                [sys.executable, HERE / "sim.py", "--program", program, "--tools", folder]],
         "pipeline": [[sys.executable, HERE / "pipeline.py", "--program", program, "--tools", folder]],
         "route": [[sys.executable, HERE / "route.py", "--program", program, "--tools", folder]],
     }

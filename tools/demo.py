@@ -11,9 +11,14 @@ what the vehicle sent. Then it does the same through shared memory, in both dire
     vehicle --> python -m mavloom.hear --ring--> mavloom relay --> ground station --(its frames of the flight)--> relay
     --inlet--> hear --> vehicle
 
+At last, a simulated vehicle takes off, behind a router, and is watched in the router's ring:
+
+    mavloom sim --> mavloom route --ring--> mavloom listen
+
 Exit status: 0 all bytes agree, 4 they do not, 1 a program failed.
 """
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -32,6 +37,7 @@ SHOWN_EACH_S = 2.0  # at most one line per message in this time, because 370 lin
 
 GROUND_STATION = 255  # its system in the flight
 PATIENCE_S = 10.0
+FLIGHT_PATIENCE_S = 60.0
 
 
 class Program:
@@ -178,6 +184,38 @@ def way_back(options):
     return agree
 
 
+def simulated_flight(options):
+    """Returns whether a simulated vehicle takes off and all its frames reach the router's ring."""
+    name, altitude, started = f"demo-flight-{os.getpid()}", 10, []
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    try:
+        route = Program(options.program, "route", f"udpin://127.0.0.1:{port}", "--ring", name)
+        started.append(route)
+        route.said("listening")
+        listen = Program(options.program, "listen", f"shm://{name}", "--only", "GLOBAL_POSITION_INT", "--json",
+                         "--for", f"{FLIGHT_PATIENCE_S:.0f}s")
+        started.append(listen)
+        started.append(Program(options.program, "sim", "--to", f"udpout://127.0.0.1:{port}", "--name", f"{name}-sim",
+                               "--speed", "5"))
+        ordered, height = False, 0.0
+        for line in listen.process.stdout:
+            height = json.loads(line)["fields"]["relative_alt"] / 1000
+            if not ordered:
+                order = [options.program, "ctl", f"{name}-sim", "takeoff", str(altitude)]
+                ordered = subprocess.run(order, capture_output=True).returncode == 0
+            if height > 0.95 * altitude:
+                break
+        stats = subprocess.run([options.program, "ctl", name, "stats"], capture_output=True, text=True).stdout
+        lost = sum(row["lost"] for row in map(json.loads, stats.splitlines()) if row["kind"] == "source")
+    finally:
+        for program in reversed(started):
+            program.stop(2)
+    print(f"demo: a simulated vehicle climbed to {height:.1f} m behind a router; {lost} of its frames were lost")
+    return height > 0.95 * altitude and lost == 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=str(ROOT / "build" / "release" / "bin" / "mavloom"))
@@ -249,6 +287,9 @@ def compare(options, received, shown, count, damaged):
     if count == len(got) == agreeing == shown and got and gaps <= damaged:
         if not way_back(options):
             print("demo: MISMATCH: the frames of the ground station did not reach the vehicle unchanged")
+            return 4
+        if not simulated_flight(options):
+            print("demo: MISMATCH: the simulated vehicle did not fly as ordered")
             return 4
         print("demo: OK: byte for byte what was sent, there and back")
         return 0

@@ -10,6 +10,7 @@ Option Option::type_name(const std::string& name) { return Option(option_->type_
 Option Option::capture_default_str() { return Option(option_->capture_default_str()); }
 Option Option::default_str(const std::string& text) { return Option(option_->default_str(text)); }
 Option Option::expected(int fewest, int most) { return Option(option_->expected(fewest, most)); }
+Option Option::one_value_each() { return Option(option_->allow_extra_args(false)); }
 Option Option::delimiter(char separator) { return Option(option_->delimiter(separator)); }
 Option Option::range(int lowest, int highest) {
     return Option(option_->check(CLI::Range(lowest, highest).description("")));

@@ -25,6 +25,8 @@ public:
     Option capture_default_str();
     Option default_str(const std::string& text);
     Option expected(int fewest, int most);
+    // For an option that may be repeated: it takes one value each time, so that an argument may follow it.
+    Option one_value_each();
     Option delimiter(char separator);
     Option range(int lowest, int highest);
     Option members(const std::vector<std::string>& words);

@@ -47,6 +47,7 @@ struct Command {
 };
 
 Run declare_route(Arguments, const Common&);
+Run declare_sim(Arguments, const Common&);
 Run declare_ctl(Arguments, const Common&);
 Run declare_stat(Arguments, const Common&);
 Run declare_key(Arguments, const Common&);

@@ -28,12 +28,13 @@ constexpr std::array commands{
     Command{"relay", "decode frames, optionally edit them, re-encode and forward them", declare_relay},
     Command{"record", "write received frames to a .tlog file", declare_record},
     Command{"replay", "send a recording at its own pace", declare_replay},
-    Command{"ctl", "inspect a running router and change its endpoints", declare_ctl, false},
-    Command{"stat", "print the counters of a running router or a ring", declare_stat, false},
+    Command{"sim", "simulate vehicles that ground stations take for real", declare_sim},
+    Command{"ctl", "inspect and command a running router or simulator", declare_ctl, false},
+    Command{"stat", "print the counters of a running router, simulator or ring", declare_stat, false},
     Command{"shm", "manage shared-memory rings: list, stat, write, read, remove", declare_shm, false},
     Command{"key", "make signing keys", declare_key, false},
     Command{"dialect", "look up and check message definitions", declare_dialect},
-    Command{"check", "validate a configuration file", declare_check},
+    Command{"check", "validate a configuration or scenario file", declare_check},
     Command{"bench", "measure Mavloom's throughput on this machine", declare_bench},
 };
 

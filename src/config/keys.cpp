@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <ranges>
 
 #include "mavloom/base/name.hpp"
@@ -59,11 +58,7 @@ SetupResult<void> set_route_timeout(Config& config, std::string_view text) {
 }
 
 SetupResult<void> set_capacity(Config& config, std::string_view text) {
-    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 36;
-    const auto size = endpoint::parse_size(text);
-    if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
-        return endpoint::usage(fmt::format("{} is not a power of two from 64k to 64G", in_quotes(text)));
-    return endpoint::put(size, config.ring.capacity_bytes);
+    return endpoint::put(endpoint::parse_ring_capacity(text), config.ring.capacity_bytes);
 }
 
 SetupResult<void> set_ring_name(Config& config, std::string_view text) {

@@ -75,7 +75,19 @@ std::uint32_t detail::line_of(const Section& section, std::span<const std::strin
     return 0;
 }
 
-SetupResult<void> detail::check_ports(const Config& config, std::string_view file_name) {
+SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
+    std::set<std::filesystem::path> paths;
+    const auto is_new = [&paths](const std::string& path) { return paths.insert(endpoint::same_file(path)).second; };
+    if (!config.record.path.empty()) (void)is_new(config.record.path);
+    return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
+        static constexpr std::array<std::string_view, 2> own{"path", "url"};
+        if (endpoint.scheme != endpoint::Scheme::tlog || is_new(endpoint.path)) return {};
+        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: another recording already writes to {}", file_name,
+                                                             line_of(section, own), in_quotes(endpoint.path)));
+    });
+}
+
+SetupResult<void> check_ports(const Config& config, std::string_view file_name) {
     std::vector<Bound> all;
     return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         const auto bound = bound_by(endpoint, section);
@@ -88,18 +100,6 @@ SetupResult<void> detail::check_ports(const Config& config, std::string_view fil
                                            bound->address.port, in_quotes(other->label), other->line));
         all.push_back(*bound);
         return {};
-    });
-}
-
-SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
-    std::set<std::filesystem::path> paths;
-    const auto is_new = [&paths](const std::string& path) { return paths.insert(endpoint::same_file(path)).second; };
-    if (!config.record.path.empty()) (void)is_new(config.record.path);
-    return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
-        static constexpr std::array<std::string_view, 2> own{"path", "url"};
-        if (endpoint.scheme != endpoint::Scheme::tlog || is_new(endpoint.path)) return {};
-        return setup_error(SetupCode::bad_input, fmt::format("{}:{}: another recording already writes to {}", file_name,
-                                                             line_of(section, own), in_quotes(endpoint.path)));
     });
 }
 

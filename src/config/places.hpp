@@ -22,10 +22,6 @@ SetupResult<void> each_endpoint(const Config& config, Use&& use) {
     return {};
 }
 
-// Refuses two endpoints that bind the same port (`bad_input`, with file and line). It resolves no names, so it cannot
-// find every conflict.
-[[nodiscard]] SetupResult<void> check_ports(const Config& config, std::string_view file_name);
-
 // Refuses two recordings to the same file.
 [[nodiscard]] SetupResult<void> check_recordings(const Config& config, std::string_view file_name);
 

@@ -33,10 +33,10 @@ SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
     }
     const auto last = lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
     if (!last.is_object() || !last.value("/ok"_json_pointer, nlohmann::json()).is_boolean())
-        return setup_error(SetupCode::unreachable, "the router's answer was cut off");
+        return setup_error(SetupCode::unreachable, "the answer was cut off");
     if (!last["ok"].get<bool>()) {
         const auto why = last.value("/error"_json_pointer, nlohmann::json());
-        return setup_error(SetupCode::unreachable, why.is_string() ? why.get<std::string>() : "the router refused");
+        return setup_error(SetupCode::unreachable, why.is_string() ? why.get<std::string>() : "the request was refused");
     }
     lines.pop_back();
     return lines;
@@ -53,8 +53,8 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     error_code error;
     socket.connect(Local::endpoint(path->string()), error);
     if (error)
-        return setup_error(SetupCode::not_found, fmt::format("no router called '{}' runs here ({}: {})", name,
-                                                             path->string(), error.message()));
+        return setup_error(SetupCode::not_found, fmt::format("no router or simulator called '{}' runs here ({}: {})",
+                                                             name, path->string(), error.message()));
     // The client shuts down its sending side, so the router closes the connection after the answer.
     std::string input, output = std::string(request) + "\n";
     bool done = false;
@@ -65,8 +65,7 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     });
     context.run_for(limit);
     if (!done)
-        return setup_error(SetupCode::unreachable,
-                           fmt::format("router '{}' did not answer within {} ms", name, limit.count()));
+        return setup_error(SetupCode::unreachable, fmt::format("'{}' did not answer within {} ms", name, limit.count()));
     return answer_of(input);
 }
 

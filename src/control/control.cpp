@@ -41,7 +41,7 @@ ino_t inode_of(const std::filesystem::path& path) noexcept {
 tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
     return setup_error(
         SetupCode::in_use,
-        fmt::format("{} is served by another router; give this one another name with --name", socket.string()));
+        fmt::format("{} is served by another process; give this one another name with --name", socket.string()));
 }
 
 // Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock

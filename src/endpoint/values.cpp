@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -128,6 +129,14 @@ SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t le
     if (!number.ok || !number.rest.empty() || number.value < least || number.value > most)
         return usage(fmt::format("{} is not a whole number from {} to {}", in_quotes(text), least, most));
     return number.value;
+}
+
+SetupResult<std::uint64_t> parse_ring_capacity(std::string_view text) {
+    constexpr std::uint64_t least = 64 * 1024, most = std::uint64_t{1} << 36;
+    auto size = parse_size(text);
+    if (size && (!std::has_single_bit(*size) || *size < least || *size > most))
+        return usage(fmt::format("{} is not a power of two from 64k to 64G", in_quotes(text)));
+    return size;
 }
 
 SetupResult<bool> parse_bool(std::string_view text) {

@@ -196,6 +196,11 @@ std::size_t Links::queued_bytes(EndpointId endpoint) const {
     return found == nullptr ? 0 : found->queued_bytes();
 }
 
+std::size_t Links::queued_bytes(LinkId link) const noexcept {
+    const Link* const found = core_->links.find(link);
+    return found == nullptr ? 0 : found->queue.bytes();
+}
+
 void Links::wake() noexcept { core_->loop().wake(); }
 
 void Links::refresh_kernel_drops() {

@@ -16,9 +16,9 @@ static void set(Counter* counter, std::uint64_t value) noexcept {
 }
 
 SetupResult<RingPage> RingPage::create(const std::string& ring, unsigned mode) {
-    constexpr std::uint32_t of_router = 32;
+    constexpr std::uint32_t of_ring = 32;
     shm::CounterPageOptions options;
-    options.counters = of_router + paged_counters.size() * most_rows;
+    options.counters = of_ring + most_own + paged_counters.size() * most_rows;
     options.links = route::Engine::max_links;
     options.mode = mode;
     options.sets_aside = true;
@@ -90,7 +90,7 @@ void RingPage::add_row(LinkId link) {
 }
 
 void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
-                       std::optional<link::EndpointId> inlet, const OfRing& ring) {
+                       std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own) {
     choose_rows(busiest_links(links, most_rows));
     link::LinkCounters others;
     for (const link::LinkInfo& link : links) {
@@ -111,6 +111,8 @@ void RingPage::refresh(const std::vector<link::LinkInfo>& links, const std::vect
     set(records_, ring.records);
     set(dropped_, ring.dropped);
     set(links_, links.size());
+    for (const OwnCount& count : own.subspan(own_.size())) own_.push_back(page_.add(count.label, count.type));
+    for (std::size_t i = 0; i < own.size(); ++i) set(own_[i], own[i].value);
 }
 
 std::vector<const link::LinkInfo*> busiest_links(const std::vector<link::LinkInfo>& links, std::size_t most) {

@@ -56,9 +56,10 @@ RingTap::~RingTap() {
     (void)writer_.close(removes ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
 }
 
-void RingTap::refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet) {
+void RingTap::refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,
+                           std::span<const OwnCount> own) {
     page_due_ = MonoTime::max();
-    if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {writer_.records(), dropped_.value()});
+    if (page_) page_->refresh(links.links(), links.endpoints(), inlet, {writer_.records(), dropped_.value()}, own);
 }
 
 std::vector<std::string> RingTap::look_after(const link::Links& links) {

@@ -2,41 +2,14 @@
 // Log lines for people. Private to module router.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <functional>
 #include <string_view>
-#include <utility>
 
+#include "mavloom/base/line_budget.hpp"
 #include "mavloom/config/config.hpp"
 
 namespace mavloom::router {
 
 using Notice = std::function<void(config::LogLevel, std::string_view)>;
-
-// Limits the log lines about one subject to a burst of 100, then to two after each refill. Counts the lines that it
-// suppresses.
-class LineBudget {
-public:
-    static constexpr std::size_t burst = 100, each_refill = 2;
-
-    // Spends one line. Returns false if there is none, and counts the suppressed line.
-    [[nodiscard]] bool spend() noexcept {
-        if (left_ == 0) {
-            ++suppressed_;
-            return false;
-        }
-        --left_;
-        return true;
-    }
-    // Returns how many lines were suppressed since the last refill.
-    [[nodiscard]] std::size_t refill() noexcept {
-        left_ = std::min(burst, left_ + each_refill);
-        return std::exchange(suppressed_, 0);
-    }
-
-private:
-    std::size_t left_ = burst, suppressed_ = 0;
-};
 
 }  // namespace mavloom::router

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "mavloom/control/post_box.hpp"
 #include "mavloom/link/flush.hpp"
 #include "mavloom/ring/tap.hpp"
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
-#include "router/post_box.hpp"
 #include "router/recordings.hpp"
 #include "router/silence_watch.hpp"
 
@@ -30,7 +30,7 @@ Router::Router(const dialect::Dialect& dialect, const config::RouterConfig& conf
       endpoints_(std::make_unique<RoutedEndpoints>(dialect, *links_, notice_)),
       forwarder_(std::make_unique<Forwarder>(dialect, config, *links_)),
       silence_(std::make_unique<SilenceWatch>()),
-      posted_(std::make_unique<PostBox>()),
+      posted_(std::make_unique<control::PostBox>()),
       recordings_(std::make_unique<Recordings>(notice_, [this](std::string text) {
           post([this, line = std::move(text)] { notice_(config::LogLevel::warning, line); });
       })) {}

@@ -3,6 +3,7 @@
 Fixtures are in conftest.py."""
 import atexit
 import contextlib
+import itertools
 import os
 import pathlib
 import random
@@ -80,14 +81,14 @@ def udp_socket(host: str = "127.0.0.1", timeout: float = DEFAULT_TIMEOUT_S) -> s
 # Below those that the kernel gives to sockets that ask for any (32768 and up): only who asks for one of these by its
 # number can take it. Each worker of pytest-xdist has its own share.
 _worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:])
-_ports = random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500)
+_ports = itertools.cycle(random.sample(range(20_000 + _worker % 8, 32_000, 8), 1500))
 
 
 def free_port(kind: int = socket.SOCK_DGRAM) -> int:
-    """A port that was free a moment ago, never the same twice in a run.
+    """A port that was free a moment ago, and is not given again before all others were.
     Prefer port 0 if the program prints the port it got."""
     while True:
-        port = _ports.pop()
+        port = next(_ports)
         with socket.socket(socket.AF_INET, kind) as sock:
             try:
                 sock.bind(("127.0.0.1", port))

@@ -93,3 +93,42 @@ def test_every_byte_of_the_recorded_mix_comes_through(kit):
                               capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stderr
         assert done.stdout.split()[0] == "50000"
+
+
+def test_every_part_of_bench_sim_gives_its_rows(kit, program):
+    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "sim.py", "--program", program, "--tools",
+                           kit.tools, "--quick", "--json"], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    rows = [json.loads(line) for line in done.stdout.splitlines()]
+    assert len(rows) == 8 and all(row["value"] >= 0 for row in rows), rows
+    assert next(row for row in rows if "lost" in row["bench"])["value"] == 0
+
+
+# Stands in for `mavloom sim` and loses every 50th datagram on the way to the port of its options.
+LOSSY_SIMULATOR = """#!{python}
+import re, select, signal, socket, subprocess, sys
+sock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+sock.bind(("127.0.0.1", 0))
+words = " ".join(sys.argv[1:])
+port = int(re.search(r"udpout://127.0.0.1:(\\d+)", words)[1])
+real = subprocess.Popen(["{program}", *words.replace(str(port), str(sock.getsockname()[1])).split()])
+signal.signal(signal.SIGTERM, lambda *_: real.terminate())
+number = 0
+while real.poll() is None:
+    if not select.select([sock], [], [], 0.1)[0]:
+        continue
+    data, _ = sock.recvfrom(65536)
+    number += 1
+    if number % 50:
+        sock.sendto(data, ("127.0.0.1", port))
+"""
+
+
+def test_bench_sim_reports_frames_that_are_missing(kit, program, tmp_path):
+    lossy = tmp_path / "mavloom"
+    lossy.write_text(LOSSY_SIMULATOR.format(python=sys.executable, program=program))
+    lossy.chmod(0o755)
+    done = subprocess.run([sys.executable, harness.ROOT / "bench" / "sim.py", "--program", lossy, "--tools", kit.tools,
+                           "--quick", "--json", "--only", "rates"], capture_output=True, text=True, timeout=120)
+
+    assert done.returncode == 4 and "frames are missing" in done.stderr, done

@@ -15,9 +15,9 @@ import harness
 pytestmark = pytest.mark.short
 
 PAGES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs").rglob("*.md"))]
-COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key", "shm")
+COMMANDS = ("listen", "relay", "record", "replay", "route", "dialect", "check", "bench", "key", "shm", "sim")
 ASKING = ("ctl", "stat")  # these need a router that runs
-LIVE = ("listen", "relay", "record", "replay", "route")
+LIVE = ("listen", "relay", "record", "replay", "route", "sim")
 
 
 def shell_lines(text):
@@ -42,7 +42,7 @@ def runnable(line):
         return match[1] + (str(harness.free_port(harness.socket.SOCK_STREAM)) if words[0] == "route" else "0")
     words = [re.sub(r"((?:udpin|tcpin):(?://)?[^?]*:)\d+", port, word) for word in words]
     words = [re.sub(r"^127\.0\.0\.1:9090$", "127.0.0.1:0", word) for word in words]
-    if words[0] == "route" and "--name" not in words:
+    if words[0] in ("route", "sim") and "--name" not in words:
         words += ["--name", f"docs-{os.getpid()}-{harness.free_port()}"]
     if words[:2] == ["check", "--convert"] and ">" in words:
         words = words[:words.index(">")]
@@ -54,7 +54,7 @@ def runnable(line):
         words[words.index("--for") + 1] = "300ms"
     if words[0] == "shm":
         words = [f"docs-{os.getpid()}" if word == "px4" else word for word in words]
-    if words[0] == "route":
+    if words[0] in ("route", "sim"):
         words = [f"docs-{os.getpid()}-{harness.free_port()}" if word == "px4" else word for word in words]
     if words[0] == "replay" and "--no-wait" not in words:
         words.append("--no-wait")
@@ -77,6 +77,7 @@ def folder(tmp_path, run):
     (tmp_path / "main.conf").write_text("[UdpEndpoint ground]\nMode = Normal\nAddress = 127.0.0.1\nPort = 14550\n")
     (tmp_path / "mine.xml").write_text('<?xml version="1.0"?><mavlink><messages><message id="42000" name="MY_STATE">'
                                        '<field type="uint16_t" name="count">n</field></message></messages></mavlink>')
+    (tmp_path / "scenario.toml").write_text("[sim]\n")
     for name in ("mavloom.toml", "router.toml"):
         (tmp_path / name).write_text(f'[[endpoint]]\nurl = "udpin://127.0.0.1:{harness.free_port()}"\n')
     assert run("shm", "write", f"docs-{os.getpid()}", "--capacity", "64k", input="one\n").status == 0
@@ -111,10 +112,20 @@ def router_name(spawn):
     router.wait()
 
 
+@pytest.fixture
+def simulator_name(spawn, run):
+    name = f"docs-{os.getpid()}-{harness.free_port()}"
+    spawn("sim", "--to", f"udpout://127.0.0.1:{harness.free_port()}", "--name", name)
+    harness.wait_for(lambda: '"ready":true' in run("ctl", name, "state").stdout, what="a vehicle that is ready")
+    return name
+
+
 @pytest.mark.parametrize("line", list(page_examples()))
 def test_example_of_a_page(run, folder, request, line):
     words = runnable(line)
-    if words[0] in ASKING:
+    if words[0] in ASKING and "sim" in words:
+        words = [request.getfixturevalue("simulator_name") if word == "sim" else word for word in words]
+    elif words[0] in ASKING:
         words = [request.getfixturevalue("router_name") if word in ("router", "px4")
                  else word.replace("=tablet", "=other") for word in words]
     make_way(folder, words)
@@ -137,8 +148,9 @@ def test_examples_of_help(run, folder, command):
 
 
 @pytest.mark.parametrize("command, part", [("dialect", "list"), ("dialect", "show"), ("dialect", "check"),
-                                           ("bench", "parse"), ("bench", "decode"), ("shm", "list"), ("shm", "stat"),
-                                           ("shm", "write"), ("shm", "read"), ("shm", "remove")])
+                                           ("bench", "parse"), ("bench", "decode"), ("bench", "sim"),
+                                           ("shm", "list"), ("shm", "stat"), ("shm", "write"), ("shm", "read"),
+                                           ("shm", "remove")])
 def test_examples_of_the_help_of_a_part(run, folder, command, part):
     text = run(command, part, "--help").stdout
     examples = re.findall(r"(mavloom %s %s(?: [^[].*)?)$" % (command, part), text, re.MULTILINE)

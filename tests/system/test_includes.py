@@ -13,6 +13,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 LIBRARIES = {
     "CLI/": "CLI11", "spdlog/": "spdlog", "pugi": "pugixml", "sodium": "libsodium", "toml": "toml++",
     "nlohmann/": "nlohmann-json", "Eigen/": "Eigen", "GeographicLib/": "GeographicLib", "boost/": "Boost",
+    "lzma.h": "liblzma",
     "ncurses": "ncurses", "nats/": "NATS", "sys/socket.h": "sockets", "sys/epoll.h": "sockets", "sys/un.h": "sockets",
     "netinet/": "sockets", "netdb.h": "sockets",
     "nanobind/": "nanobind", "arpa/": "sockets", "ifaddrs.h": "sockets", "net/": "sockets", "termios.h": "sockets",

@@ -248,7 +248,7 @@ def test_ctl_that_is_used_wrongly(run, arguments):
 def test_nobody_of_that_name(run, args):
     done = run(*args)
 
-    assert done.status == 1 and "no router called 'nobody-at-all' runs here" in done.stderr
+    assert done.status == 1 and "no router or simulator called 'nobody-at-all' runs here" in done.stderr
 
 
 def test_the_socket_survives_whatever_is_said(net):
@@ -291,7 +291,7 @@ def test_two_of_one_name(spawn, run):
     done = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", router.name, env=router.env)
 
     assert done.status == 1
-    assert f"{router.name}.ctl is served by another router; give this one another name with --name" in done.stderr
+    assert f"{router.name}.ctl is served by another process; give this one another name with --name" in done.stderr
     assert len(router.ask("links")) == 0
 
 
@@ -356,7 +356,7 @@ def test_of_routers_that_start_at_once_one_gets_the_socket(spawn, left):
     harness.wait_for(lambda: sum(not router.alive for router in starting) == 5, what="five to be refused")
     refused = [router.wait() for router in starting if not router.alive]
 
-    assert all(done.status == 1 and "is served by another router" in done.stderr for done in refused), refused
+    assert all(done.status == 1 and "is served by another process" in done.stderr for done in refused), refused
     killed._connect_to(path).close()
 
 
@@ -381,7 +381,7 @@ def test_a_socket_that_nobody_serves_in_time_is_not_taken(spawn):
         refused = spawn("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", name, env=router.env).wait()
     os.unlink(path)
 
-    assert refused.status == 1 and "is served by another router" in refused.stderr
+    assert refused.status == 1 and "is served by another process" in refused.stderr
 
 
 def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
@@ -398,7 +398,7 @@ def test_a_name_of_another_user_is_one_that_is_taken(spawn, program, tmp_path):
                            env=harness.environment({"MAVLOOM_RUN": None, "XDG_RUNTIME_DIR": str(tmp_path)}))
 
     assert (other.returncode == 0 and "no control socket: " in other.stderr
-            and "is served by another router" in other.stderr), other
+            and "is served by another process" in other.stderr), other
 
 
 def test_the_end_of_a_router_leaves_the_socket_of_another(spawn):

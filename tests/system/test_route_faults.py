@@ -649,7 +649,7 @@ def test_a_second_router_without_name_goes_on_without_a_socket(spawn, tmp_path):
     first = spawn("route", f"udpin://{LOCALHOST}:{ends[0].target[1]}", env=env)
     first.wait_output("receive buffer", stream="err")
     second = spawn("route", f"udpin://{LOCALHOST}:{ends[1].target[1]}", env=env)
-    second.wait_output("no control socket: .* is served by another router", stream="err")
+    second.wait_output("no control socket: .* is served by another process", stream="err")
     second.wait_output("receive buffer", stream="err")
     for end in ends:
         end.close()

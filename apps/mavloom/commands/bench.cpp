@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench_sim.hpp"
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
@@ -306,10 +307,13 @@ Run declare_bench(Arguments command, const Common& common) {
     declare_one(command, *options, "decode", "decode a recording to JSON and to text: messages per second");
     auto ring_options = std::make_shared<RingOptions>();
     auto ring = declare_shm(command, *ring_options);
+    auto sim_options = std::make_shared<SimBenchOptions>();
+    auto sim = declare_sim_bench(command, *sim_options);
     command.require_subcommand();
     command.footer("Example:\n  mavloom bench parse flight.tlog\n\n./run bench compares Mavloom with other programs.");
-    return [options, ring_options, parse, ring, &common] {
+    return [options, ring_options, sim_options, parse, ring, sim, &common] {
         if (ring.parsed()) return bench_shm(*ring_options);
+        if (sim.parsed()) return run_sim_bench(*sim_options);
         return parse.parsed() ? run_bench(common, *options, bench_parse) : run_bench(common, *options, bench_decode);
     };
 }

@@ -7,6 +7,8 @@
 #include "mavloom/base/shown.hpp"
 #include "mavloom/config/config.hpp"
 #include "mavloom/config/convert.hpp"
+#include "mavloom/config/document.hpp"
+#include "mavloom/simserve/scenario.hpp"
 #include "output.hpp"
 
 namespace mavloom::app {
@@ -33,8 +35,8 @@ std::string where(const config::Setting& setting, std::string_view file) {
     return setting.origin == config::Origin::environment ? setting.variable : "default";
 }
 
-void print_text(message::TextBuffer& out, const config::Config& config, std::string_view file) {
-    for (const auto& section : config.sections) {
+void print_text(message::TextBuffer& out, std::span<const config::Section> sections, std::string_view file) {
+    for (const auto& section : sections) {
         const auto heading = section.label.empty() ? fmt::format("[{}]", section.name)
                                                    : fmt::format("[[{}]]  {}", section.name, section.label);
         fmt::format_to(fmt::appender(out), "{}\n", heading);
@@ -47,9 +49,9 @@ void print_text(message::TextBuffer& out, const config::Config& config, std::str
 // Prints one object a line:
 // {"section":"router","endpoint":null,"key":"dedup_ms","value":"0","origin":"default",
 // "file":null,"line":null,"variable":null}
-void print_config(message::TextBuffer& out, const config::Config& config, std::string_view file) {
+void print_json(message::TextBuffer& out, std::span<const config::Section> sections, std::string_view file) {
     const auto text = [](std::string_view t) { return t.empty() ? std::string("null") : json_quoted(t); };
-    for (const auto& section : config.sections) {
+    for (const auto& section : sections) {
         for (const auto& setting : section.settings) {
             const bool in_file = setting.origin == config::Origin::file;
             fmt::format_to(fmt::appender(out),
@@ -62,19 +64,39 @@ void print_config(message::TextBuffer& out, const config::Config& config, std::s
     }
 }
 
+Exit print(const CheckOptions& options, std::span<const config::Section> sections) {
+    Output output;
+    if (options.json) print_json(output.buffer(), sections, options.file);
+    else print_text(output.buffer(), sections, options.file);
+    return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
+}
+
+Exit check_router(const Common& common, const CheckOptions& options, const config::Document& document,
+                  const dialect::Dialect& dialect) {
+    const auto config = config::read_config(document, config::environment_of(environ));
+    if (!config) return fail(Exit::bad_input, config.error().text);
+    if (const auto checked = config::check_for_router(*config, options.file, dialect); !checked)
+        return fail(checked.error());
+    for (const auto& note : config->notes) say(common, note);
+    for (const auto& warning : config::config_warnings(*config, options.file, dialect)) say(common, warning);
+    return print(options, config->sections);
+}
+
+Exit check_scenario(const Common& common, const CheckOptions& options, const config::Document& document) {
+    const auto scenario = simserve::read_scenario(document, config::environment_of(environ), {});
+    if (!scenario) return fail(Exit::bad_input, scenario.error().text);
+    if (const auto checked = simserve::check_scenario(*scenario, document); !checked) return fail(checked.error());
+    for (const auto& note : scenario->notes) say(common, note);
+    return print(options, scenario->sections);
+}
+
 Exit check(const Common& common, const CheckOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
-    const auto config = config::load_config(options.file, config::environment_of(environ));
-    if (!config) return fail(Exit::bad_input, config.error().text);
-    if (const auto checked = config::check_for_router(*config, options.file, *dialect); !checked)
-        return fail(checked.error());
-    for (const auto& note : config->notes) say(common, note);
-    for (const auto& warning : config::config_warnings(*config, options.file, *dialect)) say(common, warning);
-    Output output;
-    if (options.json) print_config(output.buffer(), *config, options.file);
-    else print_text(output.buffer(), *config, options.file);
-    return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;
+    const auto document = config::load_document(options.file);
+    if (!document) return fail(Exit::bad_input, document.error().text);
+    return simserve::is_scenario(*document) ? check_scenario(common, options, *document)
+                                            : check_router(common, options, *document, *dialect);
 }
 
 // Prints the settings that cannot be converted. It ignores --quiet, because the user has to know them.
@@ -93,13 +115,16 @@ Exit convert(const CheckOptions& options) {
 
 Run declare_check(Arguments command, const Common& common) {
     auto options = std::make_shared<CheckOptions>();
-    command.add_option("file", options->file, "a router's configuration (TOML)").required().type_name("FILE");
+    command.add_option("file", options->file, "a router's configuration, or a simulator's scenario (TOML)")
+        .required()
+        .type_name("FILE");
     auto json = command.add_flag("--json", options->json, "print one JSON object per line, one for each value");
     command
         .add_flag("--convert", options->convert,
                   "FILE is a configuration of mavlink-router: convert it, and report what cannot be converted")
         .excludes(json);
     command.footer(
+        "A file with [sim], [streams] or [[vehicle]] is a scenario of `mavloom sim`.\n"
         "Prints every effective value and its origin: default, FILE:LINE, or an environment variable, for example\n"
         "MAVLOOM_ROUTER_DEDUP_MS for dedup_ms in [router]. If the file has an error, the message names its line and\n"
         "the exit status is 3. Message names are looked up in the built-in definitions and those of --dialect. Key "
@@ -108,6 +133,7 @@ Run declare_check(Arguments command, const Common& common) {
         "read; no port is opened.\n\n"
         "Examples:\n"
         "  mavloom check router.toml\n"
+        "  mavloom check scenario.toml\n"
         "  mavloom check --convert main.conf > router.toml");
     return [options, &common] { return options->convert ? convert(*options) : check(common, *options); };
 }

@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "counted.hpp"
+#include "mavloom/base/shown.hpp"
 #include "mavloom/control/control.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "output.hpp"
@@ -33,18 +36,86 @@ Exit print_lines(const std::vector<std::string>& lines) {
 // ---- ctl ------------------------------------------------------------------------------------------------------------
 
 struct CtlOptions {
-    std::string name, action, argument;
+    std::string name, action;
+    std::vector<std::string> arguments;
+    std::string system;  // of the vehicle; empty: all
+    bool force = false;
 };
 
+// An action, and the keys of its arguments in the request.
+struct Action {
+    std::string_view name;
+    std::vector<std::string_view> arguments{};
+    std::size_t fewest = 0;       // of the arguments
+    std::string_view missing{};   // the error if there are fewer
+    bool is_of_vehicles = false;  // only a simulator has it
+};
+
+const std::vector<Action>& actions() {
+    static const std::vector<Action> all{
+        {"links"},
+        {"routes"},
+        {"stats"},
+        {"add", {"url"}, 1, "add takes the URL of an endpoint"},
+        {"remove", {"name"}, 1, "remove takes the name of an endpoint or link"},
+        {"streams"},
+        {"state", {}, 0, {}, true},
+        {"arm", {}, 0, {}, true},
+        {"disarm", {}, 0, {}, true},
+        {"takeoff", {"altitude"}, 1, "takeoff takes the altitude above home in metres", true},
+        {"mode", {"mode"}, 1, "mode takes the name of a mode", true},
+        {"param", {"name", "value"}, 1, "param takes the name of a parameter, and its new value if it is to be set", true},
+    };
+    return all;
+}
+
+std::vector<std::string> action_names() {
+    std::vector<std::string> names;
+    for (const Action& action : actions()) names.emplace_back(action.name);
+    return names;
+}
+
+SetupResult<double> number_of(std::string_view what, const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+        return setup_error(SetupCode::usage, fmt::format("{}: {} is not a number", what, in_quotes(text)));
+    return value;
+}
+
+SetupResult<void> add_arguments(const CtlOptions& options, const Action& action, Json& request) {
+    if (options.arguments.size() < action.fewest) return setup_error(SetupCode::usage, std::string(action.missing));
+    if (options.arguments.size() > action.arguments.size())
+        return setup_error(SetupCode::usage, action.arguments.empty()
+                                                 ? fmt::format("{} takes no argument", action.name)
+                                                 : fmt::format("{} takes no argument {}", action.name,
+                                                               in_quotes(options.arguments[action.arguments.size()])));
+    for (std::size_t i = 0; i < options.arguments.size(); ++i) {
+        const auto key = action.arguments[i];
+        if (key != "altitude" && key != "value") {
+            request[std::string(key)] = options.arguments[i];
+            continue;
+        }
+        const auto number = number_of(key, options.arguments[i]);
+        if (!number) return tl::unexpected(number.error());
+        request[std::string(key)] = *number;
+    }
+    return {};
+}
+
 SetupResult<Json> request_of(const CtlOptions& options) {
-    const bool takes_argument = options.action == "add" || options.action == "remove";
-    if (takes_argument && options.argument.empty())
-        return setup_error(SetupCode::usage, options.action == "add" ? "add takes the URL of an endpoint"
-                                                                     : "remove takes the name of an endpoint or link");
-    if (!takes_argument && !options.argument.empty())
-        return setup_error(SetupCode::usage, fmt::format("{} takes no argument", options.action));
+    const Action& action = *std::ranges::find(actions(), options.action, &Action::name);
     Json request{{"cmd", options.action}};
-    if (takes_argument) request[options.action == "add" ? "url" : "name"] = options.argument;
+    if (auto added = add_arguments(options, action, request); !added) return tl::unexpected(std::move(added.error()));
+    if (options.force && action.name != "arm" && action.name != "disarm")
+        return setup_error(SetupCode::usage, fmt::format("--force is for arm and disarm, not for {}", action.name));
+    if (options.force) request["force"] = true;
+    if (options.system.empty()) return request;
+    if (!action.is_of_vehicles)
+        return setup_error(SetupCode::usage, fmt::format("--system is not for {}", action.name));
+    const auto system = number_of("--system", options.system);
+    if (!system) return tl::unexpected(system.error());
+    request["system"] = *system;
     return request;
 }
 
@@ -74,6 +145,15 @@ std::string nonzero(const Json& object, std::initializer_list<std::string_view> 
     return text;
 }
 
+void print_sim(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "up {:.0f} s; {}\n", o.value("uptime_s", 0.0), nonzero(o, {}));
+}
+void print_vehicle(fmt::appender out, const Json& o) {
+    fmt::format_to(out, "vehicle {} ({}, {}): {}, {}, {:.1f} m above home, battery {:.0f} %\n", o.value("system", 0),
+                   o.value("type", ""), o.value("autopilot", ""), o.value("mode", ""),
+                   o.value("armed", false) ? "armed" : "disarmed", o.value("relative_alt_m", 0.0),
+                   o.value("battery_percent", 0.0));
+}
 void print_router(fmt::appender out, const Json& o) {
     fmt::format_to(out, "up {:.0f} s; {}\n", o.value("uptime_s", 0.0), nonzero(o, {}));
 }
@@ -130,12 +210,18 @@ void print_unknown_target(fmt::appender out, const Json& o) {
 
 std::string table_of(const std::vector<std::string>& lines) {
     using Print = void (*)(fmt::appender, const Json&);
-    static const std::map<std::string_view, Print> prints{
-        {"router", print_router},       {"endpoint", print_endpoint},
-        {"gone", print_gone},           {"link", print_link},
-        {"page", print_page},           {"others", print_others},
-        {"source", print_source},       {"message", print_message_rate},
-        {"recording", print_recording}, {"unknown_target", print_unknown_target}};
+    static const std::map<std::string_view, Print> prints{{"router", print_router},
+                                                          {"endpoint", print_endpoint},
+                                                          {"sim", print_sim},
+                                                          {"vehicle", print_vehicle},
+                                                          {"gone", print_gone},
+                                                          {"link", print_link},
+                                                          {"page", print_page},
+                                                          {"others", print_others},
+                                                          {"source", print_source},
+                                                          {"message", print_message_rate},
+                                                          {"recording", print_recording},
+                                                          {"unknown_target", print_unknown_target}};
     fmt::memory_buffer text;
     for (const auto& line : lines) {
         const auto object = Json::parse(line, nullptr, false);
@@ -198,33 +284,43 @@ Exit stat(const StatOptions& options) {
 
 Run declare_ctl(Arguments command, const Common&) {
     auto options = std::make_shared<CtlOptions>();
-    command.add_option("name", options->name, "the router's --name, which is router by default")
+    command.add_option("name", options->name, "the --name of a router or simulator; by default router, or sim")
         .required()
         .type_name("NAME");
-    command.add_option("action", options->action, "links, routes, stats, add URL or remove NAME")
+    command
+        .add_option("action", options->action,
+                    "links, stats, add URL, remove NAME; of a router: routes; of a simulator: streams, state, arm, "
+                    "disarm, takeoff ALTITUDE, mode NAME, param NAME [VALUE]")
         .required()
-        .members({"links", "routes", "stats", "add", "remove"})
+        .members(action_names())
         .type_name("ACTION");
-    command.add_option("argument", options->argument, "the URL to add, or the name to remove").type_name("ARGUMENT");
+    command.add_option("argument", options->arguments, "what the action takes").type_name("ARGUMENT").expected(0, 2);
+    command.add_option("--system", options->system, "the vehicle with this system id (default: all)").type_name("N");
+    command.add_flag("--force", options->force, "arm or disarm whatever the vehicle's checks say");
     command.footer(
-        "Answers are JSON, one object per line (docs/guide/route.md).\n\nExamples:\n"
+        "Answers are JSON, one object per line (docs/guide/route.md, docs/guide/sim.md). If a vehicle refuses, the "
+        "exit\n"
+        "status is 1, with the vehicle's own text.\n\nExamples:\n"
         "  mavloom ctl router links\n"
         "  mavloom ctl router add 'udpout://192.168.1.20:14550?name=tablet'\n"
-        "  mavloom ctl router remove tablet");
+        "  mavloom ctl router remove tablet\n"
+        "  mavloom ctl sim takeoff 10\n"
+        "  mavloom ctl sim mode Return --system 3");
     return [options] { return ctl(*options); };
 }
 
 Run declare_stat(Arguments command, const Common&) {
     auto options = std::make_shared<StatOptions>();
-    command.add_option("name", options->name, "the router's --ring, or its --name")
+    command.add_option("name", options->name, "the --ring of a router or simulator, or its --name")
         .capture_default_str()
         .type_name("NAME");
     command.add_flag("--json", options->json, "print one JSON object per line");
     command.footer(
-        "If the router has a --ring, reads the ring's counter page, without involving the router. Otherwise asks the "
-        "router, like `ctl NAME stats`.\n\n"
+        "Reads the counter page of a router's --ring or of a simulator, without involving its process. Asks a router\n"
+        "without a ring, like `ctl NAME stats`.\n\n"
         "Examples: mavloom stat router\n"
-        "          mavloom stat px4 --json");
+        "          mavloom stat px4 --json\n"
+        "          mavloom stat sim");
     return [options] { return stat(*options); };
 }
 

@@ -112,6 +112,10 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 // Checks that the endpoints' key files can be loaded. Errors are `bad_input`, with file and line.
 [[nodiscard]] SetupResult<void> check_key_files(const Config& config, std::string_view file_name);
 
+// Refuses two endpoints that bind the same port (`bad_input`, with file and line). It resolves no names, so it cannot
+// find every conflict.
+[[nodiscard]] SetupResult<void> check_ports(const Config& config, std::string_view file_name);
+
 // Runs every check that a router makes on a configuration that parsed without errors. It refuses:
 // - everything that `check_message_names` and `check_key_files` refuse
 // - an endpoint that `Links::add` would refuse, or a ring as an endpoint

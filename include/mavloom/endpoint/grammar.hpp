@@ -85,6 +85,8 @@ SetupResult<void> put(SetupResult<T> parsed, Target& target) {
 // The limits at which a recording continues in a new file: by size and by time.
 [[nodiscard]] SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text);
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text);
+// The bytes of a ring: a power of two.
+[[nodiscard]] SetupResult<std::uint64_t> parse_ring_capacity(std::string_view text);
 [[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);
 
 [[nodiscard]] SetupResult<FilterTerms> parse_filter(std::string_view text);

@@ -187,6 +187,8 @@ public:
     [[nodiscard]] bool pending() const;
     // Bytes queued for an endpoint's links. A source that reads a file can pause instead of overflowing a queue.
     [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;
+    // The same for one link, in constant time; 0 if the link is gone.
+    [[nodiscard]] std::size_t queued_bytes(LinkId link) const noexcept;
 
     // Wakes `turn`. Callable from any thread and from signal handlers.
     void wake() noexcept;

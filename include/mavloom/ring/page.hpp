@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The counter page of a router's ring: link names, and copies of the link counters for other processes to read.
+// The counter page of a router's ring or of a simulator: link names, and copies of counters for other processes to
+// read.
 //
-// The router's thread refreshes the copies from time to time. One owner thread.
+// The owner's thread refreshes the copies from time to time. One owner thread.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +27,19 @@ inline constexpr auto paged_counters = [] {
     return paged;
 }();
 
+// A counter of the program that owns the page.
+struct OwnCount {
+    std::string_view label;
+    std::uint64_t value = 0;
+    shm::CounterType type = shm::CounterType::counter;
+};
+
 class RingPage {
 public:
     static constexpr std::size_t most_rows = 256;  // links that get counters of their own: the busiest ones
     // Number of closed links whose names stay, because the ring still holds their records.
     static constexpr std::size_t most_gone = 1024;
+    static constexpr std::size_t most_own = 24;
 
     [[nodiscard]] static SetupResult<RingPage> create(const std::string& ring, unsigned mode);
 
@@ -42,10 +52,10 @@ public:
     struct OfRing {
         std::uint64_t records = 0, dropped = 0;
     };
-    // Copies the current counters into the page. `inlet` is the id of the endpoint that is the ring's inlet, if there
-    // is one.
+    // Copies the current counters into the page. `inlet`: which of the endpoints is the ring's inlet. `own`: at most
+    // `most_own` counts, the same ones in each call.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
-                 std::optional<link::EndpointId> inlet, const OfRing& ring);
+                 std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own = {});
     // Returns whether the page was removed or replaced. Makes two system calls.
     [[nodiscard]] bool is_removed() const noexcept { return page_.is_removed(); }
 
@@ -62,6 +72,7 @@ private:
     std::map<LinkId, Words> rows_;
     std::deque<LinkId> gone_;  // the link that closed first comes first
     Words others_{};
+    std::vector<Counter*> own_;
     Counter *records_, *dropped_, *links_, *stray_bytes_, *refused_, *evicted_;
 };
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -64,7 +65,8 @@ public:
         if (is_new && page_due_ == MonoTime::max()) page_due_ = now + page_interval;
     }
     [[nodiscard]] MonoTime page_due() const noexcept { return page_due_; }
-    void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet);
+    void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,
+                      std::span<const OwnCount> own = {});
 
     // Call about once a second. Recreates a removed ring or page; the ring is created on another thread. Returns
     // notices for the log.

@@ -23,6 +23,9 @@
 #include "mavloom/record/recorder.hpp"
 #include "mavloom/route/engine.hpp"
 
+namespace mavloom::control {
+class PostBox;
+}
 namespace mavloom::ring {
 class RingTap;
 }
@@ -30,7 +33,6 @@ class RingTap;
 namespace mavloom::router {
 
 class Forwarder;
-class PostBox;
 class Recordings;
 class RoutedEndpoints;
 class SilenceWatch;
@@ -138,7 +140,7 @@ private:
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;
     std::unique_ptr<SilenceWatch> silence_;
-    std::unique_ptr<PostBox> posted_;
+    std::unique_ptr<control::PostBox> posted_;
     std::unique_ptr<Recordings> recordings_;
     std::unique_ptr<ring::RingTap> ring_;
     MonoTime started_ = mono_now();

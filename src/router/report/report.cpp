@@ -4,35 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "mavloom/control/metrics_text.hpp"
+#include "mavloom/link/snapshot.hpp"
 #include "router/report/json_line.hpp"
 
 namespace mavloom::router {
 
 namespace {
 
-struct NamedCount {
-    std::string_view name;
-    std::uint64_t value;
-};
+using control::MetricsText;
+using link::NamedCount;
 
-template <class Counters>
-std::vector<NamedCount> counts_in(const Counters& counters, const auto& table) {
-    std::vector<NamedCount> all(table.size());
-    std::ranges::transform(table, all.begin(), [&](const auto& counter) {
-        return NamedCount{counter.name, (counters.*counter.word).value()};
-    });
-    return all;
-}
-
-// The counters of a link, for JSON and metrics: traffic in and out, then every kind of loss.
-std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::LinkCounters* routed) {
-    auto all = counts_in(c, link::link_counters);
-    if (routed == nullptr) return all;
-    const route::LinkCounters& r = *routed;
+// The router's counters of a link: the verdicts of its frames.
+void append(std::vector<NamedCount>& all, const route::LinkCounters& r) {
     all.insert(all.end(), {{"forwarded", r.forwarded.value()},
                            {"nowhere", r.nowhere.value()},
                            {"filtered", r.filtered.value()},
@@ -46,16 +33,6 @@ std::vector<NamedCount> counts_of(const link::LinkCounters& c, const route::Link
                            {"out_filtered", r.out_filtered.value()},
                            {"out_rate_limited", r.out_rate_limited.value()},
                            {"out_bytes_limited", r.out_bytes_limited.value()}});
-    return all;
-}
-
-std::vector<NamedCount> counts_of(const link::EndpointCounters& c) { return counts_in(c, link::endpoint_counters); }
-
-// Sums over the links of an endpoint that are gone.
-std::vector<NamedCount> gone_of(const link::EndpointCounters& c) {
-    auto all = counts_of(c.gone, nullptr);
-    all.push_back({"queued", c.gone_queued.value()});
-    return all;
 }
 
 std::vector<NamedCount> counts_of(const record::RecorderCounters& c) {
@@ -87,23 +64,7 @@ void put(Json& object, const std::vector<NamedCount>& counts) {
 double seconds(Nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
 // A copy of a router's counters, taken between two turns.
-struct Snapshot {
-    struct OfEndpoint {
-        link::EndpointId id;
-        std::string label;
-        endpoint::Scheme scheme;
-        std::uint64_t rcvbuf_bytes;
-        std::vector<NamedCount> counts;
-        std::vector<NamedCount> gone;
-    };
-    struct OfLink {
-        LinkId id;
-        link::EndpointId endpoint;
-        std::string name;
-        bool up;
-        std::vector<NamedCount> counts;
-        std::vector<wire::SequenceStats> sources;
-    };
+struct Snapshot : link::Snapshot {
     struct OfRecording {
         std::string label;
         std::vector<NamedCount> counts;
@@ -113,35 +74,16 @@ struct Snapshot {
     WallTime time{};
     Nanoseconds uptime{};
     std::vector<NamedCount> counts{};
-    std::vector<OfEndpoint> endpoints{};  // sorted by id, as `links` are
-    std::vector<OfLink> links{};
     std::vector<observe::TrafficRow> messages{};
     std::vector<OfRecording> recordings{};
     std::vector<route::UnknownTargetInfo> unknown_targets{};
-
-    // Null if the link is gone.
-    [[nodiscard]] const OfLink* link(LinkId id) const {
-        const auto at = std::ranges::lower_bound(links, id, {}, &OfLink::id);
-        return at != links.end() && at->id == id ? &*at : nullptr;
-    }
-    [[nodiscard]] std::string_view endpoint_label(link::EndpointId id) const {
-        const auto at = std::ranges::find(endpoints, id, &OfEndpoint::id);
-        return at != endpoints.end() ? std::string_view(at->label) : std::string_view{};
-    }
 };
 
 Snapshot snapshot_of_links(Router& router) {
-    Snapshot s{.dialect = &router.dialect()};
-    for (const auto& info : router.links().endpoints())
-        s.endpoints.push_back({info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes,
-                               counts_of(*info.counters), gone_of(*info.counters)});
-    for (auto& link : router.links().links())
-        s.links.push_back({link.id,
-                           link.endpoint,
-                           std::move(link.name),
-                           link.up,
-                           counts_of(*link.counters, router.engine().counters(link.id)),
-                           {}});
+    Snapshot s{link::snapshot_of(router.links())};
+    s.dialect = &router.dialect();
+    for (auto& link : s.links)
+        if (const auto* routed = router.engine().counters(link.id)) append(link.counts, *routed);
     return s;
 }
 
@@ -151,10 +93,6 @@ Snapshot snapshot_of_all(Router& router) {
     s.time = wall_now();
     s.uptime = mono_now() - router.started();
     s.counts = counts_of(router);
-    for (auto& link : s.links) {
-        const auto sources = router.links().sources(link.id);
-        link.sources.assign(sources.begin(), sources.end());
-    }
     s.messages = router.traffic().rows();
     for (const auto* recorder : router.recorders())
         s.recordings.push_back({recorder->label(), counts_of(recorder->counters())});
@@ -295,76 +233,36 @@ Later<Lines> report_stats(Router& router) {
 
 namespace {
 
-// Groups samples by metric. The format requires all samples of one name to follow its TYPE line.
-class Metrics {
-public:
-    void add(std::string_view prefix, const std::vector<NamedCount>& counts, std::string_view labels) {
-        for (const auto& count : counts)
-            sample(fmt::format("mavloom_{}_{}_total", prefix, count.name), labels, count.value);
-    }
-    void sample(const std::string& name, std::string_view labels, std::uint64_t value) {
-        auto at = std::ranges::find(families_, name, &std::pair<std::string, std::string>::first);
-        if (at == families_.end())
-            at = families_.insert(at, {name, fmt::format("# TYPE {} {}\n", name, type_of(name))});
-        fmt::format_to(std::back_inserter(at->second), "{}{{{}}} {}\n", name, labels, value);
-    }
-    [[nodiscard]] std::string text() const {
-        std::string all;
-        for (const auto& [name, lines] : families_) all += lines;
-        return all;
-    }
-
-private:
-    // Loss is corrected when a frame arrives late or a source turns out to have restarted. These values can therefore
-    // decrease, which a Prometheus counter must not, so they are gauges.
-    static std::string_view type_of(std::string_view name) {
-        static constexpr std::array<std::string_view, 4> judged_again{"_lost_total", "_late_total", "_repeated_total",
-                                                                      "_resync_total"};
-        const auto ends = [&](std::string_view end) { return name.ends_with(end); };
-        return std::ranges::any_of(judged_again, ends) ? "gauge" : "counter";
-    }
-
-    std::vector<std::pair<std::string, std::string>> families_;
-};
-
-// Formats a label, with backslash, quote and newline escaped in the value.
-std::string label(std::string_view name, std::string_view value) {
-    std::string escaped;
-    for (const char c : value) {
-        if (c == '\\' || c == '"') escaped += '\\';
-        if (c == '\n') escaped += "\\n";
-        else escaped += c;
-    }
-    return fmt::format("{}=\"{}\"", name, escaped);
-}
-
 std::string source_labels(std::string_view link, Source source) {
-    return fmt::format("{},sys=\"{}\",comp=\"{}\"", label("link", link), source.system.value, source.component.value);
+    return fmt::format("{},sys=\"{}\",comp=\"{}\"", MetricsText::label("link", link), source.system.value,
+                       source.component.value);
 }
 
 std::string metrics_text(const Snapshot& s) {
-    Metrics metrics;
+    MetricsText metrics;
     metrics.add("router", s.counts, "");
     for (const auto& endpoint : s.endpoints) {
-        metrics.add("endpoint", endpoint.counts, label("endpoint", endpoint.label));
-        metrics.add("gone", endpoint.gone, label("endpoint", endpoint.label));
+        metrics.add("endpoint", endpoint.counts, MetricsText::label("endpoint", endpoint.label));
+        metrics.add("gone", endpoint.gone, MetricsText::label("endpoint", endpoint.label));
     }
     for (const auto& link : s.links) {
-        metrics.add("link", link.counts, label("link", link.name));
+        metrics.add("link", link.counts, MetricsText::label("link", link.name));
         for (const auto& source : link.sources)
-            metrics.add("source", {{"frames", source.received}, {"lost", source.lost}, {"late", source.late}},
-                        source_labels(link.name, source.source));
+            metrics.add(
+                "source",
+                std::vector<NamedCount>{{"frames", source.received}, {"lost", source.lost}, {"late", source.late}},
+                source_labels(link.name, source.source));
     }
     for (const auto& row : observe::TrafficTable::sorted(s.messages)) {
         const auto* link = s.link(row.link);
         if (link == nullptr) continue;
         const auto* message = s.dialect->find(row.id);
         const auto name = message == nullptr ? fmt::format("{}", row.id.value) : std::string(message->name);
-        metrics.add("message", {{"frames", row.count}, {"bytes", row.bytes}},
-                    fmt::format("{},{}", source_labels(link->name, row.source), label("message", name)));
+        metrics.add("message", std::vector<NamedCount>{{"frames", row.count}, {"bytes", row.bytes}},
+                    fmt::format("{},{}", source_labels(link->name, row.source), MetricsText::label("message", name)));
     }
     for (const auto& recording : s.recordings)
-        metrics.add("recording", recording.counts, label("endpoint", recording.label));
+        metrics.add("recording", recording.counts, MetricsText::label("endpoint", recording.label));
     return metrics.text();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A queue of work for its owner, a thread that runs a loop. Other threads post the work. Private to module router.
+// A queue of work for its owner, a thread that runs a loop. Other threads post the work.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@
 #include <mutex>
 #include <utility>
 
-namespace mavloom::router {
+namespace mavloom::control {
 
 class PostBox {
 public:
@@ -48,4 +48,4 @@ private:
     std::deque<Work> work_;  // guarded by mutex_
 };
 
-}  // namespace mavloom::router
+}  // namespace mavloom::control

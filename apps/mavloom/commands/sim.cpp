@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "command.hpp"
+#include "counted.hpp"
+#include "mavloom/base/shown.hpp"
+#include "mavloom/control/control.hpp"
+#include "mavloom/control/service_manager.hpp"
+#include "mavloom/simserve/report.hpp"
+#include "mavloom/simserve/scenario.hpp"
+#include "mavloom/simserve/simulator.hpp"
+#include "output.hpp"
+#include "signals.hpp"
+
+namespace mavloom::app {
+
+namespace {
+
+using namespace std::chrono_literals;
+using simserve::Override;
+using simserve::Scenario;
+using simserve::Simulator;
+
+constexpr auto sim_send_limit = 500ms;  // to send what is still queued at the end
+constexpr std::string_view usual_destination = "udpout://127.0.0.1:14550";
+
+// An option that sets a key of the scenario.
+struct KeyOption {
+    const char* name;
+    std::string_view section, key;
+    const char* description;
+    const char* type;  // null: a flag
+};
+
+constexpr KeyOption key_options[] = {
+    {"--vehicle", "vehicle", "kind", "what flies or drives: quad (default), plane, rover", "KIND"},
+    {"--vehicles", "vehicle", "count", "this many vehicles, 5 m apart; their system ids count up", "N"},
+    {"--system", "vehicle", "system", "system id of the first vehicle (default: 1)", "N"},
+    {"--autopilot", "vehicle", "autopilot", "whose manners it has: px4 (default) or ardupilot", "NAME"},
+    {"--home", "vehicle", "home", "where it stands: degrees, degrees, metres above sea level, degrees from north",
+     "LAT,LON,ALT,HEADING"},
+    {"--wind", "vehicle", "wind", "metres a second, and the degrees from north that the wind comes from", "SPEED,DIR"},
+    {"--gimbal", "vehicle", "gimbal", "a gimbal is mounted", nullptr},
+    {"--traffic", "vehicle", "traffic", "this many other aircraft, reported by ADSB_VEHICLE", "N"},
+    {"--motion", "vehicle", "motion", "flight (default), or random: coherent random values instead of flight", "HOW"},
+    {"--profile", "sim", "profile",
+     "which messages it streams, and how often: lite, default, px4-normal, px4-onboard, ardupilot, original", "NAME"},
+    {"--seed", "sim", "seed", "start of the random numbers; the same seed gives the same flight (default: 1)", "N"},
+    {"--speed", "sim", "speed", "of the flight clock, 0.1 to 100 (default: 1)", "X"},
+    {"--for", "sim", "for", "end after this time: 10s, 2m", "TIME"},
+    {"--report", "sim", "report", "at the end, print how well each stream kept its rate", nullptr},
+    {"--ring", "sim", "ring", "write all that the vehicles send into the ring /dev/shm/mavloom.NAME, too", "NAME"},
+    {"--name", "sim", "name", "name for `mavloom ctl` and `stat` (default: the name of the ring, or sim)", "NAME"},
+    {"--metrics", "sim", "metrics", "serve Prometheus metrics at http://HOST:PORT/metrics", "HOST:PORT"},
+};
+
+struct SimOptions {
+    std::string file;
+    std::vector<std::string> to, listen;
+    std::vector<std::string> texts = std::vector<std::string>(std::size(key_options));
+    bool gimbal = false, report = false, json = false;
+
+    // The options as settings that take precedence over the scenario's.
+    [[nodiscard]] std::vector<Override> overrides() const {
+        std::vector<Override> all;
+        for (std::size_t i = 0; i < std::size(key_options); ++i) {
+            const KeyOption& option = key_options[i];
+            const bool is_flag = option.type == nullptr;
+            const bool is_set = is_flag ? (option.key == "gimbal" ? gimbal : report) : !texts[i].empty();
+            if (is_set) all.push_back({option.name, option.section, option.key, is_flag ? "true" : texts[i]});
+        }
+        return all;
+    }
+};
+
+SetupResult<void> add_endpoints(const std::vector<std::string>& texts, std::string_view option, bool listens,
+                                Scenario& scenario) {
+    for (const auto& text : texts) {
+        auto endpoint = endpoint::parse_endpoint(text);
+        if (!endpoint) return tl::unexpected(std::move(endpoint.error()).within(option));
+        const bool is_listening = endpoint->scheme == endpoint::Scheme::udpin ||
+                                  endpoint->scheme == endpoint::Scheme::tcpin;
+        if (listens != is_listening)
+            return setup_error(
+                SetupCode::usage,
+                fmt::format("{} is for {}; put {} {}", option, listens ? "udpin:// and tcpin://" : "destinations",
+                            endpoint->label(), listens ? "after --to" : "after --listen"));
+        if (auto good = Simulator::check(*endpoint); !good) return good;
+        scenario.endpoints.push_back({std::move(*endpoint)});
+    }
+    return {};
+}
+
+SetupResult<Scenario> make_scenario(const SimOptions& options) {
+    config::Document document{options.file.empty() ? "options" : options.file, {}};
+    if (!options.file.empty()) {
+        auto loaded = config::load_document(options.file);
+        if (!loaded) return tl::unexpected(of_input_file(std::move(loaded.error())));
+        document = std::move(*loaded);
+    }
+    const auto overrides = options.overrides();
+    const auto of_vehicle = std::ranges::find_if(overrides, [](const Override& o) {
+        return o.section == "vehicle" && (o.key == "count" || o.key == "system" || o.key == "home");
+    });
+    auto scenario = simserve::read_scenario(document, config::environment_of(environ), overrides);
+    if (!scenario) return scenario;
+    if (scenario->vehicles.size() > 1 && of_vehicle != overrides.end())
+        return setup_error(SetupCode::usage,
+                           fmt::format("{}: {} has several vehicles; write it there", of_vehicle->option, options.file));
+    if (auto good = simserve::check_scenario(*scenario, document); !good)
+        return tl::unexpected(std::move(good.error()));
+    if (auto added = add_endpoints(options.to, "--to", false, *scenario); !added)
+        return tl::unexpected(std::move(added.error()));
+    if (auto added = add_endpoints(options.listen, "--listen", true, *scenario); !added)
+        return tl::unexpected(std::move(added.error()));
+    if (scenario->endpoints.empty() && scenario->ring.name.empty())
+        scenario->endpoints.push_back({*endpoint::parse_endpoint(usual_destination)});
+    return scenario;
+}
+
+// Opens the ring with its inlet, or a counter page of the simulator's name.
+SetupResult<void> open_shared(const Common& common, const Scenario& scenario, Simulator& simulator) {
+    if (scenario.ring.name.empty()) {
+        // Another simulator may have the page. `stat` then asks for the counters of that one.
+        const auto opened = simulator.open_page(scenario.control_name());
+        if (!opened) say(common, opened.error().text);
+        return {};
+    }
+    if (auto opened = simulator.open_ring(scenario.ring); !opened) return opened;
+    const auto path = link::Links::inlet_path(scenario.ring.name);
+    if (path) return simulator.open_inlet(scenario.ring, *path);
+    say(common, fmt::format("{}; programs cannot send through ring {}", path.error().text, scenario.ring.name));
+    return {};
+}
+
+// Without --name, the simulator starts even if another one already has the default name; `ctl` then reaches that one.
+SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const Scenario& scenario,
+                                                            Simulator& simulator) {
+    control::ControlOptions options;
+    options.metrics = scenario.metrics;
+    auto path = control::control_path(scenario.control_name());
+    if (path) options.socket = *path;
+    else if (!scenario.name.empty()) return tl::unexpected(std::move(path.error()));
+    else say(common, path.error().text);
+    auto opened = control::Control::create(simulator, options);
+    if (opened || !scenario.name.empty() || opened.error().code != SetupCode::in_use) return opened;
+    options.socket.clear();
+    auto without = control::Control::create(simulator, options);  // fails again if the port of metrics was in use
+    if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
+    return without;
+}
+
+void say_what_flies(const Common& common, const Scenario& scenario, Simulator& simulator) {
+    for (const auto& group : scenario.vehicles) {
+        const auto& o = group.options;
+        const unsigned first = o.system.value, last = first + static_cast<unsigned>(group.count) - 1;
+        say(common, fmt::format("vehicle{} {}: {}, {}", first == last ? "" : "s",
+                                first == last ? fmt::format("{}", first) : fmt::format("{} to {}", first, last),
+                                sim::kind_names[static_cast<std::size_t>(o.kind)],
+                                sim::autopilot_names[static_cast<std::size_t>(o.autopilot)]));
+    }
+    for (const auto& info : simulator.links().endpoints())
+        if (info.endpoint.address.port == 0 && info.local_port != 0)
+            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+}
+
+Exit print_report(const SimOptions& options, const Scenario& scenario, const Simulator& simulator, Exit otherwise) {
+    if (!scenario.has_report) return otherwise;
+    const auto reports = simulator.reports();
+    std::string text;
+    if (options.json)
+        for (const auto& line : simserve::lines_of(reports, scenario.speed)) text += line + "\n";
+    else text = simserve::text_of(reports, scenario.speed);
+    return print_at_end(text, otherwise);
+}
+
+void fly(const Scenario& scenario, Simulator& simulator) {
+    auto manager = control::ServiceManager::from_environment();
+    const MonoTime end = scenario.duration ? mono_now() + *scenario.duration : MonoTime::max();
+    manager.ready();
+    while (!Signals::received() && mono_now() < end) {
+        simulator.turn(std::min(end, manager.watchdog_due()));
+        manager.feed(mono_now());
+    }
+    manager.stopping();
+}
+
+SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,
+                                                       const dialect::Dialect& dialect) {
+    const auto notice = [&common](config::LogLevel level, std::string_view text) {
+        if (level >= config::LogLevel::info || common.verbose > 0) say(common, text);
+    };
+    auto simulator = Simulator::create(dialect,
+                                       {.speed = scenario.speed,
+                                        .profile = scenario.profile,
+                                        .rates = scenario.rates,
+                                        .keeps_reports = scenario.has_report},
+                                       notice);
+    if (!simulator) return simulator;
+    if (auto opened = open_shared(common, scenario, **simulator); !opened)
+        return tl::unexpected(std::move(opened.error()));
+    for (const auto& vehicle : scenario.each_vehicle())
+        if (auto added = (*simulator)->add(vehicle.options, vehicle.parameters); !added)
+            return tl::unexpected(std::move(added.error()));
+    for (const auto& endpoint : scenario.endpoints)
+        if (auto added = (*simulator)->add(endpoint); !added) return tl::unexpected(std::move(added.error()));
+    return simulator;
+}
+
+Exit simulate(const Common& common, const SimOptions& options) {
+    const auto dialect = load_dialect(common);
+    if (!dialect) return fail(dialect.error());
+    const auto scenario = make_scenario(options);
+    if (!scenario) return fail(scenario.error());
+    for (const auto& note : scenario->notes) say(common, note);
+    const auto simulator = make_simulator(common, *scenario, *dialect);
+    if (!simulator) return fail(simulator.error());
+    const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
+    const auto control = open_control(common, *scenario, **simulator);
+    if (!control) return fail(control.error());
+    if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
+        say(common, fmt::format("metrics at port {}", port));
+    say_what_flies(common, *scenario, **simulator);
+    fly(*scenario, **simulator);
+    (*simulator)->finish(sim_send_limit);
+    return Signals::status(print_report(options, *scenario, **simulator, Exit::done));
+}
+
+}  // namespace
+
+Run declare_sim(Arguments command, const Common& common) {
+    auto options = std::make_shared<SimOptions>();
+    command
+        .add_option("scenario", options->file,
+                    "vehicles and endpoints, from a file (docs/guide/sim.md); `mavloom check` validates it")
+        .type_name("SCENARIO.toml");
+    command
+        .add_option("--to", options->to,
+                    "send to udpout://, tcpout://, serial://, udpbcast://, udpmcast://, or shm://NAME, the inlet of a "
+                    "router's ring; may be repeated (default: udpout://127.0.0.1:14550)")
+        .type_name("ENDPOINT")
+        .one_value_each();
+    command.add_option("--listen", options->listen, "wait for clients at udpin:// or tcpin://; may be repeated")
+        .type_name("ENDPOINT")
+        .one_value_each();
+    for (std::size_t i = 0; i < std::size(key_options); ++i) {
+        const KeyOption& option = key_options[i];
+        if (option.type != nullptr)
+            command.add_option(option.name, options->texts[i], option.description).type_name(option.type);
+        else
+            command.add_flag(option.name, option.key == "gimbal" ? options->gimbal : options->report,
+                             option.description);
+    }
+    command.add_flag("--json", options->json, "with --report: print one JSON object per line");
+    command.footer(
+        "Simulates vehicles that ground stations and SDKs take for real. Without options, one PX4 quadrotor sends to "
+        "port 14550\nof this machine, where a ground station finds it. It answers whoever sends to it.\n\n"
+        "Examples:\n"
+        "  mavloom sim\n"
+        "  mavloom sim --vehicle plane --autopilot ardupilot --listen tcpin://127.0.0.1:5760\n"
+        "  mavloom sim --vehicles 5 --home 47.3977,8.5456,489,90 --to udpout://192.168.1.20:14550\n"
+        "  mavloom sim scenario.toml --for 60s --report\n"
+        "  mavloom ctl sim takeoff 10");
+    return [options, &common] { return simulate(common, *options); };
+}
+
+}  // namespace mavloom::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// A copy of the counters of all links and endpoints, for reports. Plain values; making a copy allocates.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/wire/sequence.hpp"
+
+namespace mavloom::link {
+
+struct NamedCount {
+    std::string_view name;
+    std::uint64_t value;
+};
+
+[[nodiscard]] std::vector<NamedCount> counts_of(const LinkCounters& counters);
+[[nodiscard]] std::vector<NamedCount> counts_of(const EndpointCounters& counters);
+
+struct Snapshot {
+    struct OfEndpoint {
+        EndpointId id;
+        std::string label;
+        endpoint::Scheme scheme;
+        std::uint64_t rcvbuf_bytes;
+        std::vector<NamedCount> counts;
+        std::vector<NamedCount> gone;  // sums over its links that no longer exist
+    };
+    struct OfLink {
+        LinkId id;
+        EndpointId endpoint;
+        std::string name;
+        bool up;
+        std::vector<NamedCount> counts;
+        std::vector<wire::SequenceStats> sources;
+    };
+
+    std::vector<OfEndpoint> endpoints{};  // sorted by id, as `links` are
+    std::vector<OfLink> links{};
+
+    // Null if the link is gone.
+    [[nodiscard]] const OfLink* link(LinkId id) const;
+    // Empty if the endpoint is gone.
+    [[nodiscard]] std::string_view endpoint_label(EndpointId id) const;
+};
+
+[[nodiscard]] Snapshot snapshot_of(const Links& links);
+
+}  // namespace mavloom::link

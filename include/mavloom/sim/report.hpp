@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// How well each stream of a link kept its rate. Plain values, copied from a vehicle on its owner's thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/base/ids.hpp"
+
+namespace mavloom::sim {
+
+// Histogram of how late messages left, in buckets of powers of two of 10 us: under 10 us, 20 us, 40 us ... 5 s, more.
+struct Lateness {
+    static constexpr std::size_t buckets = 21;
+    std::array<std::uint32_t, buckets> counts{};
+
+    void add(Nanoseconds late) noexcept;
+    // The upper bound of the bucket in which the quantile lies; 0 if nothing was counted. `quantile` is 0 to 1.
+    [[nodiscard]] Nanoseconds at(double quantile) const noexcept;
+};
+
+struct StreamReport {
+    SystemId system;
+    LinkId link;
+    MessageId message;
+    std::string_view name;  // of the message
+    double asked_hz = 0;
+    // (messages - 1) / (last - first), by the moments of sending. Instants that were skipped do not count as time.
+    double achieved_hz = 0;
+    std::uint64_t sent = 0;
+    std::uint64_t skipped = 0;  // instants missed because the machine stalled; they are not sent later
+    Lateness lateness;
+};
+
+}  // namespace mavloom::sim

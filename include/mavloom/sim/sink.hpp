@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Where a vehicle's frames go. The vehicle opens nothing; its owner implements this interface on sockets, a counter or
+// a list.
+#pragma once
+
+#include <cstddef>
+
+#include "mavloom/base/ids.hpp"
+#include "mavloom/wire/frame.hpp"
+
+namespace mavloom::sim {
+
+class Sink {
+public:
+    Sink() = default;
+    Sink(const Sink&) = delete;
+    Sink& operator=(const Sink&) = delete;
+    virtual ~Sink() = default;
+
+    // Takes a whole frame for one link. Frames of a link leave in the order of these calls. The view is valid only
+    // during the call.
+    virtual void send(LinkId link, const wire::FrameView& frame) = 0;
+    // Bytes that wait for the link. Bulk transfers (parameters, files, logs) pause while it is large.
+    [[nodiscard]] virtual std::size_t queued_bytes(LinkId link) const = 0;
+};
+
+}  // namespace mavloom::sim

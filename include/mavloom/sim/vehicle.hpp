@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// One simulated vehicle: its motion, its telemetry, and the MAVLink services with which it answers clients.
+//
+// A vehicle is one object without threads, clocks or sockets. Its owner passes the time, received frames and a sink for
+// the frames that the vehicle sends. The same options, links, frames and moments give the same bytes. Single owner
+// thread. docs/design/simulator.md describes the parts; docs/guide/sim.md what clients see.
+//
+// Memory: under 64 KiB with its services, plus what clients store (bounded by Limits). Sending and stepping allocate
+// nothing; an upload, a file or a new link does.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavloom/base/ids.hpp"
+#include "mavloom/base/result.hpp"
+#include "mavloom/sim/moment.hpp"
+#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/report.hpp"
+#include "mavloom/sim/sink.hpp"
+#include "mavloom/sim/status.hpp"
+#include "mavloom/wire/frame.hpp"
+#include "mavloom/wire/message_table.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+// The rate of one message. It replaces the profile's; HEARTBEAT keeps its own.
+struct MessageRate {
+    MessageId message;
+    double hz = 0;  // 0: off
+};
+// No stream runs faster than the vehicle steps.
+inline constexpr double fastest_stream_hz = 250;
+
+struct LinkOptions {
+    Profile profile = Profile::normal;
+    std::vector<MessageRate> rates{};  // in the place of the profile's
+    // Bytes a second for telemetry. If the streams need more, all but HEARTBEAT slow down by one factor. 0: no limit.
+    std::uint32_t max_bytes_s = 0;
+};
+
+// A message that vehicles can stream.
+struct StreamInfo {
+    MessageId message;
+    std::string_view name;
+};
+[[nodiscard]] std::vector<StreamInfo> stream_infos();
+
+class Vehicle {
+public:
+    // The vehicle boots at `now`. `sink` must outlive it.
+    Vehicle(const VehicleOptions& options, Sink& sink, Moment now);
+    ~Vehicle();
+    Vehicle(const Vehicle&) = delete;
+    Vehicle& operator=(const Vehicle&) = delete;
+
+    // The vehicle streams on this link from now on. Each link has its own rates and sequence numbers.
+    void open(LinkId link, const LinkOptions& options, Moment now);
+    // Forgets the link, with the transfers of its clients.
+    void close(LinkId link);
+
+    // Handles a frame that arrived on an open link. Frames for other systems are ignored. `info` is null for an unknown
+    // id. Replies leave through the sink during the call, bulk data later.
+    void receive(LinkId link, const wire::FrameView& frame, const wire::MessageInfo* info, Moment now);
+
+    // Flight time at which `advance` has something to do.
+    [[nodiscard]] FlightTime next_due() const noexcept;
+    // Moves the vehicle up to `now` and sends everything that is due. Call it at `next_due()`; if a call comes late,
+    // the vehicle skips the instants that it missed and counts them.
+    void advance(Moment now);
+
+    // Orders of an operator at the simulator's console. They follow the same rules as commands by MAVLink; a refusal is
+    // the error `usage` with the vehicle's own text. `advance` the vehicle to now first.
+    [[nodiscard]] SetupResult<void> arm(bool force);
+    [[nodiscard]] SetupResult<void> disarm(bool force);
+    // `altitude_m` above home.
+    [[nodiscard]] SetupResult<void> take_off(double altitude_m);
+    // A mode's name, as the vehicle lists it; case does not matter.
+    [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
+    [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
+
+    // A client may change the system id by a parameter. The new one holds after a reboot.
+    [[nodiscard]] SystemId system() const noexcept;
+    [[nodiscard]] VehicleStatus status() const;
+    [[nodiscard]] std::vector<std::string_view> mode_names() const;
+    [[nodiscard]] std::vector<std::string_view> parameter_names() const;
+    // Empty if there is none of this name.
+    [[nodiscard]] std::optional<double> parameter(std::string_view name) const;
+    // One row for each stream of each open link.
+    [[nodiscard]] std::vector<StreamReport> stream_reports() const;
+
+private:
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace mavloom::sim

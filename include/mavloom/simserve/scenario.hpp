@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// A scenario: which vehicles a simulator has, where they are, and where they send. It comes from a TOML file, from the
+// environment and from options, in this order of precedence: default, file, environment, option.
+//
+// The keys are in docs/guide/sim.md. An unknown section, key or value is an error with its place and the nearest known
+// spelling. Plain values; reading allocates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mavloom/config/config.hpp"
+#include "mavloom/config/document.hpp"
+#include "mavloom/sim/vehicle.hpp"
+#include "mavloom/simserve/simulator.hpp"
+
+namespace mavloom::simserve {
+
+struct ScenarioVehicle {
+    sim::VehicleOptions options;  // of the first one
+    std::size_t count = 1;        // system ids count up; they stand on a grid
+    std::vector<std::pair<std::string, double>> parameters{};
+    bool has_own_place = false;  // false: it shares the grid around the default home with others
+};
+
+struct Scenario {
+    std::string name;  // empty: that of the ring, else "sim"
+    std::uint64_t seed = 1;
+    double speed = 1;
+    std::optional<sim::Profile> profile{};
+    std::vector<sim::MessageRate> rates{};
+    std::optional<Nanoseconds> duration{};  // empty: until a signal
+    bool has_report = false;
+    config::RingConfig ring{};  // without a name: no ring
+    std::optional<endpoint::HostPort> metrics{};
+    std::vector<ScenarioVehicle> vehicles{};
+    std::vector<SimEndpoint> endpoints{};
+
+    std::vector<config::Section> sections{};  // all of the above as text, for `mavloom check`
+    std::vector<std::string> notes{};         // oddities that are not errors
+
+    // The options of every vehicle, with its place and seed.
+    [[nodiscard]] std::vector<ScenarioVehicle> each_vehicle() const;
+    [[nodiscard]] std::string control_name() const;
+};
+
+// A value that an option of the command line gives to a key.
+struct Override {
+    std::string_view option;  // for errors: "--home"
+    std::string_view section, key;
+    std::string value;
+};
+
+// True if the file is a scenario and not a router's configuration: it has [sim], [streams] or [[vehicle]].
+[[nodiscard]] bool is_scenario(const config::Document& document) noexcept;
+
+// Without [[vehicle]] there is one vehicle of default kind. An override of a key of [[vehicle]] applies to all of them.
+// Errors are `bad_input` for a file or variable, `usage` for an override.
+[[nodiscard]] SetupResult<Scenario> read_scenario(const config::Document& document,
+                                                  const config::Environment& environment,
+                                                  std::span<const Override> overrides);
+
+// Makes every check of a scenario that needs no socket: endpoints, ports, key files, parameters. Errors are as above.
+[[nodiscard]] SetupResult<void> check_scenario(const Scenario& scenario, const config::Document& document);
+
+}  // namespace mavloom::simserve

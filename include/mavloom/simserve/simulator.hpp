@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The simulator puts simulated vehicles on links. Its one loop advances the vehicles when they are due, sends what they
+// send, and passes each frame that arrives to the vehicle that it targets. See docs/guide/sim.md.
+//
+// Every vehicle is on every link. Each peer of an endpoint is a link of its own, with its own stream rates and sequence
+// numbers. One thread owns and drives a simulator; any thread may call `wake` and `post`. Sending and advancing do not
+// allocate, lock or log.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mavloom/config/config.hpp"
+#include "mavloom/control/served.hpp"
+#include "mavloom/link/links.hpp"
+#include "mavloom/sim/vehicle.hpp"
+
+namespace mavloom::control {
+class PostBox;
+}
+
+namespace mavloom::simserve {
+
+class Connections;
+class Fleet;
+class FlightClock;
+class LinkSink;
+class SharedMemory;
+
+struct SimEndpoint {
+    // The option `max_bytes` limits the telemetry of each of its links, all vehicles together. A serial endpoint
+    // without it gets half of what its baud rate carries, so that parameters get through.
+    endpoint::Endpoint endpoint;
+    std::optional<sim::Profile> profile{};  // empty: the simulator's
+    std::vector<sim::MessageRate> rates{};  // before the simulator's
+};
+
+struct SimulatorOptions {
+    double speed = 1;                       // of the flight clock; protocol time-outs run in real time
+    std::optional<sim::Profile> profile{};  // empty: each vehicle has the usual one of its autopilot
+    std::vector<sim::MessageRate> rates{};  // in the place of the profile's
+    bool keeps_reports = false;             // keeps the reports of links that are gone
+};
+
+// How well the streams of one link kept their rates.
+struct LinkReport {
+    std::string link;                     // its name
+    std::uint64_t frames = 0, bytes = 0;  // that left
+    // Frames that the vehicles numbered but that did not leave, because the link's queue was full or the kernel
+    // rejected them. The peer sees a gap in the sequence numbers for each.
+    std::uint64_t gaps = 0;
+    std::vector<sim::StreamReport> streams{};
+};
+
+// Sums over all links and vehicles.
+struct SimulatorTotals {
+    std::uint64_t frames_sent = 0, bytes_sent = 0;
+    std::uint64_t gaps = 0;  // as in LinkReport
+    std::uint64_t frames_received = 0;
+};
+
+class Simulator : public control::Served {
+public:
+    // Log lines for people: links that come and go, and anything unusual. Called on the simulator's thread.
+    using Notice = std::function<void(config::LogLevel, std::string_view)>;
+
+    // `dialect` must outlive the simulator.
+    [[nodiscard]] static SetupResult<std::unique_ptr<Simulator>> create(const dialect::Dialect& dialect,
+                                                                        const SimulatorOptions& options, Notice notice);
+    Simulator(const Simulator&) = delete;
+    Simulator& operator=(const Simulator&) = delete;
+    ~Simulator() override;
+
+    // The calls that set the simulator up come before the first turn, in this order.
+
+    // Opens a ring of the simulator's own, which programs read as shm://NAME. It is a link: all that the vehicles send
+    // on it is in the ring. The counter page of the ring has the simulator's counters.
+    [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
+    // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
+    [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
+    // Opens a counter page of this name. Only without a ring.
+    [[nodiscard]] SetupResult<void> open_page(const std::string& name);
+    using Parameters = std::span<const std::pair<std::string, double>>;
+    // Adds a vehicle, with values for some of its parameters. Its flight begins with the first turn.
+    [[nodiscard]] SetupResult<void> add(const sim::VehicleOptions& options, Parameters parameters = {});
+
+    // Opens an endpoint; also later. For shm://NAME, the vehicles send to the inlet of the router that writes the ring
+    // NAME, and hear what this router writes into the ring.
+    [[nodiscard]] SetupResult<void> add(const SimEndpoint& endpoint);
+    // Refuses an endpoint that a simulator cannot have. Opens nothing.
+    [[nodiscard]] static SetupResult<void> check(const endpoint::Endpoint& endpoint);
+    // Removes an endpoint by its label. If `label` is the name of a link, closes only that link. Returns false if
+    // nothing has that name.
+    bool remove(std::string_view label);
+
+    // Runs one turn: waits until a vehicle is due, something arrives, or `deadline`, and handles all of it.
+    void turn(MonoTime deadline);
+    // Sends what is queued, for at most `limit`, and removes the ring. Reports stay available.
+    void finish(Nanoseconds limit);
+
+    // Async-signal-safe.
+    void wake() noexcept { links_->wake(); }
+    // control::Served.
+    void post(std::function<void()> work) override;
+    void drop_posted() override;
+    [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
+    [[nodiscard]] control::Later<std::string> metrics() override;
+
+    // For reports and requests; on the simulator's thread only.
+    [[nodiscard]] link::Links& links() noexcept { return *links_; }
+    [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
+    [[nodiscard]] std::vector<sim::Vehicle*> vehicles() const;
+    // Advances the vehicle to now, and gives it an order: calls `order` and returns its result.
+    using Order = std::function<SetupResult<void>(sim::Vehicle&)>;
+    [[nodiscard]] SetupResult<void> give(sim::Vehicle& vehicle, const Order& order);
+    // All links, and with `keeps_reports` those that are gone.
+    [[nodiscard]] std::vector<LinkReport> reports() const;
+    [[nodiscard]] SimulatorTotals totals() const;
+    [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }
+    [[nodiscard]] Nanoseconds uptime() const { return mono_now() - created_; }
+    // Logs a line through the simulator's Notice.
+    void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
+
+private:
+    Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
+              std::unique_ptr<link::Links> links);
+
+    void look_after(MonoTime now);
+    void refresh_page(MonoTime now);
+
+    const dialect::Dialect& dialect_;
+    SimulatorOptions options_;
+    Notice notice_;
+    std::unique_ptr<link::Links> links_;
+    std::unique_ptr<control::PostBox> posted_;
+    std::unique_ptr<FlightClock> clock_;
+    std::unique_ptr<SharedMemory> shared_;
+    std::unique_ptr<LinkSink> sink_;
+    std::unique_ptr<Fleet> fleet_;
+    std::unique_ptr<Connections> connections_;
+    MonoTime created_ = mono_now();
+    MonoTime look_due_{}, page_due_{};
+};
+
+}  // namespace mavloom::simserve

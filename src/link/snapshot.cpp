@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/link/snapshot.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mavloom::link {
+
+namespace {
+
+template <class Counters>
+std::vector<NamedCount> counts_in(const Counters& counters, const auto& table) {
+    std::vector<NamedCount> all(table.size());
+    std::ranges::transform(table, all.begin(), [&](const auto& counter) {
+        return NamedCount{counter.name, (counters.*counter.word).value()};
+    });
+    return all;
+}
+
+std::vector<NamedCount> gone_of(const EndpointCounters& counters) {
+    auto all = counts_of(counters.gone);
+    all.push_back({"queued", counters.gone_queued.value()});
+    return all;
+}
+
+}  // namespace
+
+std::vector<NamedCount> counts_of(const LinkCounters& counters) { return counts_in(counters, link_counters); }
+
+std::vector<NamedCount> counts_of(const EndpointCounters& counters) { return counts_in(counters, endpoint_counters); }
+
+const Snapshot::OfLink* Snapshot::link(LinkId id) const {
+    const auto at = std::ranges::lower_bound(links, id, {}, &OfLink::id);
+    return at != links.end() && at->id == id ? &*at : nullptr;
+}
+
+std::string_view Snapshot::endpoint_label(EndpointId id) const {
+    const auto at = std::ranges::find(endpoints, id, &OfEndpoint::id);
+    return at != endpoints.end() ? std::string_view(at->label) : std::string_view{};
+}
+
+Snapshot snapshot_of(const Links& links) {
+    Snapshot snapshot;
+    for (const auto& info : links.endpoints())
+        snapshot.endpoints.push_back({info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes,
+                                      counts_of(*info.counters), gone_of(*info.counters)});
+    for (auto& link : links.links()) {
+        const auto sources = links.sources(link.id);
+        snapshot.links.push_back({link.id,
+                                  link.endpoint,
+                                  std::move(link.name),
+                                  link.up,
+                                  counts_of(*link.counters),
+                                  {sources.begin(), sources.end()}});
+    }
+    return snapshot;
+}
+
+}  // namespace mavloom::link

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Commands for the ground: reboot, storage, checks, calibration, failures, automatic tuning.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mavloom/msg/enums/failure_type.hpp"
+#include "mavloom/msg/enums/failure_unit.hpp"
+#include "mavloom/msg/enums/mav_cmd.hpp"
+#include "mavloom/msg/sys_status.hpp"
+#include "sim/command/commands.hpp"
+#include "sim/parts.hpp"
+#include "sim/service/calibration.hpp"
+#include "sim/service/events.hpp"
+#include "sim/store/parameter_service.hpp"
+
+namespace mavloom::sim {
+
+namespace {
+
+using namespace msg;
+
+// 1 boots again, 2 shuts down. The magic number forces it in the air.
+Outcome reboot_or_shut_down(Parts& parts, const Command& command, Moment /*now*/) {
+    constexpr float force = 20190226;
+    const float action = command.param(1);
+    if (action == 0) return Result::accepted;
+    if (parts.flight.armed() && command.param(6) != force) return Result::denied;
+    if (action != 1 && action != 2) return Result::denied;
+    parts.reboot(action == 1);
+    return Result::accepted;
+}
+
+// 0 loads, 1 saves, 2 and 4 reset everything, 3 resets the calibration. Values are kept as long as the simulator runs.
+Outcome use_storage(Parts& parts, const Command& command, Moment /*now*/) {
+    if (parts.flight.armed()) return Result::temporarily_rejected;
+    const float action = command.param(1);
+    if (action == 2 || action == 4) parts.parameter_service->reset();
+    if (action == 3) parts.parameter_service->reset(parts.firmware.is_px4() ? "CAL_" : "INS_");
+    const bool is_known = action == 0 || action == 1 || action == 2 || action == 3 || action == 4;
+    return is_known ? Result::accepted : Result::denied;
+}
+
+Outcome run_checks(Parts& parts, const Command& /*command*/, Moment /*now*/) {
+    parts.event_service->report_health();
+    parts.streams.send_now(parts.view(), std::array{SysStatus::id});
+    return Result::accepted;
+}
+
+Outcome calibrate(Parts& parts, const Command& command, Moment now) {
+    return parts.calibration_service->begin(command, now);
+}
+
+Outcome confirm_position(Parts& parts, const Command& command, Moment now) {
+    return parts.calibration_service->confirm(command.from, now) ? Result::accepted : Result::denied;
+}
+
+// --- Failures
+
+// The switches of one sensor; null: the vehicle cannot simulate that failure.
+struct FailureSwitch {
+    bool SensorFailures::*off = nullptr;
+    bool SensorFailures::*stuck = nullptr;
+};
+
+FailureSwitch switch_of(std::uint32_t unit) noexcept {
+    switch (unit) {
+        case FAILURE_UNIT_SENSOR_GYRO: return {.off = &SensorFailures::gyroscope_off};
+        case FAILURE_UNIT_SENSOR_ACCEL: return {.off = &SensorFailures::accelerometer_off};
+        case FAILURE_UNIT_SENSOR_MAG: return {.off = &SensorFailures::magnetometer_off};
+        case FAILURE_UNIT_SENSOR_BARO: return {.off = &SensorFailures::barometer_off};
+        case FAILURE_UNIT_SENSOR_GPS: return {.off = &SensorFailures::gps_off, .stuck = &SensorFailures::gps_stuck};
+        default: return {};
+    }
+}
+
+// A battery that is "off" is nearly empty.
+Outcome fail_battery(Parts& parts, std::uint32_t type) {
+    constexpr double nearly_empty = 0.04;
+    if (type != FAILURE_TYPE_OK && type != FAILURE_TYPE_OFF) return Result::unsupported;
+    return parts.flight.set_battery(type == FAILURE_TYPE_OK ? 1 : nearly_empty);
+}
+
+Outcome inject_failure(Parts& parts, const Command& command, Moment /*now*/) {
+    const auto unit = command.whole(1), type = command.whole(2);
+    if (!parts.flight.tuning().may_inject_failures || !unit || !type) return Result::denied;
+    if (*unit == FAILURE_UNIT_SYSTEM_BATTERY) return fail_battery(parts, *type);
+    const FailureSwitch sensor = switch_of(*unit);
+    const bool is_off = *type == FAILURE_TYPE_OFF, is_stuck = *type == FAILURE_TYPE_STUCK;
+    const bool is_known = is_off || *type == FAILURE_TYPE_OK || (is_stuck && sensor.stuck != nullptr);
+    if (sensor.off == nullptr || !is_known) return Result::unsupported;
+    SensorFailures failures = parts.flight.sensors().failures();
+    failures.*sensor.off = is_off;
+    if (sensor.stuck != nullptr) failures.*sensor.stuck = is_stuck;
+    return parts.flight.inject_failures(failures);
+}
+
+// --- Automatic tuning
+
+bool can_tune(const Parts& parts) { return parts.flight.armed() && parts.flight.landed() == LandedState::in_air; }
+
+// Only a pretence: the vehicle's controllers need no tuning.
+Outcome tune(Parts& parts, const Command& command, Moment now) {
+    constexpr Nanoseconds length = std::chrono::seconds{10};
+    if (command.param(1) != 1) return Result::denied;
+    if (!can_tune(parts)) return Result::temporarily_rejected;
+    return parts.commands.begin(command, length, can_tune, now);
+}
+
+Outcome send_banner(Parts& parts, const Command& /*command*/, Moment now) {
+    parts.announcer.say(Severity::info, parts.firmware.texts().banner, now.flight);
+    return Result::accepted;
+}
+
+constexpr std::array maintenance_rows{
+    CommandRow{MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, reboot_or_shut_down},
+    CommandRow{MAV_CMD_PREFLIGHT_STORAGE, use_storage},
+    CommandRow{MAV_CMD_RUN_PREARM_CHECKS, run_checks},
+    CommandRow{MAV_CMD_PREFLIGHT_CALIBRATION, calibrate},
+    CommandRow{MAV_CMD_ACCELCAL_VEHICLE_POS, confirm_position, KnownBy::ardupilot},
+    CommandRow{MAV_CMD_INJECT_FAILURE, inject_failure, KnownBy::px4},
+    CommandRow{MAV_CMD_DO_AUTOTUNE_ENABLE, tune, KnownBy::px4},
+    CommandRow{MAV_CMD_DO_SEND_BANNER, send_banner, KnownBy::ardupilot},
+};
+
+}  // namespace
+
+std::span<const CommandRow> maintenance_commands() noexcept { return maintenance_rows; }
+
+}  // namespace mavloom::sim

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "sim/parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mavloom/msg/current_mode.hpp"
+#include "mavloom/msg/extended_sys_state.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/home_position.hpp"
+#include "mavloom/msg/mission_current.hpp"
+#include "sim/payload/gimbal.hpp"
+#include "sim/service/calibration.hpp"
+#include "sim/service/connection.hpp"
+#include "sim/service/events.hpp"
+#include "sim/service/guard.hpp"
+#include "sim/service/other_services.hpp"
+#include "sim/store/file_service.hpp"
+#include "sim/store/log_service.hpp"
+#include "sim/store/parameter_service.hpp"
+#include "sim/store/plan_service.hpp"
+#include "sim/telemetry/data_streams.hpp"
+
+namespace mavloom::sim {
+
+Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
+    : options(given),
+      firmware(Firmware::of(given.autopilot, given.kind)),
+      booted(moment.flight),
+      stepped(moment.flight),
+      now(moment),
+      parameters(firmware.parameters()),
+      flight(options, firmware, parameters, *this),
+      radio(options.system, sink),
+      streams(options, firmware, parameters, radio),
+      announcer(radio),
+      commands(*this),
+      gimbal(options.has_gimbal ? std::make_unique<Gimbal>(*this) : nullptr),
+      guard(std::make_unique<Guard>(*this)),
+      parameter_service(std::make_unique<ParameterService>(*this)),
+      plan_service(std::make_unique<PlanService>(*this)),
+      log_service(std::make_unique<LogService>(*this)),
+      file_service(std::make_unique<FileService>(*this)),
+      event_service(std::make_unique<EventService>(*this)),
+      calibration_service(std::make_unique<CalibrationService>(*this)),
+      other_services(make_other_services(*this)) {
+    parameters.put(firmware.system_parameter(), options.system.value);
+    other_services.push_back(std::make_unique<Connection>(*this));
+    other_services.push_back(std::make_unique<DataStreams>(*this));
+    if (gimbal) add(*gimbal);
+    add(commands);
+    add(*guard);
+    add(*parameter_service);
+    add(*plan_service);
+    add(*file_service);
+    add(*log_service);
+    add(*event_service);
+    add(*calibration_service);
+    for (const auto& service : other_services) add(*service);
+}
+
+Parts::~Parts() = default;
+
+void Parts::add(Service& service) {
+    services.push_back(&service);
+    for (const MessageId id : service.handled())
+        if (id.value < direct_ids) service_of_[id.value] = static_cast<std::uint8_t>(services.size());
+}
+
+Service* Parts::service_for(MessageId id) const noexcept {
+    const std::uint8_t index = id.value < direct_ids ? service_of_[id.value] : 0;
+    return index == 0 ? nullptr : services[index - 1u];
+}
+
+View Parts::view() const {
+    return {.options = options,
+            .firmware = firmware,
+            .parameters = parameters,
+            .flight = flight,
+            .gimbal = gimbal.get(),
+            .servos = &servos,
+            .since_boot = stepped - booted,
+            .utc = utc_at(stepped),
+            .has_utc = has_utc()};
+}
+
+void Parts::step_to(Moment moment) {
+    now = moment;
+    flight.set_real_time(moment.real);
+    radio.set_utc(utc_at(moment.flight));
+    if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
+    for (; stepped + step_time <= moment.flight; stepped += step_time) {
+        flight.step();
+        if (gimbal) gimbal->step();
+    }
+}
+
+void Parts::report_changes() {
+    using namespace msg;
+    if (std::exchange(state_changed_, false)) {
+        parameters.put("COM_FLIGHT_UUID", flight.flights());
+        streams.send_now(view(), std::array{Heartbeat::id, ExtendedSysState::id, CurrentMode::id});
+    }
+    if (std::exchange(home_changed_, false)) streams.send_now(view(), std::array{HomePosition::id});
+    if (std::exchange(mission_changed_, false)) streams.send_now(view(), std::array{MissionCurrent::id});
+    if (wanted_silence_.count() != 0) begin_silence();
+    schedule_pump();
+}
+
+void Parts::schedule_pump() noexcept {
+    bool busy = false;
+    wake_ = FlightTime::max();
+    for (const Service* const service : services) {
+        busy = busy || service->is_busy();
+        wake_ = std::min(wake_, service->wakes_at());
+    }
+    if (!busy) {
+        busy_pump_ = FlightTime::max();
+    } else if (busy_pump_ == FlightTime::max()) {
+        busy_pump_ = now.flight;
+    }
+}
+
+FlightTime Parts::next_pump() const noexcept { return std::min(busy_pump_, wake_); }
+
+void Parts::pump(Moment moment) {
+    busy_pump_ = moment.flight + pump_interval;
+    for (Service* const service : services)
+        if (service->is_busy() || service->wakes_at() <= moment.flight) service->pump(moment);
+    report_changes();
+}
+
+void Parts::retune() {
+    flight.retune();
+    streams.retune(now.flight);
+}
+
+void Parts::put_parameter(std::string_view name, double value) {
+    parameters.put(name, value);
+    retune();
+    if (const auto index = parameters.find(name)) parameter_service->announce(*index);
+}
+
+void Parts::begin_silence() {
+    const Nanoseconds length = std::exchange(wanted_silence_, Nanoseconds{0});
+    silent_until_ = length == Nanoseconds::max() ? FlightTime::max() : now.flight + length;
+    radio.set_silent(true);
+}
+
+void Parts::end_silence() {
+    booted = stepped = silent_until_;
+    silent_until_ = FlightTime::min();
+    radio.set_silent(false);
+    radio.set_system(SystemId{static_cast<std::uint8_t>(
+        std::clamp(parameters.get(firmware.system_parameter(), options.system.value), 1.0, 255.0))});
+    for (Service* const service : services) service->reboot();
+    flight.reboot();
+    streams.reset(booted);
+}
+
+// PX4 ends a text with a tab if it is also an event, so that ground stations show one of the two.
+void Parts::on_text(Severity severity, std::string_view text) {
+    if (!event_service->report_text(text)) return announcer.say(severity, text, now.flight);
+    announcer.say(severity, std::string(text) + '\t', now.flight);
+}
+
+void Parts::on_payload_item(const PlanItem& item) { carry_out_payload_item(*this, item); }
+
+void Parts::on_item_reached(std::uint16_t seq) { plan_service->report_reached(seq); }
+
+}  // namespace mavloom::sim

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Other aircraft around home, as an ADS-B receiver hears them: ADSB_VEHICLE. Private to module sim; single owner.
+//
+// Each aircraft flies a racetrack, or a circle, at its own height and speed, and transmits once a second. Where it is
+// depends on the flight time and the vehicle's seed alone. Source: MAVLink common.xml, ADSB_VEHICLE.
+#pragma once
+
+#include <vector>
+
+#include "sim/physics/geodesy.hpp"
+#include "sim/physics/random.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+struct Aircraft {
+    std::uint32_t icao = 0;
+    std::array<char, 9> callsign{};
+    std::uint16_t squawk = 0;
+    std::uint8_t emitter = 0;            // ADSB_EMITTER_TYPE
+    Vector3 center = Vector3::Zero();    // of the racetrack, from home
+    double direction = 0;                // rad, of the straights
+    double straight = 0, radius = 1000;  // m
+    double speed = 60;                   // m/s
+    double start = 0;                    // m along the track at time 0
+    double swing = 0, swing_time = 300;  // m and s: the height varies a little
+
+    struct Motion {
+        Vector3 position, velocity;  // from home
+    };
+    [[nodiscard]] Motion at(double seconds) const;
+};
+
+[[nodiscard]] Aircraft make_aircraft(Random& random);
+
+class Traffic final : public Service {
+public:
+    explicit Traffic(Parts& parts);
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override { return {}; }
+    void receive(const Client&, MessageId, ByteView, Moment) override {}
+    [[nodiscard]] FlightTime wakes_at() const noexcept override { return next_; }
+    void pump(Moment now) override;
+
+private:
+    static constexpr std::size_t most_aircraft = 64;
+    static constexpr Nanoseconds period = std::chrono::seconds{1};
+
+    void transmit(const Aircraft& aircraft, std::uint64_t round, FlightTime now);
+
+    Parts& parts_;
+    std::vector<Aircraft> aircraft_;
+    std::uint64_t turns_ = 0;  // transmissions so far; the aircraft take turns
+    FlightTime next_ = FlightTime::max();
+    MonoTime last_pump_{};
+    std::size_t caught_up_ = 0;  // pumps at the same real time: after a stall
+};
+
+}  // namespace mavloom::sim

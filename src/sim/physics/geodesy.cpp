@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "sim/physics/geodesy.hpp"
+
+#include <GeographicLib/AzimuthalEquidistant.hpp>
+#include <GeographicLib/Geodesic.hpp>
+#include <cmath>
+
+#include "sim/physics/rotation.hpp"
+
+namespace mavloom::sim {
+
+namespace {
+
+const GeographicLib::AzimuthalEquidistant& projection() {
+    static const GeographicLib::AzimuthalEquidistant wgs84(GeographicLib::Geodesic::WGS84());
+    return wgs84;
+}
+
+}  // namespace
+
+Vector3 LocalFrame::to_local(const GeoPoint& point) const {
+    double east = 0, north = 0;
+    projection().Forward(origin_.latitude, origin_.longitude, point.latitude, point.longitude, east, north);
+    return {north, east, origin_.altitude - point.altitude};
+}
+
+GeoPoint LocalFrame::to_geo(const Vector3& local) const {
+    GeoPoint point{.altitude = origin_.altitude - local.z()};
+    projection().Reverse(origin_.latitude, origin_.longitude, local.y(), local.x(), point.latitude, point.longitude);
+    return point;
+}
+
+double distance_m(const GeoPoint& from, const GeoPoint& to) {
+    double distance = 0;
+    GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude, to.longitude, distance);
+    return distance;
+}
+
+double bearing_rad(const GeoPoint& from, const GeoPoint& to) {
+    double first = 0, second = 0;
+    GeographicLib::Geodesic::WGS84().Inverse(from.latitude, from.longitude, to.latitude, to.longitude, first, second);
+    return wrap_2pi(to_radians(first));
+}
+
+std::int32_t to_degrees_e7(double degrees) noexcept { return static_cast<std::int32_t>(std::lround(degrees * 1e7)); }
+
+}  // namespace mavloom::sim

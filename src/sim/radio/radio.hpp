@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Everything that a vehicle sends goes through its radio: it numbers, signs and writes frames, per link. Private to
+// module sim; single owner. Sending allocates nothing.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/sim/sink.hpp"
+#include "mavloom/wire/frame_writer.hpp"
+#include "mavloom/wire/signing.hpp"
+#include "sim/radio/client.hpp"
+
+namespace mavloom::sim {
+
+// The facts of a generated message struct that the frame writer needs.
+template <class Message>
+inline constexpr wire::MessageInfo info_of{Message::id, Message::crc_extra, Message::min_length, Message::max_length};
+
+class Radio {
+public:
+    // `sink` must outlive the object.
+    Radio(SystemId system, Sink& sink) noexcept : system_(system), sink_(sink) {}
+
+    void open(LinkId link);
+    void close(LinkId link);
+    [[nodiscard]] std::span<const LinkId> links() const noexcept { return ids_; }
+    // The vehicle's system id. A reboot may change it.
+    [[nodiscard]] SystemId system() const noexcept { return system_; }
+    void set_system(SystemId system) noexcept { system_ = system; }
+
+    template <class Message>
+    void send(LinkId link, const Message& message, ComponentId from = autopilot_component) {
+        std::array<std::uint8_t, Message::max_length> payload;
+        (void)message.encode(payload);
+        transmit(link, info_of<Message>, payload, from);
+    }
+    template <class Message>
+    void broadcast(const Message& message, ComponentId from = autopilot_component) {
+        std::array<std::uint8_t, Message::max_length> payload;
+        (void)message.encode(payload);
+        for (const LinkId link : ids_) transmit(link, info_of<Message>, payload, from);
+    }
+    void transmit(LinkId link, const wire::MessageInfo& info, ByteView payload, ComponentId from = autopilot_component);
+
+    // True while the link's queue is short enough for another frame of a bulk transfer.
+    [[nodiscard]] bool has_room(LinkId link) const { return sink_.queued_bytes(link) < bulk_bytes; }
+    // Traffic of a link so far.
+    struct Totals {
+        std::uint64_t frames = 0, bytes = 0;                    // sent
+        std::uint64_t received_frames = 0, received_bytes = 0;  // for any vehicle
+    };
+    void note_received(LinkId link, std::size_t bytes) noexcept;
+    [[nodiscard]] Totals totals(LinkId link) const noexcept;
+
+    // From now on every frame is signed with this key; empty: none. `now` is UTC.
+    void sign_with(const std::optional<wire::SigningKey>& key, wire::SigningTime now);
+    // Timestamps of signatures continue from here, if UTC is behind.
+    void raise_signing_time(wire::SigningTime newest) noexcept { signing_start_ = std::max(signing_start_, newest); }
+    void set_utc(WallTime now) noexcept { utc_ = now; }
+    // While silent, nothing is sent: a vehicle that reboots.
+    void set_silent(bool silent) noexcept { silent_ = silent; }
+
+private:
+    // Bulk transfers pause while a link's queue holds this much.
+    static constexpr std::size_t bulk_bytes = 4096;
+
+    struct Outlet {
+        std::array<std::uint8_t, 256> sequences{};  // by component
+        std::uint8_t signing_link = 0;              // the link id in signatures
+        std::optional<wire::Signer> signer;
+        Totals totals;
+    };
+    [[nodiscard]] Outlet* find(LinkId link) noexcept;
+
+    SystemId system_;
+    Sink& sink_;
+    std::vector<LinkId> ids_;
+    std::vector<Outlet> outlets_;  // as ids_
+    std::optional<wire::SigningKey> key_;
+    wire::SigningTime signing_start_;
+    std::uint8_t next_signing_link_ = 0;
+    WallTime utc_{};
+    bool silent_ = false;
+};
+
+}  // namespace mavloom::sim

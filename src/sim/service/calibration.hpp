@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Calibration of sensors (MAV_CMD_PREFLIGHT_CALIBRATION). Private to module sim; single owner.
+//
+// PX4 reports its progress by texts that begin with "[cal]". Ground stations and SDKs parse them. The simulated vehicle
+// turns itself to all sides that are needed. ArduPilot asks the client to turn the vehicle, side by side, by
+// MAV_CMD_ACCELCAL_VEHICLE_POS, and waits for its confirmation; its other calibrations are done at once.
+#pragma once
+
+#include <optional>
+
+#include "sim/command/commands.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class CalibrationService final : public Service {
+public:
+    explicit CalibrationService(Parts& parts) noexcept : parts_(parts) {}
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    [[nodiscard]] FlightTime wakes_at() const noexcept override { return next_; }
+    void pump(Moment now) override;
+    void reboot() override;
+    void forget(LinkId link) override;
+
+    Outcome begin(const Command& command, Moment now);
+    // ArduPilot: the vehicle stands as it was asked for. False: nothing was asked.
+    bool confirm(const Client& from, Moment now);
+
+private:
+    enum class Stage : std::uint8_t { begun, steps, cancelled };
+    enum class Sensor : std::uint8_t { gyro, mag, baro, accel, level, airspeed, radio };
+
+    [[nodiscard]] static std::optional<Sensor> sensor_of(const Command& command) noexcept;
+    [[nodiscard]] bool is_running() const noexcept { return next_ != FlightTime::max(); }
+    Outcome cancel(Moment now);
+    void stop();
+    void say(std::string_view text);
+
+    void report_px4(Stage stage);
+    void report_step();
+    void report_side_step();
+    void finish_px4();
+    void store_results();
+
+    void ask_for_position(Moment now);
+    void finish_ardupilot(bool successful);
+    void send_position(std::uint32_t position);
+
+    Parts& parts_;
+    FlightTime next_ = FlightTime::max();  // when the next text is due, or ArduPilot gives up
+    Stage stage_ = Stage::begun;           // PX4
+    Sensor sensor_{};
+    unsigned step_ = 0;
+    Client client_;  // ArduPilot: who turns the vehicle
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "sim/service/connection.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "mavloom/msg/enums/mav_type.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/ping.hpp"
+#include "mavloom/msg/radio_status.hpp"
+#include "mavloom/msg/timesync.hpp"
+#include "sim/parts.hpp"
+
+namespace mavloom::sim {
+
+namespace {
+
+constexpr std::array connection_ids{msg::Heartbeat::id, msg::Timesync::id, msg::Ping::id, msg::RadioStatus::id};
+
+}  // namespace
+
+std::span<const MessageId> Connection::handled() const noexcept { return connection_ids; }
+
+void Connection::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
+    if (id == msg::Heartbeat::id) return on_heartbeat(from, payload, now);
+    if (id == msg::Timesync::id) return on_timesync(from, payload, now);
+    if (id == msg::Ping::id) return on_ping(from, payload);
+    on_radio_status(from, payload, now);
+}
+
+void Connection::on_heartbeat(const Client& from, ByteView payload, Moment now) {
+    if (msg::Heartbeat::decode(payload).type != msg::MAV_TYPE_GCS) return;
+    parts_.flight.on_ground_station_heard();
+    parts_.announcer.greet(from.link, now.flight);
+}
+
+// A request has tc1 = 0. It is answered at once with the vehicle's time since boot, as PX4 does.
+void Connection::on_timesync(const Client& from, ByteView payload, Moment now) {
+    const auto request = msg::Timesync::decode(payload);
+    if (request.tc1 != 0) return;
+    parts_.radio.send(from.link, msg::Timesync{.tc1 = (now.flight - parts_.booted).count(),
+                                               .ts1 = request.ts1,
+                                               .target_system = from.id.system.value,
+                                               .target_component = from.id.component.value});
+}
+
+// A request has no target.
+void Connection::on_ping(const Client& from, ByteView payload) {
+    auto ping = msg::Ping::decode(payload);
+    if (ping.target_system != 0 || ping.target_component != 0) return;
+    ping.target_system = from.id.system.value;
+    ping.target_component = from.id.component.value;
+    parts_.radio.send(from.link, ping);
+}
+
+// A telemetry radio reports how full its buffer is (txbuf, percent free). PX4's rule: slow down below 35 %, quickly
+// below 25 %, speed up again above 50 %.
+void Connection::on_radio_status(const Client& from, ByteView payload, Moment now) {
+    const auto free = msg::RadioStatus::decode(payload).txbuf;
+    if (free < 25) {
+        radio_share_ *= 0.8;
+    } else if (free < 35) {
+        radio_share_ *= 0.975;
+    } else if (free > 50) {
+        radio_share_ *= 1.025;
+    }
+    radio_share_ = std::clamp(radio_share_, 0.05, 1.0);
+    parts_.streams.set_share(from.link, radio_share_, now.flight);
+}
+
+}  // namespace mavloom::sim

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Message signing of a vehicle. SETUP_SIGNING sets the key. From then on the vehicle signs all frames, and drops
+// unsigned ones, but for a few kinds that radios and other vehicles send. Private to module sim; single owner. Source:
+// MAVLink guide, "Message Signing"; the exceptions are PX4's.
+#pragma once
+
+#include <optional>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/wire/frame.hpp"
+#include "mavloom/wire/signing.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class Guard final : public Service {
+public:
+    explicit Guard(Parts& parts) noexcept : parts_(parts) {}
+
+    // False: drop the frame. `utc` dates signatures.
+    [[nodiscard]] bool admits(const wire::FrameView& frame, WallTime utc);
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+
+private:
+    void use(const std::optional<wire::SigningKey>& key, wire::SigningTime start);
+
+    Parts& parts_;
+    std::optional<wire::SigningKey> key_;
+    std::optional<wire::Verifier> verifier_;
+    bool last_was_signed_ = false;  // the frame that `admits` looked at last
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "sim/service/other_services.hpp"
+
+#include "sim/parts.hpp"
+#include "sim/payload/traffic.hpp"
+#include "sim/service/controls.hpp"
+#include "sim/service/shell.hpp"
+
+namespace mavloom::sim {
+
+std::vector<std::unique_ptr<Service>> make_other_services(Parts& parts) {
+    std::vector<std::unique_ptr<Service>> services;
+    services.push_back(std::make_unique<Controls>(parts));
+    services.push_back(std::make_unique<Shell>(parts));
+    if (parts.options.traffic != 0) services.push_back(std::make_unique<Traffic>(parts));
+    return services;
+}
+
+}  // namespace mavloom::sim

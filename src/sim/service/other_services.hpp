@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The services that nobody but the dispatcher talks to. Private to module sim.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+[[nodiscard]] std::vector<std::unique_ptr<Service>> make_other_services(Parts& parts);
+
+}  // namespace mavloom::sim

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Download of recorded logs, and streaming of the log that is being written. Private to module sim; single owner.
+// Source: MAVLink guide, "Log transfer protocol".
+//
+// A client downloads one thing at a time; a new request replaces the running one. Data is sent as the link takes it.
+#pragma once
+
+#include <vector>
+
+#include "sim/flight/orders.hpp"
+#include "sim/service/service.hpp"
+#include "sim/store/log_stream.hpp"
+#include "sim/store/recorded_logs.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class LogService final : public Service {
+public:
+    explicit LogService(Parts& parts);
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    [[nodiscard]] bool is_busy() const noexcept override { return !downloads_.empty() || streams_.is_busy(); }
+    void pump(Moment now) override;
+    void forget(LinkId link) override;
+
+    [[nodiscard]] const RecordedLogs& logs() const noexcept { return logs_; }
+
+    // MAV_CMD_LOGGING_START and _STOP, which PX4 knows: streams the running log to the client.
+    [[nodiscard]] Result start_stream(const Client& to, Moment now) { return streams_.start(to, now); }
+    Result stop_stream(const Client& to);
+
+private:
+    // A list of entries, or the content of one log; from `next` to before `end`.
+    struct Download {
+        Client client;
+        bool is_list = false;
+        std::uint16_t log = 0;
+        std::uint32_t next = 0, end = 0;
+    };
+    void on_list(const Client& from, ByteView payload);
+    void on_data(const Client& from, ByteView payload);
+    // False: too many clients download.
+    [[nodiscard]] bool begin(const Download& download);
+    void stop(const Client& client);
+    void send_entry(const Client& to, std::uint32_t index);
+    void send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset);
+    // Both false: the download is complete.
+    [[nodiscard]] bool send_next(Download& download);
+    [[nodiscard]] bool advance(Download& download);  // by as many messages as may be sent at once
+
+    Parts& parts_;
+    RecordedLogs logs_;
+    LogStreams streams_;
+    std::vector<Download> downloads_;  // at most Limits::clients
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The log that the vehicle writes now, sent to clients while it grows. Private to module sim; single owner.
+//
+// PX4 sends the header in LOGGING_DATA_ACKED, each of which waits for its LOGGING_ACK, and the rest in LOGGING_DATA.
+// ArduPilot sends REMOTE_LOG_DATA_BLOCKs and repeats those that the client misses. Sources: MAVLink guide, "Log
+// transfer protocol"; MAVLink common.xml and ardupilotmega.xml.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mavloom/sim/moment.hpp"
+#include "sim/flight/orders.hpp"
+#include "sim/radio/client.hpp"
+#include "sim/radio/radio.hpp"
+#include "sim/store/recorded_logs.hpp"
+
+namespace mavloom::sim {
+
+class LogStreams {
+public:
+    // `radio` must outlive the object.
+    LogStreams(bool is_px4, SystemId system, std::size_t most, Radio& radio) noexcept
+        : radio_(radio), image_(LogImage::endless(is_px4, system)), most_(most), is_px4_(is_px4) {}
+
+    // A client that streams already starts again. TEMPORARILY_REJECTED: too many clients stream.
+    Result start(const Client& to, Moment now);
+    void stop(const Client& to);
+    void on_logging_ack(const Client& from, ByteView payload);
+    void on_block_status(const Client& from, ByteView payload, Moment now);
+
+    [[nodiscard]] bool is_busy() const noexcept { return !streams_.empty(); }
+    void pump(Moment now);
+    void forget(LinkId link);
+
+private:
+    struct Block {  // that was sent and not acknowledged
+        std::uint32_t seq;
+        MonoTime sent{};
+    };
+    struct Stream {
+        Client client;
+        FlightTime began{};
+        std::uint32_t offset = 0;    // PX4: of the next bytes
+        std::uint16_t sequence = 0;  // PX4: of the next message
+        bool waits = false;          // PX4: for the acknowledgement of `sequence`
+        unsigned tries = 0;
+        MonoTime sent{}, heard{};
+        std::uint32_t next_block = 0;  // ArduPilot
+        std::vector<Block> blocks{};   // ArduPilot
+    };
+    // Both: false if the stream is over.
+    [[nodiscard]] bool pump_messages(Stream& stream, Moment now);
+    [[nodiscard]] bool pump_blocks(Stream& stream, Moment now);
+    template <class Message>
+    void send_message(Stream& stream);
+    void send_block(const Stream& stream, std::uint32_t seq);
+    [[nodiscard]] std::uint32_t piece_length(const Stream& stream) const noexcept;
+    [[nodiscard]] bool is_in_header(const Stream& stream) const noexcept {
+        return stream.offset < image_.header_size();
+    }
+    [[nodiscard]] std::uint64_t written(const Stream& stream, Moment now) const noexcept;
+    [[nodiscard]] Stream* find(const Client& client) noexcept;
+
+    Radio& radio_;
+    LogImage image_;
+    std::size_t most_;
+    bool is_px4_;
+    std::vector<Stream> streams_;
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The parameter protocol. Private to module sim; single owner. Source: MAVLink guide, "Parameter Protocol".
+//
+// Each client has a list of its own. A list goes at the pace of its link. PX4 begins a list with `_HASH_CHECK`, a
+// checksum: a client that has these values already sets it, and the list ends.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "sim/firmware/parameters.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class ParameterService final : public Service {
+public:
+    explicit ParameterService(Parts& parts) noexcept : parts_(parts) {}
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    [[nodiscard]] bool is_busy() const noexcept override { return !lists_.empty(); }
+    void pump(Moment now) override;
+    void reboot() override { lists_.clear(); }
+    void forget(LinkId link) override;
+
+    // Sends the value of a parameter to all links.
+    void announce(ParamIndex index);
+    // Sets the parameters whose names begin so to their initial values, and reports those that changed. The system id
+    // stays.
+    void reset(std::string_view prefix = {});
+
+private:
+    struct List {
+        Client client;
+        bool has_hash_ahead = false;  // `_HASH_CHECK` comes next
+        ParamIndex next = 0;
+    };
+    struct Refusal {
+        std::string_view name{};
+        int index = -1;
+        std::uint8_t error = 0;  // MAV_PARAM_ERROR
+    };
+
+    void on_list(const Client& from, Moment now);
+    void on_read(const Client& from, ByteView payload);
+    void on_set(const Client& from, ByteView payload);
+    void change(const Client& from, ParamIndex index, std::uint8_t type, float value);
+    // MAV_PARAM_ERROR of a new value.
+    [[nodiscard]] std::uint8_t check(ParamIndex index, std::uint8_t type, float value) const noexcept;
+    void stop(const Client& client);
+    // False: the list is complete.
+    bool send_next(List& list);
+    void send_value(LinkId link, ParamIndex index);
+    void send_hash(LinkId link);
+    void refuse(const Client& to, const Refusal& refusal);
+
+    Parts& parts_;
+    std::vector<List> lists_;
+};
+
+}  // namespace mavloom::sim

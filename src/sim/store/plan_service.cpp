@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: MIT
+#include "sim/store/plan_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "mavloom/msg/enums/mav_cmd.hpp"
+#include "mavloom/msg/enums/mav_frame.hpp"
+#include "mavloom/msg/enums/mav_mission_result.hpp"
+#include "mavloom/msg/enums/mav_mission_type.hpp"
+#include "mavloom/msg/mission_ack.hpp"
+#include "mavloom/msg/mission_clear_all.hpp"
+#include "mavloom/msg/mission_item_reached.hpp"
+#include "mavloom/msg/mission_request.hpp"
+#include "mavloom/msg/mission_request_int.hpp"
+#include "mavloom/msg/mission_request_list.hpp"
+#include "mavloom/msg/mission_request_partial_list.hpp"
+#include "mavloom/msg/mission_set_current.hpp"
+#include "mavloom/msg/mission_write_partial_list.hpp"
+#include "sim/parts.hpp"
+#include "sim/store/plan_items.hpp"
+
+namespace mavloom::sim {
+
+namespace {
+
+using namespace msg;
+
+constexpr std::array plan_ids{MissionCount::id,
+                              MissionItemInt::id,
+                              MissionItem::id,
+                              MissionRequestList::id,
+                              MissionRequestInt::id,
+                              MissionRequest::id,
+                              MissionAck::id,
+                              MissionClearAll::id,
+                              MissionSetCurrent::id,
+                              MissionWritePartialList::id,
+                              MissionRequestPartialList::id};
+
+// PX4's times.
+constexpr Nanoseconds repeat_request_after = std::chrono::milliseconds{250};
+constexpr Nanoseconds transfer_timeout = std::chrono::seconds{5};
+constexpr int reached_repeats = 10;
+constexpr Nanoseconds reached_interval = std::chrono::seconds{1};
+
+// ArduPilot's values of MISSION_ITEM.current that make an item an order.
+constexpr std::uint8_t current_guided = 2, current_altitude = 3;
+
+std::uint8_t number_of(PlanType type) noexcept { return static_cast<std::uint8_t>(type); }
+
+// m above mean sea level.
+double altitude_of(const PlanItem& item, const Flight& flight) {
+    switch (item.frame) {
+        case MAV_FRAME_GLOBAL_RELATIVE_ALT:
+        case MAV_FRAME_GLOBAL_RELATIVE_ALT_INT:
+            return double{item.z} + (flight.home() ? flight.home()->altitude : flight.ground_altitude());
+        case MAV_FRAME_GLOBAL_TERRAIN_ALT:
+        case MAV_FRAME_GLOBAL_TERRAIN_ALT_INT: return double{item.z} + flight.ground_altitude();
+        default: return double{item.z};
+    }
+}
+
+}  // namespace
+
+std::span<const MessageId> PlanService::handled() const noexcept { return plan_ids; }
+
+void PlanService::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
+    const auto on_form = [&](const auto& m) { on_item(from, {item_of(m), m.seq, m.current, m.mission_type}, now); };
+    const auto on_wish = [&](const auto& m, bool is_int) { on_request(from, m.seq, m.mission_type, is_int, now); };
+    if (id == MissionItemInt::id) return on_form(MissionItemInt::decode(payload));
+    if (id == MissionItem::id) return on_form(MissionItem::decode(payload));
+    if (id == MissionRequestInt::id) return on_wish(MissionRequestInt::decode(payload), true);
+    if (id == MissionRequest::id) return on_wish(MissionRequest::decode(payload), false);
+    if (id == MissionCount::id) return on_count(from, MissionCount::decode(payload), now);
+    if (id == MissionRequestList::id) return on_list(from, MissionRequestList::decode(payload).mission_type, now);
+    if (id == MissionAck::id) return on_ack(from, payload, now);
+    if (id == MissionClearAll::id) return on_clear(from, MissionClearAll::decode(payload).mission_type);
+    if (id == MissionSetCurrent::id) return on_set_current(MissionSetCurrent::decode(payload).seq);
+    if (id == MissionWritePartialList::id) return on_partial_write(from, payload, now);
+    // Neither firmware lets clients read a part of the list.
+    acknowledge(from, MissionRequestPartialList::decode(payload).mission_type, MAV_MISSION_UNSUPPORTED);
+}
+
+// --- Upload
+
+void PlanService::on_count(const Client& from, const MissionCount& message, Moment now) {
+    const auto type = plan_type(message.mission_type);
+    if (!type) return acknowledge(from, message.mission_type, MAV_MISSION_UNSUPPORTED);
+    if (message.count > limit(*type)) return acknowledge(from, message.mission_type, MAV_MISSION_NO_SPACE);
+    Transfer* const transfer = begin_upload(from, *type, now);
+    if (transfer == nullptr) return acknowledge(from, message.mission_type, MAV_MISSION_ERROR);
+    transfer->end = message.count;
+    transfer->items.resize(message.count);
+    if (message.count == 0) return finish(*transfer);
+    ask(*transfer, now);
+}
+
+// Null: another client uploads this type, or too many transfers run.
+PlanService::Transfer* PlanService::begin_upload(const Client& from, PlanType type, Moment now) {
+    if (is_uploaded_by_another(from, type)) return nullptr;
+    drop(from, type);
+    if (transfers_.size() >= parts_.options.limits.clients) return nullptr;
+    transfers_.push_back({.client = from, .type = type, .stage = Stage::upload, .heard = now.real});
+    return &transfers_.back();
+}
+
+// ArduPilot replaces a range of items, and may append one. PX4 does not know this.
+void PlanService::on_partial_write(const Client& from, ByteView payload, Moment now) {
+    const auto message = MissionWritePartialList::decode(payload);
+    const auto type = plan_type(message.mission_type);
+    if (parts_.firmware.is_px4() || !type) return acknowledge(from, message.mission_type, MAV_MISSION_UNSUPPORTED);
+    const auto items = parts_.flight.plans().of(*type).items();
+    const int first = message.start_index, last = message.end_index;
+    if (first < 0 || last < first || last > static_cast<int>(items.size()))
+        return acknowledge(from, message.mission_type, MAV_MISSION_ERROR);
+    const auto end = static_cast<std::uint16_t>(last + 1);
+    if (end > limit(*type)) return acknowledge(from, message.mission_type, MAV_MISSION_NO_SPACE);
+    Transfer* const transfer = begin_upload(from, *type, now);
+    if (transfer == nullptr) return acknowledge(from, message.mission_type, MAV_MISSION_ERROR);
+    transfer->items.assign(items.begin(), items.end());
+    transfer->items.resize(std::max<std::size_t>(items.size(), end));
+    transfer->next = static_cast<std::uint16_t>(first);
+    transfer->end = end;
+    ask(*transfer, now);
+}
+
+void PlanService::on_item(const Client& from, const Request& request, Moment now) {
+    if (!parts_.firmware.is_px4() && (request.current == current_guided || request.current == current_altitude))
+        return on_guided_item(from, request);
+    const auto type = plan_type(request.mission_type);
+    Transfer* const transfer = type ? find(from, *type) : nullptr;
+    if (transfer == nullptr || transfer->stage == Stage::download)
+        return acknowledge(from, request.mission_type, MAV_MISSION_ERROR);
+    if (transfer->stage == Stage::finished) {
+        // The last MISSION_ACK was lost.
+        const std::uint32_t id = parts_.flight.plans().of(*type).id();
+        if (request.seq + 1 == transfer->end) acknowledge(from, request.mission_type, MAV_MISSION_ACCEPTED, id);
+        return;
+    }
+    transfer->heard = now.real;
+    if (request.seq == transfer->next) return store_item(*transfer, request, now);
+    // An older item is a late duplicate. PX4 ignores newer ones as well and repeats its request.
+    if (request.seq > transfer->next && !parts_.firmware.is_px4())
+        acknowledge(from, request.mission_type, MAV_MISSION_INVALID_SEQUENCE);
+}
+
+void PlanService::store_item(Transfer& transfer, const Request& request, Moment now) {
+    const auto count = static_cast<std::uint16_t>(transfer.items.size());
+    const auto result = check_item(request.item, transfer.type, count, parts_.firmware.is_px4());
+    if (result != MAV_MISSION_ACCEPTED) {
+        acknowledge(transfer.client, request.mission_type, result);
+        return drop(transfer.client, transfer.type);
+    }
+    transfer.items[request.seq] = request.item;
+    if (request.current == 1) transfer.current = request.seq;
+    ++transfer.next;
+    if (transfer.next == transfer.end) return finish(transfer);
+    ask(transfer, now);
+}
+
+void PlanService::finish(Transfer& transfer) {
+    transfer.stage = Stage::finished;
+    replace(transfer.type, std::exchange(transfer.items, {}));
+    Flight& flight = parts_.flight;
+    // ArduPilot ignores the mark. A refusal does not matter: the mission then begins with its first item.
+    const bool marks = transfer.type == PlanType::mission && transfer.current && parts_.firmware.is_px4();
+    if (marks && *transfer.current != flight.mission().current) (void)flight.set_current_item(transfer.current, false);
+    acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_ACCEPTED, flight.plans().of(transfer.type).id());
+}
+
+void PlanService::replace(PlanType type, std::vector<PlanItem> items) {
+    if (type == PlanType::mission) reached_.repeats = 0;
+    parts_.flight.plans().of(type).replace(std::move(items));
+    parts_.flight.on_plan_changed(type);
+    parts_.on_mission_progress();  // MISSION_CURRENT has the ids of all plans
+}
+
+void PlanService::ask(Transfer& transfer, Moment now) {
+    transfer.sent = now.real;
+    const auto fill = [&](auto message) {
+        message.target_system = transfer.client.id.system.value;
+        message.target_component = transfer.client.id.component.value;
+        message.seq = transfer.next;
+        message.mission_type = number_of(transfer.type);
+        parts_.radio.send(transfer.client.link, message);
+    };
+    if (transfer.asks_int) return fill(MissionRequestInt{});
+    fill(MissionRequest{});
+}
+
+// --- Download
+
+void PlanService::on_list(const Client& from, std::uint8_t mission_type, Moment now) {
+    const auto type = plan_type(mission_type);
+    if (!type) return acknowledge(from, mission_type, MAV_MISSION_UNSUPPORTED);
+    drop(from, *type);
+    const Plan& plan = parts_.flight.plans().of(*type);
+    Transfer transfer{.client = from,
+                      .type = *type,
+                      .stage = Stage::download,
+                      .end = plan.size(),
+                      .edition = plan.edition(),
+                      .heard = now.real};
+    if (!plan.empty() && transfers_.size() >= parts_.options.limits.clients)
+        return acknowledge(from, mission_type, MAV_MISSION_ERROR);
+    send_count(transfer, now);
+    if (!plan.empty()) transfers_.push_back(std::move(transfer));
+}
+
+void PlanService::send_count(Transfer& transfer, Moment now) {
+    transfer.sent = now.real;
+    parts_.radio.send(transfer.client.link, MissionCount{.target_system = transfer.client.id.system.value,
+                                                         .target_component = transfer.client.id.component.value,
+                                                         .count = transfer.end,
+                                                         .mission_type = number_of(transfer.type),
+                                                         .opaque_id = parts_.flight.plans().of(transfer.type).id()});
+}
+
+// Any item at any time, also without MISSION_REQUEST_LIST before: MAVProxy asks for several at once and sends no
+// MISSION_ACK at the end.
+void PlanService::on_request(const Client& from, std::uint16_t seq, std::uint8_t mission_type, bool is_int, Moment now) {
+    const auto type = plan_type(mission_type);
+    if (!type) return acknowledge(from, mission_type, MAV_MISSION_UNSUPPORTED);
+    const Plan& plan = parts_.flight.plans().of(*type);
+    Transfer* const transfer = find(from, *type);
+    if (transfer != nullptr && transfer->stage == Stage::download) {
+        if (transfer->edition != plan.edition()) {
+            // Another client replaced the plan: the rest would not fit to what was sent.
+            drop(from, *type);
+            return acknowledge(from, mission_type, MAV_MISSION_ERROR);
+        }
+        transfer->heard = now.real;
+        transfer->was_asked = true;
+    }
+    if (seq >= plan.size()) return acknowledge(from, mission_type, MAV_MISSION_INVALID_SEQUENCE);
+    send_item(from, *type, seq, is_int);
+}
+
+// ArduPilot returns the present home as item 0.
+PlanItem PlanService::stored_item(PlanType type, std::uint16_t seq) const {
+    const auto& home = parts_.flight.home();
+    if (type != PlanType::mission || seq != 0 || !parts_.firmware.has_home_in_mission() || !home)
+        return parts_.flight.plans().of(type).items()[seq];
+    return {.command = MAV_CMD_NAV_WAYPOINT,
+            .frame = MAV_FRAME_GLOBAL,
+            .x = static_cast<std::int32_t>(std::lround(home->latitude * 1e7)),
+            .y = static_cast<std::int32_t>(std::lround(home->longitude * 1e7)),
+            .z = static_cast<float>(home->altitude)};
+}
+
+void PlanService::send_item(const Client& to, PlanType type, std::uint16_t seq, bool is_int) {
+    const PlanItem item = stored_item(type, seq);
+    const bool is_px4 = parts_.firmware.is_px4();
+    const auto fill = [&](auto message) {
+        message.target_system = to.id.system.value;
+        message.target_component = to.id.component.value;
+        message.seq = seq;
+        message.current = type == PlanType::mission && seq == parts_.flight.mission().current ? 1 : 0;
+        message.mission_type = number_of(type);
+        parts_.radio.send(to.link, message);
+    };
+    if (is_int) return fill(int_form(item, is_px4));
+    fill(float_form(item, is_px4));
+}
+
+// --- Both
+
+void PlanService::on_ack(const Client& from, ByteView payload, Moment now) {
+    const auto message = MissionAck::decode(payload);
+    const auto type = plan_type(message.mission_type);
+    Transfer* const transfer = type ? find(from, *type) : nullptr;
+    if (transfer == nullptr || transfer->stage == Stage::finished) return;
+    if (transfer->stage == Stage::download || message.type == MAV_MISSION_OPERATION_CANCELLED) return drop(from, *type);
+    if (message.type != MAV_MISSION_UNSUPPORTED || !transfer->asks_int) return;
+    transfer->asks_int = false;
+    transfer->heard = now.real;
+    ask(*transfer, now);
+}
+
+void PlanService::on_clear(const Client& from, std::uint8_t mission_type) {
+    const bool all = mission_type == MAV_MISSION_TYPE_ALL;
+    if (!all && !plan_type(mission_type)) return acknowledge(from, mission_type, MAV_MISSION_UNSUPPORTED);
+    const auto is_meant = [&](std::uint8_t type) { return all || type == mission_type; };
+    for (std::uint8_t i = 0; i < plan_types; ++i)
+        if (is_meant(i) && is_uploaded_by_another(from, static_cast<PlanType>(i)))
+            return acknowledge(from, mission_type, MAV_MISSION_ERROR);
+    for (std::uint8_t i = 0; i < plan_types; ++i) {
+        if (!is_meant(i)) continue;
+        drop(from, static_cast<PlanType>(i));
+        replace(static_cast<PlanType>(i), {});
+    }
+    acknowledge(from, mission_type, MAV_MISSION_ACCEPTED);
+}
+
+// There is no MISSION_ACK for this message; clients would take it for that of a transfer. A refusal is a text.
+// A refusal is a text only: clients would take a MISSION_ACK for that of a transfer.
+void PlanService::on_set_current(std::uint16_t seq) {
+    if (!parts_.flight.set_current_item(seq, false).is_accepted())
+        parts_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));
+    parts_.on_mission_progress();
+}
+
+void PlanService::on_guided_item(const Client& from, const Request& request) {
+    const double altitude = altitude_of(request.item, parts_.flight);
+    Outcome outcome = Result::denied;
+    if (request.current == current_altitude) {
+        if (std::isfinite(altitude)) outcome = parts_.flight.change_altitude(altitude);
+    } else if (const auto place = position_of(request.item); place && std::isfinite(altitude)) {
+        outcome = parts_.flight.reposition(
+            {.latitude = place->latitude, .longitude = place->longitude, .altitude = altitude, .may_change_mode = false});
+    }
+    acknowledge(from, request.mission_type, outcome.is_accepted() ? MAV_MISSION_ACCEPTED : MAV_MISSION_ERROR);
+}
+
+void PlanService::acknowledge(const Client& to, std::uint8_t mission_type, std::uint8_t result, std::uint32_t plan_id) {
+    parts_.radio.send(to.link, MissionAck{.target_system = to.id.system.value,
+                                          .target_component = to.id.component.value,
+                                          .type = result,
+                                          .mission_type = mission_type,
+                                          .opaque_id = plan_id});
+}
+
+// --- Time
+
+FlightTime PlanService::wakes_at() const noexcept { return reached_.repeats > 0 ? reached_.due : FlightTime::max(); }
+
+void PlanService::pump(Moment now) {
+    std::erase_if(transfers_, [&](Transfer& transfer) { return !keep_alive(transfer, now); });
+    if (reached_.repeats == 0 || now.flight < reached_.due) return;
+    --reached_.repeats;
+    reached_.due += reached_interval;
+    parts_.radio.broadcast(MissionItemReached{.seq = reached_.seq});
+}
+
+bool PlanService::keep_alive(Transfer& transfer, Moment now) {
+    if (now.real - transfer.heard >= transfer_timeout) {
+        if (transfer.stage != Stage::upload) return false;
+        parts_.announcer.say(Severity::critical, "Mission sync timeout", now.flight);
+        acknowledge(transfer.client, number_of(transfer.type), MAV_MISSION_OPERATION_CANCELLED);
+        return false;
+    }
+    if (now.real - transfer.sent < repeat_request_after) return true;
+    if (transfer.stage == Stage::upload) ask(transfer, now);
+    if (transfer.stage == Stage::download && !transfer.was_asked) send_count(transfer, now);
+    return true;
+}
+
+void PlanService::forget(LinkId link) {
+    std::erase_if(transfers_, [&](const Transfer& transfer) { return transfer.client.link == link; });
+}
+
+void PlanService::report_reached(std::uint16_t seq) {
+    parts_.radio.broadcast(MissionItemReached{.seq = seq});
+    if (parts_.firmware.is_px4()) reached_ = {seq, reached_repeats, parts_.stepped + reached_interval};
+}
+
+PlanService::Transfer* PlanService::find(const Client& client, PlanType type) noexcept {
+    const auto at = std::ranges::find_if(
+        transfers_, [&](const Transfer& transfer) { return transfer.client == client && transfer.type == type; });
+    return at == transfers_.end() ? nullptr : &*at;
+}
+
+bool PlanService::is_uploaded_by_another(const Client& client, PlanType type) const noexcept {
+    return std::ranges::any_of(transfers_, [&](const Transfer& transfer) {
+        return transfer.stage == Stage::upload && transfer.type == type && transfer.client != client;
+    });
+}
+
+void PlanService::drop(const Client& client, PlanType type) noexcept {
+    std::erase_if(transfers_,
+                  [&](const Transfer& transfer) { return transfer.client == client && transfer.type == type; });
+}
+
+std::size_t PlanService::limit(PlanType type) const noexcept {
+    const Limits& limits = parts_.options.limits;
+    switch (type) {
+        case PlanType::mission: return limits.mission_items;
+        case PlanType::fence: return limits.fence_items;
+        case PlanType::rally: break;
+    }
+    return limits.rally_items;
+}
+
+}  // namespace mavloom::sim

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// The mission protocol: upload and download of missions, fences and rally points. Private to module sim; single owner.
+// Source: MAVLink guide, "Mission Protocol".
+//
+// A transfer belongs to a client and a type of plan. One client at a time may upload a type; items arrive in a buffer
+// that replaces the plan only at the end. While an upload waits for an item, the service repeats its request every 250
+// ms; 5 s after the client's last message it gives up, and the old plan stays. Downloads need no order and no final
+// MISSION_ACK.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mavloom/msg/mission_count.hpp"
+#include "sim/flight/plan.hpp"
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class PlanService final : public Service {
+public:
+    explicit PlanService(Parts& parts) noexcept : parts_(parts) {}
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    [[nodiscard]] bool is_busy() const noexcept override { return !transfers_.empty(); }
+    [[nodiscard]] FlightTime wakes_at() const noexcept override;
+    void pump(Moment now) override;
+    void forget(LinkId link) override;
+
+    // Sends MISSION_ITEM_REACHED to all links. PX4 repeats it ten times, once a second.
+    void report_reached(std::uint16_t seq);
+
+private:
+    enum class Stage : std::uint8_t {
+        upload,
+        download,
+        finished
+    };  // finished: an upload, kept to answer its last item again
+    struct Transfer {
+        Client client;
+        PlanType type;
+        Stage stage;
+        bool asks_int = true;    // upload: by MISSION_REQUEST_INT; false: the client knows only MISSION_REQUEST
+        bool was_asked = false;  // download: a request has arrived, so MISSION_COUNT is not repeated
+        std::uint16_t next = 0, end = 0;         // upload: the item that is awaited, and one past the last one
+        std::uint32_t edition = 0;               // download: of the plan
+        std::optional<std::uint16_t> current{};  // upload: the item that the client marked as current
+        MonoTime heard{}, sent{};
+        std::vector<PlanItem> items{};  // upload: the whole new plan
+    };
+    struct Request {  // an item as the client sent it
+        PlanItem item;
+        std::uint16_t seq;
+        std::uint8_t current, mission_type;
+    };
+    struct Reached {
+        std::uint16_t seq = 0;
+        int repeats = 0;  // that are still to come
+        FlightTime due{};
+    };
+
+    void on_count(const Client& from, const msg::MissionCount& message, Moment now);
+    void on_partial_write(const Client& from, ByteView payload, Moment now);
+    void on_item(const Client& from, const Request& request, Moment now);
+    void on_list(const Client& from, std::uint8_t mission_type, Moment now);
+    void on_request(const Client& from, std::uint16_t seq, std::uint8_t mission_type, bool is_int, Moment now);
+    void on_ack(const Client& from, ByteView payload, Moment now);
+    void on_clear(const Client& from, std::uint8_t mission_type);
+    void on_set_current(std::uint16_t seq);
+    // ArduPilot: an item that is an order to fly to a point (current = 2) or to a height (3).
+    void on_guided_item(const Client& from, const Request& request);
+
+    Transfer* begin_upload(const Client& from, PlanType type, Moment now);
+    void store_item(Transfer& transfer, const Request& request, Moment now);
+    void finish(Transfer& transfer);
+    void replace(PlanType type, std::vector<PlanItem> items);
+    [[nodiscard]] PlanItem stored_item(PlanType type, std::uint16_t seq) const;
+    void send_item(const Client& to, PlanType type, std::uint16_t seq, bool is_int);
+    void ask(Transfer& transfer, Moment now);
+    void send_count(Transfer& transfer, Moment now);
+    void acknowledge(const Client& to, std::uint8_t mission_type, std::uint8_t result, std::uint32_t plan_id = 0);
+    // False: the transfer is over.
+    [[nodiscard]] bool keep_alive(Transfer& transfer, Moment now);
+
+    [[nodiscard]] Transfer* find(const Client& client, PlanType type) noexcept;
+    [[nodiscard]] bool is_uploaded_by_another(const Client& client, PlanType type) const noexcept;
+    void drop(const Client& client, PlanType type) noexcept;
+    [[nodiscard]] std::size_t limit(PlanType type) const noexcept;
+
+    Parts& parts_;
+    std::vector<Transfer> transfers_;  // at most Limits::clients
+    Reached reached_;
+};
+
+}  // namespace mavloom::sim

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// REQUEST_DATA_STREAM, with which clients of ArduPilot set the rate of groups of messages on their link. PX4 ignores
+// the message. Private to module sim; single owner. Source: MAVLink common.xml, REQUEST_DATA_STREAM, MAV_DATA_STREAM.
+#pragma once
+
+#include "sim/service/service.hpp"
+
+namespace mavloom::sim {
+
+struct Parts;
+
+class DataStreams final : public Service {
+public:
+    explicit DataStreams(Parts& parts) noexcept : parts_(parts) {}
+
+    [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
+    void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+
+private:
+    Parts& parts_;
+};
+
+}  // namespace mavloom::sim

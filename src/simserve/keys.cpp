@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "simserve/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mavloom/base/name.hpp"
+#include "mavloom/base/shown.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/endpoint/grammar.hpp"
+#include "simserve/values.hpp"
+
+namespace mavloom::simserve {
+
+namespace {
+
+using endpoint::parse_bool;
+using endpoint::parse_integer;
+using endpoint::put;
+using Text = std::string_view;
+
+template <class E, std::size_t n>
+SetupResult<void> put_choice(Text text, const std::string_view (&choices)[n], E& target) {
+    return put(parse_choice(text, choices), target);
+}
+
+SetupResult<void> set_name(Text text, std::string_view what, std::string& target) {
+    if (!is_name(text))
+        return endpoint::usage(
+            fmt::format("{} is not a {} name (letters, digits, '_' and '-', at most 64)", in_quotes(text), what));
+    target = std::string(text);
+    return {};
+}
+
+SetupResult<void> set_duration(Scenario& scenario, Text text) {
+    const auto time = endpoint::parse_duration(text);
+    if (!time) return tl::unexpected(time.error());
+    scenario.duration = *time;
+    return {};
+}
+
+SetupResult<void> set_profile(Scenario& scenario, Text text) {
+    sim::Profile profile{};
+    if (auto done = put_choice(text, sim::profile_names, profile); !done) return done;
+    scenario.profile = profile;
+    return {};
+}
+
+SetupResult<void> set_metrics(Scenario& scenario, Text text) {
+    const auto address = endpoint::parse_host_port(text, {});
+    if (!address) return endpoint::usage(fmt::format("{} is not HOST:PORT, as in 127.0.0.1:9090", in_quotes(text)));
+    scenario.metrics = *address;
+    return {};
+}
+
+SetupResult<void> set_capacity(Scenario& scenario, Text text) {
+    return put(endpoint::parse_ring_capacity(text), scenario.ring.capacity_bytes);
+}
+
+constexpr std::array<Key<Scenario>, 9> all_sim_keys{{
+    {"name", "", [](Scenario& s, Text t) { return set_name(t, "simulator", s.name); }},
+    {"seed", "1", [](Scenario& s, Text t) { return put(parse_integer(t, 0, UINT64_MAX), s.seed); }},
+    {"speed", "1",
+     [](Scenario& s, Text t) {
+         return put(parse_number(t, {0.1, 100}), s.speed);
+     }},
+    {"profile", "", set_profile},
+    {"for", "", set_duration},
+    {"report", "false", [](Scenario& s, Text t) { return put(parse_bool(t), s.has_report); }},
+    {"ring", "", [](Scenario& s, Text t) { return set_name(t, "ring", s.ring.name); }},
+    {"ring_capacity", "8MiB", set_capacity},
+    {"metrics", "", set_metrics},
+}};
+
+SetupResult<void> set_system(ScenarioVehicle& vehicle, Text text) {
+    const auto system = parse_integer(text, 1, 254);
+    if (!system)
+        return endpoint::usage(
+            fmt::format("{} is not a system id of a vehicle, which is from 1 to 254", in_quotes(text)));
+    vehicle.options.system = SystemId{static_cast<std::uint8_t>(*system)};
+    return {};
+}
+
+SetupResult<void> set_ready_after(ScenarioVehicle& vehicle, Text text) {
+    return put(endpoint::parse_duration(text), vehicle.options.ready_after);
+}
+
+constexpr std::size_t most_traffic = 64, most_logs = 32;
+
+constexpr std::array<Key<ScenarioVehicle>, 14> all_vehicle_keys{{
+    {"kind", "quad", [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::kind_names, v.options.kind); }},
+    {"autopilot", "px4",
+     [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::autopilot_names, v.options.autopilot); }},
+    {"motion", "flight", [](ScenarioVehicle& v, Text t) { return put_choice(t, sim::motion_names, v.options.motion); }},
+    {"system", "", set_system},
+    {"count", "1", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 1, 254), v.count); }},
+    {"home", "", [](ScenarioVehicle& v, Text t) { return put(parse_home(t), v.options.home); }},
+    {"wind", "0,0", [](ScenarioVehicle& v, Text t) { return put(parse_wind(t), v.options.wind); }},
+    {"battery", "capacity:5000,cells:4,minutes:20,start:100",
+     [](ScenarioVehicle& v, Text t) { return put(parse_battery(t), v.options.battery); }},
+    {"gimbal", "false", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_gimbal); }},
+    {"traffic", "0",
+     [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, most_traffic), v.options.traffic); }},
+    {"logs", "2", [](ScenarioVehicle& v, Text t) { return put(parse_integer(t, 0, most_logs), v.options.logs); }},
+    {"noise", "true", [](ScenarioVehicle& v, Text t) { return put(parse_bool(t), v.options.has_noise); }},
+    {"ready_after", "2.5s", set_ready_after},
+    {"parameters", "", [](ScenarioVehicle& v, Text t) { return put(parse_pairs(t), v.parameters); }},
+}};
+
+}  // namespace
+
+std::span<const Key<Scenario>> sim_keys() noexcept { return all_sim_keys; }
+std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehicle_keys; }
+
+SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {
+    const auto infos = sim::stream_infos();
+    std::vector<std::string_view> names;
+    for (const sim::StreamInfo& info : infos) names.push_back(info.name);
+    const auto info = std::ranges::find(infos, message, &sim::StreamInfo::name);
+    if (info == infos.end())
+        return endpoint::usage(
+            fmt::format("vehicles stream no message {}{}", in_quotes(message), did_you_mean(message, names)));
+    const auto rate = parse_number(hz, {0, sim::fastest_stream_hz});
+    if (!rate) return tl::unexpected(SetupError(rate.error()).within(message));
+    rates.push_back({info->message, *rate});
+    return {};
+}
+
+}  // namespace mavloom::simserve

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "mavloom/simserve/simulator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "mavloom/control/post_box.hpp"
+#include "mavloom/link/flush.hpp"
+#include "simserve/connections.hpp"
+#include "simserve/fleet.hpp"
+#include "simserve/flight_clock.hpp"
+#include "simserve/link_sink.hpp"
+#include "simserve/shared_memory.hpp"
+
+namespace mavloom::simserve {
+
+using namespace std::chrono_literals;
+
+static constexpr Nanoseconds look_interval = 1s, page_interval = 250ms;
+
+Simulator::Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,
+                     std::unique_ptr<link::Links> links)
+    : dialect_(dialect),
+      options_(options),
+      notice_(std::move(notice)),
+      links_(std::move(links)),
+      posted_(std::make_unique<control::PostBox>()),
+      clock_(std::make_unique<FlightClock>(options.speed)),
+      shared_(std::make_unique<SharedMemory>()),
+      sink_(std::make_unique<LinkSink>(*links_, *shared_)),
+      fleet_(std::make_unique<Fleet>(*sink_)),
+      connections_(std::make_unique<Connections>(
+          Connections::Parts{dialect_, *links_, *clock_, *shared_, *fleet_, options_, notice_})) {}
+
+Simulator::~Simulator() { shared_->close(); }  // stops the thread that may call post()
+
+SetupResult<std::unique_ptr<Simulator>> Simulator::create(const dialect::Dialect& dialect,
+                                                          const SimulatorOptions& options, Notice notice) {
+    auto links = link::Links::create(dialect);
+    if (!links) return tl::unexpected(std::move(links.error()));
+    return std::unique_ptr<Simulator>(new Simulator(dialect, options, std::move(notice), std::move(*links)));
+}
+
+SetupResult<void> Simulator::open_ring(const config::RingConfig& config) {
+    auto opened = shared_->open_ring(config, [this] { post([this] { look_after(mono_now()); }); });
+    if (opened) links_->count_from(shared_->ring_link());
+    return opened;
+}
+
+SetupResult<void> Simulator::open_inlet(const config::RingConfig& config, const std::filesystem::path& socket) {
+    return connections_->open_inlet(config, socket);
+}
+
+SetupResult<void> Simulator::open_page(const std::string& name) { return shared_->open_page(name); }
+
+SetupResult<void> Simulator::add(const sim::VehicleOptions& options, Parameters parameters) {
+    sim::VehicleOptions dated = options;
+    if (dated.utc_at_start == WallTime{}) dated.utc_at_start = wall_now();
+    if (auto added = fleet_->add(dated, clock_->at(mono_now())); !added) return added;
+    sim::Vehicle& vehicle = *fleet_->find(options.system);
+    for (const auto& [name, value] : parameters)
+        if (auto set = vehicle.set_parameter(name, value); !set) return set;
+    return {};
+}
+
+SetupResult<void> Simulator::add(const SimEndpoint& endpoint) { return connections_->add(endpoint); }
+
+bool Simulator::remove(std::string_view label) { return connections_->remove(label); }
+
+// ---- turns ----------------------------------------------------------------------------------------------------------
+
+void Simulator::turn(MonoTime deadline) {
+    if (!clock_->has_started()) {
+        clock_->start(mono_now());
+        connections_->open_ring_link();
+    }
+    deadline = std::min({deadline, clock_->when(fleet_->next_due()), connections_->rings_due(), look_due_});
+    links_->turn(*connections_, posted_->empty() ? deadline : MonoTime{});
+    connections_->play_rings();
+    const MonoTime now = mono_now();
+    fleet_->advance(clock_->at(now));
+    if (!posted_->empty()) posted_->run_one();  // one a turn, because reports take long and frames go first
+    if (now >= page_due_) refresh_page(now);
+    if (now >= look_due_) look_after(now);
+}
+
+void Simulator::finish(Nanoseconds limit) {
+    link::flush(*links_, *connections_, limit);
+    while (!posted_->empty()) posted_->run_one();
+    connections_->close_inlet();
+    shared_->close();
+}
+
+void Simulator::look_after(MonoTime now) {
+    look_due_ = now + look_interval;
+    connections_->refill_lines();
+    for (const auto& text : shared_->look_after(*links_)) notice_(config::LogLevel::warning, text);
+}
+
+void Simulator::refresh_page(MonoTime now) {
+    page_due_ = now + page_interval;
+    const SimulatorTotals all = totals();
+    const std::array<ring::OwnCount, 5> counts{{{"vehicles", fleet_->size(), shm::CounterType::gauge},
+                                                {"frames_sent", all.frames_sent},
+                                                {"bytes_sent", all.bytes_sent},
+                                                {"gaps", all.gaps},
+                                                {"frames_received", all.frames_received}}};
+    shared_->refresh_page(*links_, connections_->inlet(), counts);
+}
+
+void Simulator::post(std::function<void()> work) {
+    posted_->post(std::move(work));
+    wake();
+}
+
+void Simulator::drop_posted() { posted_->drop(); }
+
+// ---- reports and requests -------------------------------------------------------------------------------------------
+
+std::vector<sim::Vehicle*> Simulator::vehicles() const {
+    std::vector<sim::Vehicle*> all;
+    fleet_->each([&](sim::Vehicle& vehicle) { all.push_back(&vehicle); });
+    return all;
+}
+
+SetupResult<void> Simulator::give(sim::Vehicle& vehicle, const Order& order) {
+    const sim::Moment now = clock_->at(mono_now());
+    vehicle.advance(now);
+    auto done = order(vehicle);
+    fleet_->reschedule(vehicle, now);
+    return done;
+}
+
+std::vector<LinkReport> Simulator::reports() const { return connections_->reports(); }
+
+SimulatorTotals Simulator::totals() const {
+    SimulatorTotals all{.frames_sent = sink_->frames(),
+                        .bytes_sent = sink_->bytes(),
+                        .frames_received = connections_->frames_received()};
+    const auto add_gaps = [&](const link::LinkCounters& counters) {
+        all.gaps += counters.queue_bytes.value() + counters.queue_age.value() + counters.frames_not_sent.value();
+    };
+    for (const auto& link : links_->links()) add_gaps(*link.counters);
+    for (const auto& endpoint : links_->endpoints()) add_gaps(endpoint.counters->gone);
+    return all;
+}
+
+}  // namespace mavloom::simserve

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "simserve/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "mavloom/base/shown.hpp"
+#include "mavloom/base/suggest.hpp"
+#include "mavloom/dialect/terms.hpp"
+
+namespace mavloom::simserve {
+
+namespace {
+
+tl::unexpected<SetupError> usage(std::string text) { return setup_error(SetupCode::usage, std::move(text)); }
+
+constexpr Range latitude{-90, 90}, longitude{-180, 180}, altitude{-500, 20'000}, heading{0, 360}, speed{0, 60};
+
+SetupResult<std::vector<double>> parse_list(std::string_view text, std::span<const Range> ranges,
+                                            std::span<const std::string_view> names) {
+    std::vector<double> values;
+    const auto add = [&](std::string_view part) -> SetupResult<void> {
+        if (values.size() == ranges.size()) return usage(fmt::format("{} is one value too many", in_quotes(part)));
+        const auto value = parse_number(part, ranges[values.size()]);
+        if (!value) return tl::unexpected(SetupError(value.error()).within(names[values.size()]));
+        values.push_back(*value);
+        return {};
+    };
+    if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
+    return values;
+}
+
+constexpr std::array<std::string_view, 4> battery_keys{"capacity", "cells", "minutes", "start"};
+constexpr std::array battery_ranges{Range{100, 1'000'000}, Range{1, 14}, Range{0.1, 10'000}, Range{1, 100}};
+
+}  // namespace
+
+SetupResult<double> parse_number(std::string_view text, Range range) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !(value >= range.least && value <= range.most))
+        return usage(fmt::format("{} is not a number from {} to {}", in_quotes(text), range.least, range.most));
+    return value;
+}
+
+SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices) {
+    const auto choice = std::ranges::find(choices, text);
+    if (choice == choices.end())
+        return usage(
+            fmt::format("{} is none of {}{}", in_quotes(text), fmt::join(choices, ", "), did_you_mean(text, choices)));
+    return static_cast<std::size_t>(choice - choices.begin());
+}
+
+SetupResult<sim::Home> parse_home(std::string_view text) {
+    static constexpr std::array ranges{latitude, longitude, altitude, heading};
+    static constexpr std::array<std::string_view, 4> names{"latitude", "longitude", "altitude", "heading"};
+    const auto values = parse_list(text, ranges, names);
+    if (!values) return tl::unexpected(values.error());
+    if (values->size() < 3)
+        return usage(fmt::format("{} is not LAT,LON,ALT,HEADING, as in 47.397742,8.545594,489.4,90", in_quotes(text)));
+    const auto& v = *values;
+    return sim::Home{v[0], v[1], v[2], v.size() > 3 ? std::fmod(v[3], 360) : 0};
+}
+
+SetupResult<sim::Wind> parse_wind(std::string_view text) {
+    static constexpr std::array ranges{speed, heading, speed};
+    static constexpr std::array<std::string_view, 3> names{"speed", "direction", "gust"};
+    const auto values = parse_list(text, ranges, names);
+    if (!values) return tl::unexpected(values.error());
+    if (values->size() < 2)
+        return usage(fmt::format("{} is not SPEED,DIR: m/s, and the degrees that the wind comes from, as in 5,270",
+                                 in_quotes(text)));
+    const auto& v = *values;
+    return sim::Wind{v[0], std::fmod(v[1] + 180, 360), v.size() > 2 ? v[2] : 0};
+}
+
+SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text) {
+    std::vector<std::pair<std::string, double>> pairs;
+    const auto add = [&](std::string_view term) -> SetupResult<void> {
+        const auto colon = term.find(':');
+        if (colon == std::string_view::npos || colon == 0)
+            return usage(fmt::format("{} is not NAME:VALUE", in_quotes(term)));
+        constexpr double most = 3.4e38;  // of a parameter, which is a 32-bit float
+        const auto value = parse_number(term.substr(colon + 1), {-most, most});
+        if (!value) return tl::unexpected(SetupError(value.error()).within(shown(term.substr(0, colon))));
+        pairs.emplace_back(term.substr(0, colon), *value);
+        return {};
+    };
+    if (auto done = dialect::for_each_term(text, add); !done) return tl::unexpected(std::move(done.error()));
+    return pairs;
+}
+
+SetupResult<sim::BatteryOptions> parse_battery(std::string_view text) {
+    const auto pairs = parse_pairs(text);
+    if (!pairs) return tl::unexpected(pairs.error());
+    sim::BatteryOptions battery;
+    for (const auto& [name, value] : *pairs) {
+        const auto index = parse_choice(name, battery_keys);
+        if (!index) return tl::unexpected(index.error());
+        const Range range = battery_ranges[*index];
+        if (value < range.least || value > range.most)
+            return usage(fmt::format("{}: {} is not a number from {} to {}", name, value, range.least, range.most));
+        if (*index == 0) battery.capacity_mah = value;
+        if (*index == 1) battery.cells = static_cast<std::uint8_t>(value);
+        if (*index == 2) battery.hover_minutes = value;
+        if (*index == 3) battery.start_percent = value;
+    }
+    return battery;
+}
+
+}  // namespace mavloom::simserve

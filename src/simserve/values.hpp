@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Parses the values of scenario keys. Private to module simserve; pure functions. Errors are `usage`.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/result.hpp"
+#include "mavloom/sim/options.hpp"
+
+namespace mavloom::simserve {
+
+struct Range {
+    double least, most;
+};
+// A finite number within the range.
+[[nodiscard]] SetupResult<double> parse_number(std::string_view text, Range range);
+// The index of a word in a list.
+[[nodiscard]] SetupResult<std::size_t> parse_choice(std::string_view text, std::span<const std::string_view> choices);
+
+// "LAT,LON,ALT,HEADING" in degrees and metres above mean sea level.
+[[nodiscard]] SetupResult<sim::Home> parse_home(std::string_view text);
+// "SPEED,DIR" or "SPEED,DIR,GUST": metres a second, and the direction that the wind comes from, in degrees.
+[[nodiscard]] SetupResult<sim::Wind> parse_wind(std::string_view text);
+// "capacity:5000,cells:4,minutes:20,start:100"; each part may be left out.
+[[nodiscard]] SetupResult<sim::BatteryOptions> parse_battery(std::string_view text);
+// "NAME:VALUE,NAME:VALUE".
+[[nodiscard]] SetupResult<std::vector<std::pair<std::string, double>>> parse_pairs(std::string_view text);
+
+}  // namespace mavloom::simserve

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Scenarios as values: places, ids, seeds, precedence. tests/system/test_sim.py has the errors.
+#include "mavloom/simserve/scenario.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "simserve/values.hpp"
+
+namespace mavloom::simserve {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Scenario read(std::string_view text, const config::Environment& environment = {}, std::vector<Override> overrides = {}) {
+    const auto document = config::parse_document(text, "x.toml");
+    EXPECT_TRUE(document) << document.error().text;
+    auto scenario = read_scenario(*document, environment, overrides);
+    EXPECT_TRUE(scenario) << scenario.error().text;
+    return scenario ? std::move(*scenario) : Scenario{};
+}
+
+TEST(Scenario, WithoutAFileIsOneQuadOfPx4) {
+    const auto sut = read("");
+
+    ASSERT_EQ(sut.vehicles.size(), 1u);
+    const auto& o = sut.vehicles[0].options;
+    EXPECT_EQ(o.kind, sim::Kind::quad);
+    EXPECT_EQ(o.autopilot, sim::Autopilot::px4);
+    EXPECT_EQ(o.system, SystemId{1});
+    EXPECT_DOUBLE_EQ(o.home.latitude_deg, 47.397742);
+    EXPECT_EQ(o.ready_after, 2500ms);
+    EXPECT_EQ(sut.control_name(), "sim");
+}
+
+TEST(Scenario, OptionsComeBeforeTheEnvironmentAndThatBeforeTheFile) {
+    const std::string_view file = "[sim]\nseed = 1\nspeed = 2\nfor = \"3s\"\n[[vehicle]]\nkind = \"plane\"\n";
+    const auto sut = read(file, {{"MAVLOOM_SIM_SPEED", "4"}, {"MAVLOOM_SIM_FOR", "5s"}},
+                          {{"--for", "sim", "for", "6s"}, {"--vehicle", "vehicle", "kind", "rover"}});
+
+    EXPECT_EQ(sut.seed, 1u);
+    EXPECT_EQ(sut.speed, 4);
+    EXPECT_EQ(sut.duration, 6s);
+    EXPECT_EQ(sut.vehicles[0].options.kind, sim::Kind::rover);
+}
+
+TEST(Scenario, IdsCountUpAcrossVehicles) {
+    const auto sut = read("[[vehicle]]\ncount = 2\n[[vehicle]]\nsystem = 40\n[[vehicle]]\n");
+    std::vector<int> systems;
+    for (const auto& vehicle : sut.each_vehicle()) systems.push_back(vehicle.options.system.value);
+
+    EXPECT_THAT(systems, ElementsAre(1, 2, 40, 41));
+}
+
+// The grid is of 5 m, north and east of home, and vehicles without a home of their own share one.
+TEST(Scenario, VehiclesStandApart) {
+    const auto sut = read("[[vehicle]]\ncount = 3\n[[vehicle]]\n[[vehicle]]\nhome = [60, 10, 5, 0]\ncount = 2\n");
+    const auto all = sut.each_vehicle();
+    ASSERT_EQ(all.size(), 6u);
+    const auto metres = [&](std::size_t a, std::size_t b) {
+        const auto &p = all[a].options.home, &q = all[b].options.home;
+        constexpr double degree_m = 6'371'000 * 3.14159265358979 / 180;
+        const double north = (p.latitude_deg - q.latitude_deg) * degree_m;
+        const double east = (p.longitude_deg - q.longitude_deg) * degree_m * std::cos(p.latitude_deg / 57.29577951);
+        return std::hypot(north, east);
+    };
+
+    for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < a; ++b) EXPECT_GE(metres(a, b), 4.99) << a << " " << b;
+    EXPECT_NEAR(metres(0, 1), 5, 0.01);
+    EXPECT_NEAR(metres(4, 5), 5, 0.01);
+    EXPECT_DOUBLE_EQ(all[4].options.home.latitude_deg, 60);
+}
+
+TEST(Scenario, EachVehicleHasASeedOfItsOwn) {
+    const auto one = read("[sim]\nseed = 1\n[[vehicle]]\ncount = 2\n").each_vehicle();
+    const auto again = read("[sim]\nseed = 1\n[[vehicle]]\ncount = 2\n").each_vehicle();
+    const auto two = read("[sim]\nseed = 2\n[[vehicle]]\ncount = 2\n").each_vehicle();
+
+    EXPECT_NE(one[0].options.seed, one[1].options.seed);
+    EXPECT_EQ(one[1].options.seed, again[1].options.seed);
+    EXPECT_NE(one[0].options.seed, two[0].options.seed);
+}
+
+TEST(Scenario, KnowsItselfFromARoutersConfiguration) {
+    EXPECT_TRUE(is_scenario(*config::parse_document("[sim]\n", "x")));
+    EXPECT_TRUE(is_scenario(*config::parse_document("[[vehicle]]\n", "x")));
+    EXPECT_FALSE(is_scenario(*config::parse_document("[router]\n[[endpoint]]\nurl = 'udpin://0.0.0.0:1'\n", "x")));
+}
+
+TEST(Scenario, ItsNameIsThatOfItsRing) {
+    EXPECT_EQ(read("[sim]\nring = \"fleet\"\n").control_name(), "fleet");
+    EXPECT_EQ(read("[sim]\nring = \"fleet\"\nname = \"other\"\n").control_name(), "other");
+}
+
+TEST(ScenarioValues, WindComesFromWhereItIsSaidTo) {
+    const auto wind = parse_wind("5,270,1.5");
+    ASSERT_TRUE(wind);
+    EXPECT_EQ(wind->speed_m_s, 5);
+    EXPECT_EQ(wind->direction_deg, 90);  // the air moves to the east
+    EXPECT_EQ(wind->gust_m_s, 1.5);
+}
+
+TEST(ScenarioValues, NumbersAreFiniteAndWhole) {
+    for (const auto text : {"", "1 ", " 1", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,2"})
+        EXPECT_FALSE(parse_number(text, {-1e9, 1e9})) << text;
+    EXPECT_EQ(parse_number("-1.5e3", {-1e9, 1e9}), -1500);
+    EXPECT_FALSE(parse_pairs("A:1,,B:2"));
+    EXPECT_FALSE(parse_pairs("A"));
+    EXPECT_FALSE(parse_pairs(":1"));
+    EXPECT_FALSE(parse_battery("cells:15"));
+    EXPECT_THAT(parse_battery("cells:15").error().text, HasSubstr("cells: 15 is not a number from 1 to 14"));
+}
+
+}  // namespace
+}  // namespace mavloom::simserve

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// The simulator on real sockets: allocations, and answers to control requests.
+#include "mavloom/simserve/simulator.hpp"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "mavloom/dialect/dialect.hpp"
+#include "mavloom/simserve/report.hpp"
+#include "support/count_allocations.hpp"
+
+namespace mavloom::simserve {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+// A bound UDP socket that nobody reads: the kernel drops what does not fit.
+class Receiver {
+public:
+    Receiver() {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        EXPECT_EQ(::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        socklen_t size = sizeof address;
+        ::getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+        port_ = ntohs(address.sin_port);
+    }
+    Receiver(const Receiver&) = delete;
+    Receiver& operator=(const Receiver&) = delete;
+    ~Receiver() { ::close(fd_); }
+    [[nodiscard]] int port() const { return port_; }
+
+private:
+    int fd_ = ::socket(AF_INET, SOCK_DGRAM, 0);
+    int port_ = 0;
+};
+
+struct SimulatorTest : testing::Test {
+    SimulatorTest() {
+        auto made = Simulator::create(dialect::default_dialect(), {.profile = sim::Profile::px4_normal},
+                                      [](config::LogLevel, std::string_view) {});
+        sut = std::move(*made);
+        EXPECT_TRUE(sut->add(sim::VehicleOptions{}));
+        EXPECT_TRUE(sut->add({*endpoint::parse_endpoint("udpout://127.0.0.1:" + std::to_string(receiver.port()))}));
+    }
+
+    void run(Nanoseconds time) {
+        for (const MonoTime end = mono_now() + time; mono_now() < end;) sut->turn(end);
+    }
+    [[nodiscard]] std::string answer(std::string_view request) const {
+        std::string text;
+        for (const auto& line : sut->answer(request)()) text += line + "\n";
+        return text;
+    }
+
+    Receiver receiver;
+    std::unique_ptr<Simulator> sut;
+};
+
+TEST_F(SimulatorTest, SendsWithoutAllocating) {
+    run(300ms);
+    const auto sent = sut->totals().frames_sent;
+    // Most turns do nothing but send; those that refresh pages and look after links may allocate.
+    std::size_t turns = 0, clean = 0;
+    for (const MonoTime end = mono_now() + 1s; mono_now() < end; ++turns) {
+        const std::size_t before = test::allocations;
+        sut->turn(end);
+        clean += test::allocations == before ? 1 : 0;
+    }
+
+    EXPECT_GT(sut->totals().frames_sent, sent + 100);
+    EXPECT_GE(clean + 12, turns);
+}
+
+TEST_F(SimulatorTest, AnswersRequests) {
+    run(50ms);
+    EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::StartsWith(R"({"kind":"vehicle","system":1,"type":"quad")"));
+    EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::EndsWith("{\"ok\":true}\n"));
+    EXPECT_THAT(answer(R"({"cmd":"streams"})"), HasSubstr(R"("name":"ATTITUDE","asked_hz":50.0)"));
+    EXPECT_THAT(sut->metrics()(), HasSubstr("mavloom_sim_frames_sent_total{}"));
+}
+
+TEST_F(SimulatorTest, BadRequestsAreAnswered) {
+    for (const auto request : {"", "{", "[]", "1", "null", R"({"cmd":1})", R"({"cmd":"fly"})",
+                               R"({"cmd":"arm","system":"1"})", R"({"cmd":"arm","system":1e99})",
+                               R"({"cmd":"takeoff","altitude":"high"})", R"({"cmd":"takeoff","altitude":1e400})",
+                               R"({"cmd":"mode","mode":"\u0000"})", R"({"cmd":"param","name":"","value":1})",
+                               R"({"cmd":"add","url":"udpin"})", R"({"cmd":"remove","name":"x"})"}) {
+        const auto lines = answer(request);
+        EXPECT_THAT(lines, testing::StartsWith(R"({"ok":false,"error":")")) << request;
+        EXPECT_EQ(std::ranges::count(lines, '\n'), 1) << request;
+    }
+}
+
+}  // namespace
+}  // namespace mavloom::simserve
