@@ -123,4 +123,11 @@ SetupResult<void> File::sync_and_close() {
     return {};
 }
 
+bool File::is_named() const noexcept {
+    struct stat named {
+    }, mine{};
+    return ::stat(path_.c_str(), &named) == 0 && ::fstat(fd_, &mine) == 0 && named.st_dev == mine.st_dev &&
+           named.st_ino == mine.st_ino;
+}
+
 }  // namespace mavloom::record

@@ -80,6 +80,12 @@ void FrameQueue::publish() noexcept {
     signal_.notify_one();
 }
 
+void FrameQueue::wake() noexcept {
+    woken_.store(true, std::memory_order_seq_cst);
+    signal_.fetch_add(1, std::memory_order_release);
+    signal_.notify_one();
+}
+
 void FrameQueue::close() noexcept {
     closed_.store(true, std::memory_order_seq_cst);
     signal_.fetch_add(1, std::memory_order_release);
@@ -115,9 +121,10 @@ bool FrameQueue::wait() noexcept {
         sleeping_.store(true, std::memory_order_seq_cst);
         const bool closed = closed_.load(std::memory_order_seq_cst);
         const bool ready = tail_.position.load(std::memory_order_seq_cst) != head_.release_to;
-        if (!ready && !closed) signal_.wait(seen, std::memory_order_acquire);
+        const bool woken = woken_.exchange(false, std::memory_order_seq_cst);
+        if (!ready && !closed && !woken) signal_.wait(seen, std::memory_order_acquire);
         sleeping_.store(false, std::memory_order_relaxed);
-        if (ready) return true;
+        if (ready || (woken && !closed)) return true;
         if (closed) return false;
     }
 }

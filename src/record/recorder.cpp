@@ -38,7 +38,7 @@ void Recorder::stop() {
 // Flushes whenever the queue runs empty, so that other programs can follow the file.
 void Recorder::run() {
     while (queue_->wait()) {
-        SetupResult<void> worst;
+        SetupResult<void> worst = look_at_file();
         while (const auto entry = queue_->next())
             if (auto written = write(*entry); !written) worst = std::move(written);
         const auto flushed = writer_.flush();
@@ -51,6 +51,19 @@ void Recorder::run() {
     if (const auto lost = writer_.lost_records(); lost != 0)
         notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
     finished_.store(true, std::memory_order_release);
+}
+
+// Looks at most once in `look_interval`, because frames may arrive one at a time.
+SetupResult<void> Recorder::look_at_file() {
+    constexpr std::chrono::milliseconds look_interval{500};
+    const MonoTime now = mono_now();
+    if (now < look_due_) return {};
+    look_due_ = now + look_interval;
+    if (!writer_.is_removed()) return {};
+    const auto file = writer_.segment_path();
+    auto anew = writer_.begin_anew();
+    if (anew) notice_(fmt::format("{}: {} was removed or replaced; a new file begins", label_, file.string()));
+    return anew;
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {

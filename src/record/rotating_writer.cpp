@@ -74,17 +74,28 @@ fs::path RotatingWriter::free_name(WallTime time) const {
     return name;
 }
 
+SetupResult<void> RotatingWriter::end_segment() {
+    if (!writer_) return {};
+    auto closed = writer_->close();
+    before_.taken += writer_->records();
+    before_.written += writer_->written_records();
+    before_.bytes += writer_->written_bytes();
+    writer_.reset();
+    return closed;
+}
+
 SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
-    SetupResult<void> closed;
-    if (writer_) {
-        closed = writer_->close();
-        before_.taken += writer_->records();
-        before_.written += writer_->written_records();
-        before_.bytes += writer_->written_bytes();
-    }
+    auto closed = end_segment();
     writer_.emplace(std::move(next));
     ++segments_;
     return closed;
+}
+
+SetupResult<void> RotatingWriter::begin_anew() {
+    if (rotation_.rotates()) return end_segment();
+    auto next = TlogWriter::create(path_);
+    if (!next) return tl::unexpected(std::move(next.error()));
+    return go_on_in(std::move(*next));
 }
 
 // If the disk has no room for the buffered records of the open segment, a new segment would not help: the open segment

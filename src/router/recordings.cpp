@@ -61,6 +61,7 @@ std::vector<endpoint::Endpoint> Recordings::endpoints() const {
 }
 
 void Recordings::look_after() {
+    for (const auto& open : open_) open.recorder->look_after();
     std::erase_if(ending_, [](const auto& recorder) { return recorder->finished(); });
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What protects the program and the Python module from errors in memory, read from the ELF files of a release build."""
+"""How the program and the Python module are protected from errors in memory: read from the ELF files of a release
+build."""
 import re
 import subprocess
 

@@ -3,6 +3,7 @@
 units."""
 import subprocess
 import time
+import urllib.request
 
 import harness
 import pytest
@@ -131,3 +132,27 @@ def test_silent_clients_turn_nobody_away(spawn):
     for client in silent:
         client.close()
     assert router.stats("endpoint")[0]["peers_evicted"] == 1
+
+
+def test_invented_ids_do_not_grow_the_metrics(spawn):
+    """One scrape after invented ids was 216 MB."""
+    from prometheus_client.parser import text_string_to_metric_families
+    port, metrics = routers.udp_port(), routers.tcp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{port}", "--metrics", f"127.0.0.1:{metrics}")
+    with UdpEnd(("127.0.0.1", port)) as attacker, UdpEnd(("127.0.0.1", port)) as vehicle:
+        ids = [(system, component) for system in range(2, 26) for component in range(1, 101)]
+        for begin in range(0, len(ids), 40):
+            attacker.send(b"".join(heartbeat(source) for source in ids[begin:begin + 40]))
+        for _ in range(3):
+            vehicle.send(heartbeat(VEHICLE))
+        harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == len(ids) + 3, what="all frames")
+        text = urllib.request.urlopen(f"http://127.0.0.1:{metrics}/metrics").read().decode()
+    samples = [sample for family in text_string_to_metric_families(text) for sample in family.samples]
+    by_source = [s for s in samples if s.name == "mavloom_source_frames_total"]
+    by_message = [s for s in samples if s.name == "mavloom_message_frames_total"]
+
+    assert len(by_source) <= 256 + 2 and len(by_message) <= 1024 + 2  # and what is left of each link
+    for all_of in (by_source, by_message):
+        assert sum(s.value for s in all_of) == len(ids) + 3
+        assert [s.value for s in all_of if s.labels["sys"] == "1"] == [3]  # the busiest is listed
+    assert any(s.labels["message"] == "other" for s in by_message)

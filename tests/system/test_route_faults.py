@@ -437,6 +437,40 @@ def test_a_rotated_recording_begins_no_files_on_a_full_disk(pair, tmp_path):
         assert order == sorted(set(order)) and len(list(tmp_path.glob("*.tlog"))) > len(files)
 
 
+def test_a_recording_finds_room_again_without_further_frames(pair, tmp_path):
+    disk = SmallDisk(tmp_path)
+    with contextlib.closing(disk):
+        path = tmp_path / "flight.tlog"
+        net = pair(f"tlog://{path}?name=tape")
+        tape = Tape(net)
+        harness.wait_for(lambda: tape.after_more()["write_error"] > 20, what="the disk to be full")
+        disk.free(net.process.pid)
+        net.process.wait_output("records are written again", stream="err")
+        harness.wait_for(lambda: (r := tape.counters())["frames"] + r["write_error"] == len(tape.sent),
+                         what="the records that waited")
+
+        assert len(frames.read_tlog(path)) == tape.counters()["frames"]
+
+
+@pytest.mark.parametrize("how", ["deleted", "replaced", "rotated"])
+def test_a_recording_whose_file_goes_begins_a_new_one(pair, tmp_path, how):
+    options = "&rotate_every=1h" if how == "rotated" else ""
+    net = pair(f"tlog://{tmp_path / 'flight.tlog'}?name=tape{options}")
+    tape = Tape(net)
+    harness.wait_for(lambda: tape.after_more()["frames"] > 0, what="records")
+    first, = tmp_path.glob("*.tlog")
+    first.unlink()
+    if how == "replaced":
+        first.write_bytes(b"")
+    net.process.wait_output(f"tape: {first} was removed or replaced; a new file begins", stream="err")
+    net.passes(last := routers.attitude())
+    harness.wait_for(lambda: any(last == frame for path in tmp_path.glob("*.tlog")
+                                 for _, frame in frames.read_tlog(path)), what="the frame in the new file")
+
+    assert (tmp_path / "flight.tlog.1").exists() == (how == "replaced")
+    assert tape.counters()["write_error"] == 0
+
+
 def test_a_file_that_can_grow_no_more_is_left_for_the_next_one(pair, tmp_path):
     net = pair(f"tlog://{tmp_path / 'flight.tlog'}?name=tape&rotate_every=1s")
     SmallLimit(tmp_path).fill(net.process.pid)

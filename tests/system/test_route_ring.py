@@ -754,7 +754,7 @@ def test_a_reader_survives_a_ring_that_is_shortened(tapped, spawn, reader):
 
 
 def test_a_readers_lock_does_not_keep_the_next_writer_out(tapped):
-    """Whoever may read the file may lock it for reading."""
+    """A process that may read the file may lock it for reading."""
     net = tapped()
     net.sent_by(net.vehicle, heartbeat())
     net.router.process.process.kill()
@@ -790,8 +790,9 @@ def test_a_name_that_another_user_took_keeps_no_router_down(ring, program, tmp_p
     tmp_path.chmod(0o777)
     for place in list(tmp_path.parents)[:3]:
         place.chmod(0o755)
-    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring, "--for", "2s",
-                           f"udpin://127.0.0.1:{routers.udp_port()}"], capture_output=True, text=True, timeout=60,
+    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring,
+                           "--for", "2s", f"udpin://127.0.0.1:{routers.udp_port()}"],
+                          capture_output=True, text=True, timeout=60,
                           env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
     left = shared(ring, what).stat().st_uid
     shared(ring, what).unlink()

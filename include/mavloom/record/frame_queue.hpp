@@ -39,12 +39,15 @@ public:
     [[nodiscard]] bool push(const Entry& entry) noexcept;
     // Writer: wakes a sleeping reader. Call it after each batch of `push`.
     void publish() noexcept;
+    // Writer: wakes a sleeping reader even if there is no entry, so that it can look after its file.
+    void wake() noexcept;
     // Writer: ends the queue. The reader still gets the remaining entries, then the end.
     void close() noexcept;
 
     // Reader: returns the next entry, or nothing if the queue is empty now.
     [[nodiscard]] std::optional<Entry> next() noexcept;
-    // Reader: sleeps until there is an entry to read, and returns true. Returns false if the queue is closed and empty.
+    // Reader: sleeps until there is an entry to read, or until `wake`, and returns true. Returns false if the queue is
+    // closed and empty.
     [[nodiscard]] bool wait() noexcept;
 
     [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
@@ -82,6 +85,7 @@ private:
     alignas(64) std::atomic<std::uint32_t> signal_{0};  // counts wake-ups; `wait` sleeps on it
     std::atomic<bool> sleeping_{false};
     std::atomic<bool> closed_{false};
+    std::atomic<bool> woken_{false};
 };
 
 }  // namespace mavloom::record

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "mavloom/base/clock.hpp"
 #include "mavloom/base/counter.hpp"
 #include "mavloom/record/frame_queue.hpp"
 #include "mavloom/record/rotating_writer.hpp"
@@ -28,7 +29,8 @@ struct RecorderCounters {
 class Recorder {
 public:
     static constexpr std::size_t default_buffer_bytes = 16u << 20;
-    // Called on the writing thread: once when writing fails, once when it resumes, and at the end if frames were lost.
+    // Called on the writing thread: once when writing fails, once when it resumes, when the file was removed, and at
+    // the end if frames were lost.
     using Notice = std::function<void(std::string_view)>;
 
     // Opens the file and starts the writing thread. Fails if the file cannot be written.
@@ -45,6 +47,9 @@ public:
     }
     // Wakes the writing thread if it sleeps. Call it after each batch of `record`.
     void publish() noexcept { queue_->publish(); }
+    // Call about once a second. The writing thread then retries what the disk had no room for, and begins a new file if
+    // another program removed or replaced the present one. Reports that through `Notice`.
+    void look_after() noexcept { queue_->wake(); }
     // Ends the recording without waiting for the disk. The writing thread writes the queued frames, closes the file and
     // then sets `finished`.
     void end() noexcept { queue_->close(); }
@@ -63,6 +68,7 @@ private:
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
     void count() noexcept;
     void tell(const SetupResult<void>& result);
+    [[nodiscard]] SetupResult<void> look_at_file();
 
     std::string label_;
     std::filesystem::path renamed_to_;
@@ -71,6 +77,7 @@ private:
     Notice notice_;
     RecorderCounters counters_;
     bool failing_ = false;
+    MonoTime look_due_{};
     std::atomic<bool> finished_{false};
     std::thread thread_;
 };

@@ -43,6 +43,11 @@ public:
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
+    // Returns true if another program removed, renamed or replaced the file that is written to.
+    [[nodiscard]] bool is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
+    // Closes the file, and begins a new one: at once, or, with rotation, with the next frame. After an error, the old
+    // file stays open.
+    [[nodiscard]] SetupResult<void> begin_anew();
     [[nodiscard]] SetupResult<void> close();
 
     // The path given to `create`.
@@ -65,6 +70,7 @@ private:
     // Flushes; returns true if the disk has no room for the buffered records.
     [[nodiscard]] bool is_disk_full();
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
+    [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
 

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] std::uint64_t written_records() const noexcept { return written_records_; }
     [[nodiscard]] std::uint64_t written_bytes() const noexcept { return written_; }
     [[nodiscard]] std::size_t buffered_bytes() const noexcept { return used_; }
+    // Returns whether the path still leads to the file that is written to.
+    [[nodiscard]] bool is_named() const noexcept { return file_.is_named(); }
     // False for a device or pipe.
     [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
 

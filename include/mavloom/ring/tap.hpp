@@ -26,8 +26,9 @@ namespace mavloom::ring {
 
 class RingTap {
 public:
-    // Creates the ring, or continues one whose writer was killed. Renames a file under its name that is damaged, no ring
-    // or of another user; the first look_after() reports that. Same errors as RingWriter::open. A thread of the tap
+    // Creates the ring, or continues one whose writer was killed. If the file under its name is damaged, no ring or of
+    // another user, renames it; the first look_after() reports that. Same errors as RingWriter::open. A thread of the
+    // tap
     // calls `ready` when look_after() has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
         const std::string& name, shm::RingOptions options, std::function<void()> ready = [] {});

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -233,9 +235,78 @@ Later<Lines> report_stats(Router& router) {
 
 namespace {
 
+// Senders choose their ids, so invented ids must not grow the report without limit. The busiest sources and messages
+// are listed, the rest are summed for each link.
+constexpr std::size_t most_sources = 256, most_messages = 1024;
+
+// Moves the `most` rows with the highest `count` to the front, in their present order. Returns how many those are.
+template <class Row, class Count>
+std::size_t put_busiest_first(std::vector<Row>& rows, std::size_t most, Count count) {
+    if (rows.size() <= most) return rows.size();
+    std::vector<std::uint64_t> counts(rows.size());
+    std::ranges::transform(rows, counts.begin(), count);
+    std::ranges::nth_element(counts, counts.begin() + static_cast<std::ptrdiff_t>(most), std::greater{});
+    const std::uint64_t limit = counts[most];
+    const auto rest = std::stable_partition(rows.begin(), rows.end(),
+                                            [&](const Row& row) { return count(row) > limit; });
+    return static_cast<std::size_t>(rest - rows.begin());
+}
+
 std::string source_labels(std::string_view link, Source source) {
     return fmt::format("{},sys=\"{}\",comp=\"{}\"", MetricsText::label("link", link), source.system.value,
                        source.component.value);
+}
+
+std::string other_labels(std::string_view link) {
+    return fmt::format("{},sys=\"other\",comp=\"other\"", MetricsText::label("link", link));
+}
+
+std::vector<NamedCount> metrics_of(const wire::SequenceStats& source) {
+    return {{"frames", source.received}, {"lost", source.lost}, {"late", source.late}};
+}
+
+void add_sources(MetricsText& metrics, const Snapshot& s) {
+    std::vector<std::pair<const link::Snapshot::OfLink*, const wire::SequenceStats*>> rows;
+    for (const auto& link : s.links)
+        for (const auto& source : link.sources) rows.emplace_back(&link, &source);
+    const auto listed = put_busiest_first(rows, most_sources, [](const auto& row) { return row.second->received; });
+    std::map<std::string_view, wire::SequenceStats> others;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& [link, source] = rows[i];
+        if (i < listed) {
+            metrics.add("source", metrics_of(*source), source_labels(link->name, source->source));
+            continue;
+        }
+        auto& other = others[link->name];
+        other.received += source->received;
+        other.lost += source->lost;
+        other.late += source->late;
+    }
+    for (const auto& [name, other] : others) metrics.add("source", metrics_of(other), other_labels(name));
+}
+
+void add_messages(MetricsText& metrics, const Snapshot& s) {
+    auto rows = observe::TrafficTable::sorted(s.messages);
+    std::erase_if(rows, [&](const auto& row) { return s.link(row.link) == nullptr; });
+    const auto listed = put_busiest_first(rows, most_messages, [](const auto& row) { return row.count; });
+    std::map<std::string_view, observe::TrafficRow> others;
+    const auto add = [&](const observe::TrafficRow& row, const std::string& labels, std::string_view name) {
+        metrics.add("message", std::vector<NamedCount>{{"frames", row.count}, {"bytes", row.bytes}},
+                    fmt::format("{},{}", labels, MetricsText::label("message", name)));
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& row = rows[i];
+        const std::string_view link = s.link(row.link)->name;
+        if (i >= listed) {
+            others[link].count += row.count;
+            others[link].bytes += row.bytes;
+            continue;
+        }
+        const auto* message = s.dialect->find(row.id);
+        add(row, source_labels(link, row.source),
+            message == nullptr ? fmt::format("{}", row.id.value) : std::string(message->name));
+    }
+    for (const auto& [name, other] : others) add(other, other_labels(name), "other");
 }
 
 std::string metrics_text(const Snapshot& s) {
@@ -245,22 +316,9 @@ std::string metrics_text(const Snapshot& s) {
         metrics.add("endpoint", endpoint.counts, MetricsText::label("endpoint", endpoint.label));
         metrics.add("gone", endpoint.gone, MetricsText::label("endpoint", endpoint.label));
     }
-    for (const auto& link : s.links) {
-        metrics.add("link", link.counts, MetricsText::label("link", link.name));
-        for (const auto& source : link.sources)
-            metrics.add(
-                "source",
-                std::vector<NamedCount>{{"frames", source.received}, {"lost", source.lost}, {"late", source.late}},
-                source_labels(link.name, source.source));
-    }
-    for (const auto& row : observe::TrafficTable::sorted(s.messages)) {
-        const auto* link = s.link(row.link);
-        if (link == nullptr) continue;
-        const auto* message = s.dialect->find(row.id);
-        const auto name = message == nullptr ? fmt::format("{}", row.id.value) : std::string(message->name);
-        metrics.add("message", std::vector<NamedCount>{{"frames", row.count}, {"bytes", row.bytes}},
-                    fmt::format("{},{}", source_labels(link->name, row.source), MetricsText::label("message", name)));
-    }
+    for (const auto& link : s.links) metrics.add("link", link.counts, MetricsText::label("link", link.name));
+    add_sources(metrics, s);
+    add_messages(metrics, s);
     for (const auto& recording : s.recordings)
         metrics.add("recording", recording.counts, MetricsText::label("endpoint", recording.label));
     return metrics.text();
