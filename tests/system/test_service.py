@@ -153,3 +153,11 @@ def test_the_user_of_the_unit_is_made(tmp_path):
 
     assert done.returncode == 0, done.stderr
     assert re.search(r"^mavloom:", (tmp_path / "etc" / "passwd").read_text(), re.MULTILINE)
+
+
+def test_the_package_allows_the_receive_buffer_that_endpoints_request():
+    """docs/guide/endpoints.md: rcvbuf is 32 MiB by default."""
+    settings = (SYSUSERS.parent / "mavloom.sysctl").read_text()
+    setting, = re.findall(r"^net\.core\.rmem_max = (\d+)$", settings, re.MULTILINE)
+
+    assert int(setting) == 32 << 20

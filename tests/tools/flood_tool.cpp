@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // An attacker for tests/system/test_hostile.py: sends heartbeats from invented addresses.
 //   flood_tool HOST PORT RATE SECONDS [IDS]
-// Every datagram is a HEARTBEAT from another address of 127.0.0.0/8, RATE a second. IDS is how many system and
+// Every datagram is a HEARTBEAT from another address of HOST's /8 network, RATE a second. IDS is how many system and
 // component ids it uses (default 1). Prints how many datagrams it sent. Works on loopback without privileges, because
-// all of 127.0.0.0/8 belongs to this machine.
+// all of 127.0.0.0/8 belongs to this machine. Another network needs `ip route add local 10.0.0.0/8 dev lo`.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -72,7 +72,7 @@ private:
     void renew(Datagram& datagram) {
         ++count_;
         in_pktinfo info{};
-        info.ipi_spec_dst.s_addr = htonl(0x7f010000u + count_ % 0x00fe0000u);
+        info.ipi_spec_dst.s_addr = htonl((ntohl(to_.sin_addr.s_addr) & 0xff000000u) + 0x00010000u + count_ % 0x00fe0000u);
         std::memcpy(CMSG_DATA(reinterpret_cast<cmsghdr*>(datagram.control.data())), &info, sizeof info);
         const unsigned id = count_ % ids_;
         msg::Heartbeat beat;
