@@ -95,8 +95,8 @@ def measure(rate):
     offered = int(flood.communicate()[0]) / (SECONDS + 1) if flood else 0
     router.terminate()
     router.wait()
-    in_order = sorted(delays.values())
-    p99 = in_order[int(0.99 * len(in_order))] if in_order else float("nan")
+    in_order = sorted(delays.values()) or [float("nan")]
+    p99 = in_order[int(0.99 * len(in_order))]
     print(f"| {rate:,} | {offered:,.0f} | {FRAMES_PER_S * SECONDS - len(delays)} | {statistics.median(in_order):.2f} | "
           f"{p99:.2f} | {in_order[-1]:.1f} | {max(answers):.2f} |", flush=True)
     return stats

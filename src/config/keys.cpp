@@ -82,11 +82,11 @@ SetupResult<void> set_full(Config& config, std::string_view text) {
 }
 
 // Without quotes TOML reads 600 as a decimal number and 0o600 as 384. Neither has a leading 0, which 0600 must have.
-SetupResult<void> set_mode(Config& config, std::string_view text) {
+SetupResult<void> put_mode(std::string_view text, auto& mode) {
     if (!text.starts_with('0'))
         return endpoint::usage(
             fmt::format("{} is not a file mode; for example, type \"0600\" or \"0640\", in quotes", in_quotes(text)));
-    return endpoint::put(endpoint::parse_mode(text), config.ring.mode);
+    return endpoint::put(endpoint::parse_mode(text), mode);
 }
 
 SetupResult<void> set_record_path(Config& config, std::string_view text) {
@@ -114,7 +114,8 @@ constexpr std::array keys{
     ConfigKey{"ring", "name", "", set_ring_name},
     ConfigKey{"ring", "capacity", "8MiB", set_capacity},
     ConfigKey{"ring", "full", "evict", set_full},
-    ConfigKey{"ring", "mode", "0600", set_mode},
+    ConfigKey{"ring", "mode", "0600", [](Config& c, std::string_view t) { return put_mode(t, c.ring.mode); }},
+    ConfigKey{"ring", "inlet_mode", "", [](Config& c, std::string_view t) { return put_mode(t, c.ring.inlet_mode); }},
     ConfigKey{"record", "path", "", set_record_path},
     ConfigKey{"record", "rotate_bytes", "",
               [](Config& c, std::string_view t) {

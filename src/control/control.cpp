@@ -155,11 +155,7 @@ tl::unexpected<SetupError> error_of(std::string_view what, const boost::system::
 class Control::Impl {
 public:
     explicit Impl(Served& served)
-        : served_(served),
-          reports_(served),
-          control_(context_, served),
-          metrics_(context_, reports_),
-          look_timer_(context_) {}
+        : served_(served), reports_(served), control_(context_, served), metrics_(context_, reports_) {}
     // Posted work keeps its session alive, and the session's socket needs the context. So drop the work first.
     ~Impl() {
         context_.stop();
@@ -177,11 +173,10 @@ public:
 
     void start() {
         if (!socket_.empty()) control_.accept();
-        if (!socket_.empty()) look_later();
         if (metrics_port() != 0) metrics_.accept();
         thread_ = thread_without_signals([this] {
             ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), niceness);  // of this thread only
-            context_.run();
+            run();
         });
     }
 
@@ -201,18 +196,17 @@ private:
         return {};
     }
 
-    void look_later() {
-        look_timer_.expires_after(look_interval);
-        look_timer_.async_wait([this](error_code error) {
-            if (error) return;
-            look_at_socket();
-            look_later();
-        });
+    // Looks at the socket between two rounds. The context stops at the end, or if there is nothing to serve.
+    void run() {
+        while (!context_.stopped()) {
+            context_.run_for(look_interval);
+            if (!socket_.empty() && !context_.stopped()) look_at_socket();
+        }
     }
 
     // Another program may have removed the socket or its folder.
     void look_at_socket() {
-        if (inode_of(socket_) != 0) return;
+        if (::faccessat(AT_FDCWD, socket_.c_str(), F_OK, AT_SYMLINK_NOFOLLOW) == 0 || errno != ENOENT) return;
         ::mkdir(socket_.parent_path().c_str(), 0755);
         control_.close();
         const auto anew = open_socket(socket_);
@@ -266,7 +260,6 @@ private:
     std::filesystem::path socket_;
     // Identifies our own socket. Another program may have removed it, and another router created a new one.
     ino_t inode_ = 0;
-    asio::steady_timer look_timer_;
     std::function<void(std::string_view)> on_notice_;
     bool reported_ = false;  // that the socket is gone and cannot be created
     std::thread thread_;

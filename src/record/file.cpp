@@ -124,10 +124,11 @@ SetupResult<void> File::sync_and_close() {
 }
 
 bool File::is_named() const noexcept {
-    struct stat named {
+    struct statx named {
     }, mine{};
-    return ::stat(path_.c_str(), &named) == 0 && ::fstat(fd_, &mine) == 0 && named.st_dev == mine.st_dev &&
-           named.st_ino == mine.st_ino;
+    return ::statx(AT_FDCWD, path_.c_str(), 0, STATX_INO, &named) == 0 &&
+           ::statx(fd_, "", AT_EMPTY_PATH, STATX_INO, &mine) == 0 && named.stx_ino == mine.stx_ino &&
+           named.stx_dev_major == mine.stx_dev_major && named.stx_dev_minor == mine.stx_dev_minor;
 }
 
 }  // namespace mavloom::record

@@ -32,7 +32,7 @@ SetupResult<void> RoutedEndpoints::add(const endpoint::Endpoint& endpoint) {
 }
 
 SetupResult<void> RoutedEndpoints::add_inlet(const config::RingConfig& config, const std::filesystem::path& socket) {
-    const auto id = links_.add_inlet(config.name, socket, config.mode & 0666u);
+    const auto id = links_.add_inlet(config.name, socket, config.inlet_mode.value_or(config.mode) & 0666u);
     if (!id) return tl::unexpected(id.error());
     endpoint::Endpoint endpoint;
     endpoint.scheme = endpoint::Scheme::shm;

@@ -753,6 +753,15 @@ def test_a_reader_survives_a_ring_that_is_shortened(tapped, spawn, reader):
     assert sut.alive or (reader == "shm read" and sut.wait().status == 3)  # it opened the file before it was replaced
 
 
+def test_a_group_that_may_send_need_not_write_the_ring(tapped, tmp_path):
+    file = tmp_path / "r.toml"
+    file.write_text('[ring]\nmode = "0640"\ninlet_mode = "0660"\n')
+    net = tapped("--config", str(file))
+
+    assert shared(net.ring).stat().st_mode & 0o777 == 0o640
+    assert os.stat(net.inlet).st_mode & 0o777 == 0o660
+
+
 def test_a_readers_lock_does_not_keep_the_next_writer_out(tapped):
     """A process that may read the file may lock it for reading."""
     net = tapped()

@@ -48,6 +48,7 @@ struct RingConfig {
     std::uint64_t capacity_bytes = 0;
     WhenFull full = WhenFull::evict;  // never `wait`: routing must not block
     std::uint16_t mode = 0;
+    std::optional<std::uint16_t> inlet_mode;  // empty: as `mode`
     friend bool operator==(const RingConfig&, const RingConfig&) = default;
 };
 

@@ -45,6 +45,7 @@ TEST(Config, AnEmptyFileGivesTheDefaults) {
     EXPECT_EQ(config.ring.capacity_bytes, 8388608u);
     EXPECT_EQ(config.ring.full, WhenFull::evict);
     EXPECT_EQ(config.ring.mode, 0600);
+    EXPECT_EQ(config.ring.inlet_mode, std::nullopt);
     EXPECT_EQ(config.log_level, LogLevel::info);
     EXPECT_EQ(config.web.listen, (endpoint::HostPort{"127.0.0.1", 8088}));
     EXPECT_TRUE(config.endpoints.empty());
@@ -85,6 +86,7 @@ ring = "main"
 name = "main"
 capacity = "1M"
 mode = "0640"
+inlet_mode = "0660"
 [record]
 path = "flight.tlog"
 rotate_bytes = 100000000
@@ -116,6 +118,7 @@ TEST(Config, TakesEveryKey) {
     EXPECT_EQ(config.ring.name, "main");
     EXPECT_EQ(config.ring.capacity_bytes, 1048576u);
     EXPECT_EQ(config.ring.mode, 0640);
+    EXPECT_EQ(config.ring.inlet_mode, 0660);
     EXPECT_EQ(config.record.path, "flight.tlog");
     EXPECT_EQ(config.record.rotate_bytes, 100000000u);
     EXPECT_EQ(config.log_level, LogLevel::debug);
