@@ -338,8 +338,7 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
     if (options.own == target) return Verdict::consumed;
     const bool floods = options.unknown_target == UnknownTarget::flood;
     // A route that only unverified links taught does not keep a frame from verified links.
-    if (floods && p.link.policy.is_verified &&
-        !intersect(routes_.links_of(target.system), verified_.data(), words_))
+    if (floods && p.link.policy.is_verified && !intersect(routes_.links_of(target.system), verified_.data(), words_))
         return to_everybody();
     if (!choose_links_of(target)) {
         const bool is_known_system = any(routes_.links_of(target.system), words_);

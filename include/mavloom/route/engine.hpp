@@ -122,11 +122,11 @@ struct EngineCounters {
     Counter unknown_link;
     Counter routes_learned;  // new, or learned again after they were forgotten
     Counter routes_expired;
-    Counter routes_evicted;  // the stalest route of a full link; if the table is full, of the link with most routes
-    Counter recent_evicted;  // remembered frames evicted too early, so that their echoes go undetected
-    Counter reboots;         // restarts of a system, see note_reboot
+    Counter routes_evicted;   // the stalest route of a full link; if the table is full, of the link with most routes
+    Counter recent_evicted;   // remembered frames evicted too early, so that their echoes go undetected
+    Counter reboots;          // restarts of a system, see note_reboot
     Counter route_conflicts;  // vehicles learned on a link while they were alive on another
-    Counter duplicate_ids;   // sources heard alternately on links that do not share a group
+    Counter duplicate_ids;    // sources heard alternately on links that do not share a group
 };
 
 struct RouteInfo {

@@ -2,11 +2,11 @@
 // tcpin: listens on a TCP port. Each client is its own link.
 #include <fmt/format.h>
 
+#include "link/admission.hpp"
 #include "link/listening.hpp"
 #include "link/peer_list.hpp"
 #include "link/retry.hpp"
 #include "link/tcp/tcp.hpp"
-#include "link/admission.hpp"
 #include "mavloom/endpoint/checks.hpp"
 
 namespace mavloom::link::detail {

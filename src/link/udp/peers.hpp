@@ -6,8 +6,8 @@
 
 #include <string_view>
 
-#include "link/peer_list.hpp"
 #include "link/admission.hpp"
+#include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
 
 namespace mavloom::link::detail {

@@ -51,7 +51,7 @@ private:
     static constexpr std::chrono::seconds refusal_holds{1};
     static constexpr std::chrono::milliseconds confirmed_after{500};
     static constexpr std::int64_t answers_per_byte = 3;  // to a peer that has not confirmed its address, as in QUIC
-    bool listens_ = false;  // the peer was heard, and has not refused anything since
+    bool listens_ = false;                               // the peer was heard, and has not refused anything since
     MonoTime refuses_until_{};
     std::uint32_t unsettled_frames_ = 0, unsettled_bytes_ = 0;
 };

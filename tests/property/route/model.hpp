@@ -197,9 +197,8 @@ private:
     // On a verified link, copies that unverified links brought do not count.
     [[nodiscard]] bool may_count(const Recent& r, const Link& link) const {
         if (!link.policy.is_verified || r.heard.empty()) return true;
-        return std::ranges::any_of(r.heard, [&](std::uint32_t id) {
-            return id != gone && links_.at(id).policy.is_verified;
-        });
+        return std::ranges::any_of(r.heard,
+                                   [&](std::uint32_t id) { return id != gone && links_.at(id).policy.is_verified; });
     }
 
     Verdict decide_unless_private(std::uint32_t ingress, const wire::FrameView& frame, Why& why,
@@ -255,7 +254,8 @@ private:
         const auto same = [&](const Heard& h) {
             return h.link == ingress && h.system == system && h.component == component;
         };
-        if (std::none_of(heard_.begin(), heard_.end(), same)) heard_.push_back({ingress, system, component, now_, now_});
+        if (std::none_of(heard_.begin(), heard_.end(), same))
+            heard_.push_back({ingress, system, component, now_, now_});
         Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
         if (!heard.known) heard.since = now_;
         heard.known = true;

@@ -291,8 +291,8 @@ TEST(Forwarder, AVehicleThatIsLearnedOnASecondLinkIsToldOnceByTheNamesOfTheLinks
     }
 
     EXPECT_THAT(router.sut.look_after(),
-                testing::Contains(AllOf(HasSubstr("system 1 is alive on one and was learned on two too"),
-                                        HasSubstr("learn=first"))));
+                testing::Contains(
+                    AllOf(HasSubstr("system 1 is alive on one and was learned on two too"), HasSubstr("learn=first"))));
     EXPECT_THAT(router.sut.look_after(), IsEmpty());
 }
 
