@@ -2,7 +2,6 @@
 #include "sim/command/requests.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "mavloom/msg/autopilot_version.hpp"
 #include "mavloom/msg/available_modes.hpp"
@@ -27,7 +26,7 @@ using namespace msg;
 // The text without its terminator if it fills the field.
 template <std::size_t Size>
 void copy_text(std::string_view text, std::array<char, Size>& field) noexcept {
-    std::memcpy(field.data(), text.data(), std::min(text.size(), Size));
+    std::ranges::copy(text.substr(0, Size), field.begin());
 }
 
 Result send_autopilot_version(Parts& parts, LinkId link, double /*index*/) {
