@@ -2,6 +2,7 @@
 #include "sim/command/requests.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mavloom/msg/autopilot_version.hpp"
 #include "mavloom/msg/available_modes.hpp"
@@ -66,7 +67,7 @@ void send_mode(Parts& parts, LinkId link, const ModeInfo& mode, std::uint8_t num
 Result send_available_modes(Parts& parts, LinkId link, double index) {
     const auto modes = parts.firmware.modes();
     const auto count = static_cast<std::uint8_t>(std::ranges::count_if(modes, &ModeInfo::is_listed));
-    if (!(index >= 0 && index <= count)) return Result::denied;
+    if (!(index >= 0 && index <= count) || index != std::floor(index)) return Result::denied;
     std::uint8_t number = 0;
     for (const ModeInfo& mode : modes) {
         if (!mode.is_listed) continue;
