@@ -15,6 +15,7 @@
 #include "mavloom/msg/link_node_status.hpp"
 #include "mavloom/msg/ping.hpp"
 #include "mavloom/msg/radio_status.hpp"
+#include "mavloom/msg/timesync.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim {
@@ -315,6 +316,42 @@ TEST(Streams, ARepeatedRequestForTheSameRateDisturbsNothing) {
 }
 
 // ATTITUDE_TARGET of the default profile needs an armed vehicle. Time without it must not lower the reported rate.
+TEST(Streams, OnlyARadioSlowsALinkAndOnlyItsOwn) {
+    const LinkOptions limited{.profile = Profile::px4_normal, .max_bytes_s = 4000};
+    Rig rig({.ready_after = Nanoseconds{0}}, limited);
+    rig.vehicle.open(LinkId{2}, limited, rig.now());
+    const auto rate = [&](LinkId link) {
+        rig.forget();
+        rig.run(10.0);
+        return static_cast<double>(count_of(rig, msg::Attitude::id, link)) / 10;
+    };
+    const double before = rate(LinkId{2});
+    for (int i = 0; i < 50; ++i) rig.send(msg::RadioStatus{.txbuf = 0}, Peer{.link = LinkId{2}});
+    EXPECT_NEAR(rate(LinkId{2}), before, 0.2) << "from a client that is no radio";
+    const Source radio{SystemId{51}, ComponentId{68}};
+    for (int i = 0; i < 50; ++i) rig.send(msg::RadioStatus{.txbuf = 0}, Peer{.link = LinkId{1}, .id = radio});
+    rig.send(msg::RadioStatus{.txbuf = 45}, Peer{.link = LinkId{2}, .id = radio});
+    EXPECT_LT(rate(LinkId{1}), before / 2);
+    EXPECT_NEAR(rate(LinkId{2}), before, 0.2);
+}
+
+TEST(Streams, ARequestBetweenTwoInstantsDoesNotChangeWhatIsDueBefore) {
+    // Woken late, the vehicle hears a client first; what was due before still shows its own instant.
+    const auto stamps = [](bool is_asked) {
+        Rig rig({.ready_after = Nanoseconds{0}}, {.profile = Profile::px4_normal});
+        rig.forget();
+        for (int i = 0; i < 200; ++i) {
+            rig.flight += std::chrono::milliseconds{15};
+            if (is_asked) rig.send(msg::Timesync{.tc1 = 0, .ts1 = 1});
+            rig.vehicle.advance(rig.now());
+        }
+        std::vector<std::uint32_t> all;
+        for (const auto& message : rig.all<msg::Attitude>()) all.push_back(message.time_boot_ms);
+        return all;
+    };
+    EXPECT_EQ(stamps(true), stamps(false));
+}
+
 TEST(Streams, AConditionalStreamReportsTheRateOfTheTimeInWhichItRan) {
     Rig rig({.ready_after = Nanoseconds{0}});
     rig.run(5.0);
