@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""bench python: reads a recorded flight with the Python package, as objects and as numpy columns.
+"""bench python: reads a recorded flight with the Python package: as objects, through mavloom.mavutil, and as numpy
+columns.
 
 Compares the speed with pymavlink's reader (mavutil, with a module that mavgen generates from our definitions) on the
 same file, in turns. Before the measurement, both must return the same messages with the same values. Ratios are of
-messages per second."""
+messages per second. Also measures how long `import mavloom` takes after `import numpy`."""
 import argparse
 import json
 import math
 import os
 import pathlib
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
@@ -23,6 +25,7 @@ import pymavlink_vectors as vectors  # noqa: E402
 from pymavlink import mavutil  # noqa: E402
 
 import mavloom  # noqa: E402
+from mavloom import mavutil as our_mavutil  # noqa: E402
 
 MESSAGE = "ATTITUDE"
 FIELDS = ("time_boot_ms", "roll", "pitch", "yaw", "rollspeed", "pitchspeed", "yawspeed")
@@ -69,6 +72,64 @@ def peer_dicts(path):
         message.to_dict()
         count += 1
     return count
+
+
+def reader_of(fields, items=()):
+    """A function that reads all fields of a message: those in `items` as msg["id"], the others as msg.roll."""
+    texts = [f"m[{name!r}]" if name in items else f"m.{name}" for name in fields]
+    return eval(f"lambda m: ({', '.join(texts)},)")
+
+
+class Readers(dict):
+    """{name of a message: function that reads its fields}."""
+
+    def __init__(self, items=()):
+        super().__init__()
+        self.items_of, self.dialect = items, mavloom.Dialect()
+
+    def __missing__(self, name):
+        self[name] = reader_of([field.name for field in self.dialect[name].fields], self.items_of)
+        return self[name]
+
+
+BY_ATTRIBUTE, NATIVE = Readers(), Readers(("frame", "id", "name", "seq", "version"))
+
+
+def our_attributes(path):
+    count = 0
+    for message in mavloom.read(path):
+        NATIVE[message.name](message)
+        count += 1
+    return count
+
+
+def loop(log, read):
+    """The loop that scripts have."""
+    count = 0
+    while (message := log.recv_match()) is not None:
+        read(message)
+        count += 1
+    return count
+
+
+def read_attributes(message):
+    BY_ATTRIBUTE[message.get_type()](message)
+
+
+def our_loop(path):
+    return loop(our_mavutil.mavlink_connection(str(path)), read_attributes)
+
+
+def peer_loop(path):
+    return loop(peer_log(path), read_attributes)
+
+
+def our_loop_of_dicts(path):
+    return loop(our_mavutil.mavlink_connection(str(path)), lambda message: message.to_dict())
+
+
+def peer_loop_of_dicts(path):
+    return loop(peer_log(path), lambda message: message.to_dict())
 
 
 def our_columns(path):
@@ -123,7 +184,7 @@ def check_answers(path):
     log, count = peer_log(path), 0
     for ours in mavloom.read(path):
         theirs = log.recv_msg()
-        if theirs is None or ours.frame != bytes(theirs.get_msgbuf()) or ours.get_type() != theirs.get_type():
+        if theirs is None or ours.header.frame != bytes(theirs.get_msgbuf()) or ours.get_type() != theirs.get_type():
             sys.exit(f"bench python: message {count}: {ours} against {theirs}")
         for field in vectors.fields_of(type(theirs)):
             if field.is_text:
@@ -149,13 +210,51 @@ def check_answers(path):
     return count
 
 
+def check_loops(path):
+    """Ends the program if a loop through mavloom.mavutil reads other values than the same loop in pymavlink."""
+    ours, theirs = our_mavutil.mavlink_connection(str(path)), peer_log(path)
+    while (message := theirs.recv_match()) is not None:
+        mine = ours.recv_match()
+        if mine.get_type() != message.get_type() or not same(list(BY_ATTRIBUTE[mine.get_type()](mine)),
+                                                             list(BY_ATTRIBUTE[mine.get_type()](message))):
+            sys.exit(f"bench python: {mine} against {message}")
+        if not same(list(mine.to_dict().values()), list(message.to_dict().values())):
+            sys.exit(f"bench python: to_dict() of {mine} against {message}")
+    if ours.recv_match() is not None:
+        sys.exit("bench python: mavloom.mavutil has more messages than pymavlink")
+
+
 # ---- the clock
+
+def import_seconds():
+    """Of mavloom and its mavutil, after numpy."""
+    code = ("import numpy, time\nbegin = time.perf_counter()\nimport mavloom\nfrom mavloom import mavutil\n"
+            "print(time.perf_counter() - begin)")
+    return float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
+
 
 def seconds(work, path, times):
     begin = time.perf_counter()
     for _ in range(times):
         work(path)
     return (time.perf_counter() - begin) / times
+
+
+def report(measured, imports, count, as_json):
+    for name, turns in measured.items():
+        ratios = [theirs / ours for ours, theirs in turns]
+        us, them = (count / statistics.median(side) for side in zip(*turns))
+        if as_json:
+            print(json.dumps({"bench": f"python {name}", "mavloom_per_s": round(us), "pymavlink_per_s": round(them),
+                              "ratio": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}))
+        else:
+            print(f"  {name:<26} mavloom {us:12,.0f}/s   pymavlink {them:9,.0f}/s   "
+                  f"ratio {statistics.median(ratios):7.1f} (lowest {min(ratios):.1f}, highest {max(ratios):.1f})")
+    if as_json:
+        print(json.dumps({"bench": "python import", "seconds": statistics.median(imports), "highest": max(imports)}))
+    else:
+        print(f"  import mavloom, mavutil    {statistics.median(imports):.3f} s "
+              f"(lowest {min(imports):.3f}, highest {max(imports):.3f})")
 
 
 def main():
@@ -167,26 +266,24 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         use(vectors.generate(pathlib.Path(folder), "2.0"))
     count = check_answers(options.flight)
+    check_loops(options.flight)
     print(f"python: {count} messages of {options.flight.name}, {options.turns} turns; both gave the same values",
           file=sys.stderr, flush=True)
 
     # The third number is how often ours runs in each turn, because a single run is too short to measure.
-    pairs = {"objects": (our_objects, peer_objects, 20), "objects, every field read": (our_dicts, peer_dicts, 5),
+    pairs = {"objects": (our_objects, peer_objects, 20),
+             "objects, every field": (our_attributes, peer_loop, 5), "objects, to_dict()": (our_dicts, peer_dicts, 5),
+             "mavutil, every field": (our_loop, peer_loop, 3),
+             "mavutil, to_dict()": (our_loop_of_dicts, peer_loop_of_dicts, 5),
              f"columns of {MESSAGE}": (our_columns, peer_columns, 100),
              "columns of every message": (our_tables, peer_tables, 50)}
     measured = {name: [] for name in pairs}
+    imports = []
     for _ in range(options.turns):
+        imports.append(import_seconds())
         for name, (ours, theirs, times) in pairs.items():
             measured[name].append((seconds(ours, options.flight, times), seconds(theirs, options.flight, 1)))
-    for name, turns in measured.items():
-        ratios = [theirs / ours for ours, theirs in turns]
-        us, them = (count / statistics.median(side) for side in zip(*turns))
-        if options.json:
-            print(json.dumps({"bench": f"python {name}", "mavloom_per_s": round(us), "pymavlink_per_s": round(them),
-                              "ratio": statistics.median(ratios), "lowest": min(ratios), "highest": max(ratios)}))
-        else:
-            print(f"  {name:<26} mavloom {us:12,.0f}/s   pymavlink {them:9,.0f}/s   "
-                  f"ratio {statistics.median(ratios):7.1f} (lowest {min(ratios):.1f}, highest {max(ratios):.1f})")
+    report(measured, imports, count, options.json)
 
 
 if __name__ == "__main__":

@@ -8,27 +8,32 @@
 """
 import atexit as _atexit
 
-from . import _errors, enums, messages
+from . import _errors, _signatures, enums, messages
 from ._columns import Columns, columns, tables
-from ._core import (Dialect, FieldInfo, Header, LinkStats, Message, MessageInfo, Parser, Record, RecordBatch, Recording,
-                    RecordingStats, RingClaim, RingReader, RingWriter, SourceStats, Subscription, remove_ring, rings,
-                    stop_all, version)
-from ._errors import ClosedError, Error, InputError, NotFoundError, PermissionDeniedError, SystemFailure, UsageError
+from ._core import (Dialect, FieldInfo, Header, LinkRecorder, LinkStats, Message, MessageInfo, Parser, Record,
+                    RecordBatch, Recording, RecordingStats, RecordingWriter, RingClaim, RingReader, RingWriter,
+                    SourceStats, Subscription, remove_ring, rings, stop_all, version)
+from ._errors import (ClosedError, CommandError, Error, InputError, MissionError, NotFoundError, ParameterError,
+                      PermissionDeniedError, SystemFailure, UsageError)
 from ._link import Link, connect
+from ._vehicle import AsyncVehicle, MissionItem, Vehicle
 
 # Tracebacks and pickles use the names that users import.
 for _name in ("Error", "UsageError", "InputError", "SystemFailure", "NotFoundError", "PermissionDeniedError",
-              "ClosedError"):
+              "ClosedError", "CommandError", "ParameterError", "MissionError"):
     getattr(_errors, _name).__module__ = "mavloom"
 
+_signatures.install()
 __version__ = version()
 read = Recording
+write = RecordingWriter
 _atexit.register(stop_all)
 
 __all__ = [
-    "ClosedError", "Columns", "Dialect", "Error", "FieldInfo", "Header", "InputError", "Link", "LinkStats", "Message",
-    "MessageInfo", "NotFoundError", "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording",
-    "RecordingStats", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription",
-    "SystemFailure", "UsageError", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring",
-    "rings", "tables",
+    "AsyncVehicle", "ClosedError", "Columns", "CommandError", "Dialect", "Error", "FieldInfo", "Header", "InputError",
+    "Link", "LinkRecorder", "LinkStats", "Message", "MessageInfo", "MissionError", "MissionItem", "NotFoundError",
+    "ParameterError", "Parser", "PermissionDeniedError", "Record", "RecordBatch", "Recording", "RecordingStats",
+    "RecordingWriter", "RingClaim", "RingReader", "RingWriter", "SourceStats", "Subscription", "SystemFailure",
+    "UsageError", "Vehicle", "__version__", "columns", "connect", "enums", "messages", "read", "remove_ring", "rings",
+    "tables", "write",
 ]

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""One message of a recording as numpy arrays."""
+"""Messages of recordings as numpy arrays."""
 from __future__ import annotations
 
+import datetime
 import functools
 import os
-from typing import TYPE_CHECKING, Any, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _views
 from ._core import Dialect, MessageInfo, read_columns, read_tables
+from ._errors import UsageError
 from ._types import MessageTypes
 
 if TYPE_CHECKING:
@@ -17,28 +21,45 @@ if TYPE_CHECKING:
     import pyarrow
 
 Array = npt.NDArray[Any]
+Path = Union[str, "os.PathLike[str]"]
+Paths = Union[Path, Iterable[Path]]
+# A point in time: Unix time in ns, an aware datetime, or anything that numpy.datetime64 takes.
+Time = Union[int, datetime.datetime, np.datetime64]
+HEADER = ("time_ns", "sys", "comp")
 
 
-class Columns:
-    """The rows of one message, in the order of the file, as numpy arrays.
+class Columns(dict[str, Array]):
+    """The rows of one message, in the order of the file, as numpy arrays. The columns cannot be exchanged.
 
     The arrays own their memory, are contiguous and writeable, and have native byte order. `len(cols)` is the number of
     rows. If the message does not occur, the arrays are empty and have the same types.
 
     - `cols["roll"]` has shape (rows,) and the field's own type (float32, uint16, ...).
-    - An array field has shape (rows, elements). A char[N] field has the type S<N>.
+    - An array field has shape (rows, elements); `cols["voltages[0]"]` is one element of each row. A char[N] field has
+      the type S<N>.
     - `time_ns` is the recorded time (int64, Unix time in ns); `sys` and `comp` are uint8.
     - Trailing zeros that a sender left out are 0.
+
+    Can be copied and pickled. Other libraries take it as it is: `pandas.DataFrame(cols)`, `numpy.asarray(cols)`,
+    `polars.DataFrame(cols)`; `to_pandas` and `to_arrow` also convert times and text. `keys`, `values` and `items` have
+    columns of one dimension, as these libraries need: those of an array field are `voltages[0]`, `voltages[1]`, ...
     """
+
+    # A dict, because pandas.DataFrame takes columns from nothing else. Nothing is stored in the dict itself.
 
     name: str
     junk_bytes: int  # bytes of the file that belong to no record: damaged, or cut off at the end
 
-    def __init__(self, info: MessageInfo, arrays: dict[str, Array], junk_bytes: int) -> None:
-        self.name = info.name
+    def __init__(self, dialect: Dialect, name: str, arrays: dict[str, Array], junk_bytes: int) -> None:
+        super().__init__()
+        self.name = name
         self.junk_bytes = junk_bytes
-        self._info = info
+        self._dialect = dialect
         self._arrays = arrays
+
+    @property
+    def _info(self) -> MessageInfo:
+        return self._dialect[self.name]
 
     @functools.cached_property
     def units(self) -> dict[str, str]:
@@ -51,8 +72,11 @@ class Columns:
         return {field.name: field.enum for field in self._info.fields if field.enum}
 
     def __getitem__(self, column: str) -> Array:
-        """Returns a column. Raises KeyError if the message does not have it."""
-        return self._arrays[column]
+        """Returns a column. Raises KeyError, which suggests the nearest name, if there is none of this name."""
+        found: Array | None = self.get(column)
+        if found is None:
+            raise KeyError(f"{self.name} has no column {column!r}; it has {', '.join(self._arrays)}")
+        return found
 
     def __len__(self) -> int:
         return len(self._arrays["time_ns"])
@@ -64,12 +88,86 @@ class Columns:
         """Iterates over the column names: time_ns, sys, comp, then the fields in the order of the definition."""
         return iter(self._arrays)
 
-    def keys(self) -> list[str]:
-        """The names of the columns, in the order of iteration."""
+    def get(self, column: object, default: Any = None) -> Any:
+        """Returns a column, or `default` if there is none of this name."""
+        try:
+            return self._arrays[column] if column in self._arrays else self._flat.get(column, default)  # type: ignore
+        except TypeError:  # a list, for example
+            return default
+
+    def keys(self) -> list[str]:  # type: ignore[override]
+        """The names of the columns of one dimension."""
+        return list(self._flat)
+
+    def values(self) -> list[Array]:  # type: ignore[override]
+        """The columns of one dimension."""
+        return list(self._flat.values())
+
+    def items(self) -> list[tuple[str, Array]]:  # type: ignore[override]
+        """The names and columns of one dimension."""
+        return list(self._flat.items())
+
+    def _ipython_key_completions_(self) -> list[str]:
         return list(self._arrays)
+
+    def _refuse(self, *args: Any, **kwargs: Any) -> Any:
+        raise TypeError(f"the columns of {self.name} cannot be exchanged; make a dict of them: dict(cols.items())")
+
+    __setitem__ = __delitem__ = __ior__ = _refuse  # pyright: ignore
+    clear = pop = popitem = setdefault = update = _refuse  # pyright: ignore
+
+    def __or__(self, other: Any) -> dict[str, Any]:  # type: ignore[override]
+        return {**dict(self.items()), **other}
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __ne__(self, other: object) -> bool:
+        return self is not other
+
+    __hash__ = object.__hash__  # type: ignore[assignment]
+
+    def __copy__(self) -> Columns:
+        return Columns(self._dialect, self.name, dict(self._arrays), self.junk_bytes)
+
+    copy = __copy__
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Columns:
+        arrays = {name: values.copy() for name, values in self._arrays.items()}
+        return Columns(self._dialect, self.name, arrays, self.junk_bytes)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Columns, (self._dialect, self.name, self._arrays, self.junk_bytes)
 
     def __repr__(self) -> str:
         return f"<{self.name}: {len(self)} rows of {', '.join(self._arrays)}>"
+
+    def _repr_html_(self) -> str:
+        return _views.columns_html(self)
+
+    # ---- other libraries
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        """A structured array with one field for each column. Elements of array fields are `voltages[0]`, ..."""
+        made = np.empty(len(self), [(name, values.dtype) for name, values in self.items()])
+        for name, values in self.items():
+            made[name] = values
+        return made if dtype is None else made.astype(dtype)
+
+    @functools.cached_property
+    def _flat(self) -> dict[str, Array]:
+        """The columns, one for each element of an array field. They are views of the arrays."""
+        columns: dict[str, Array] = {}
+        for name, values in self._arrays.items():
+            if values.ndim == 2:
+                columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
+            else:
+                columns[name] = values
+        return columns
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """For libraries that take the Arrow C interface (polars, duckdb, pyarrow). Needs pyarrow."""
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_arrow(self) -> pyarrow.Table:
         """Converts the columns to a pyarrow table. Needs pyarrow: the extra [arrow].
@@ -100,22 +198,23 @@ class Columns:
             return pyarrow.FixedSizeListArray.from_arrays(pyarrow.array(values.reshape(-1)), values.shape[1])
         return pyarrow.array(values)
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_pandas(self, *, enums: bool = False) -> pandas.DataFrame:
         """Converts the columns to a pandas data frame. Needs pandas: the extra [pandas].
 
         The times become the index (UTC, datetime64[ns]). An array field becomes one column for each element:
-        `voltages[0]`, ... Text becomes str. `df.attrs` holds message, units and enums.
+        `voltages[0]`, ... Text becomes str. With `enums`, values of an enum become categories with the names of its
+        entries; flags stay numbers. `df.attrs` holds message, units and enums.
         """
         try:
             import pandas
         except ImportError as error:
             raise ImportError("to_pandas() needs pandas: pip install 'mavloom[pandas]'") from error
-        columns: dict[str, Array] = {}
-        for name, values in self._arrays.items():
+        columns: dict[str, Any] = {}
+        for name, values in self._flat.items():
             if values.dtype.kind == "S":
                 columns[name] = np.char.decode(values, "utf-8", "replace")
-            elif values.ndim == 2:
-                columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
+            elif enums and self._has_names(name):
+                columns[name] = self._named(pandas, name, values)
             elif name != "time_ns":
                 columns[name] = values
         index = pandas.to_datetime(self._arrays["time_ns"], unit="ns", utc=True)
@@ -123,38 +222,126 @@ class Columns:
         frame.attrs.update(message=self.name, units=self.units, enums=self.enums)
         return frame
 
+    def _has_names(self, column: str) -> bool:
+        """Whether the column has an enum that is not one of flags."""
+        field = column.partition("[")[0]
+        return field in self.enums and not any(one.bitmask for one in self._info.fields if one.name == field)
 
-def columns(path: str | os.PathLike[str], name: str, *, system: int | None = None, component: int | None = None,
-            instance: int | str | None = None, dialect: Dialect | None = None) -> Columns:
+    def _named(self, pandas: Any, column: str, values: Array) -> Any:
+        """The names of an enum's values; unknown values are shown as numbers."""
+        entries = self._dialect.enum_entries(self.enums[column.partition("[")[0]])[1]
+        names = {number: name for name, number in entries.items()}
+        numbers, codes = np.unique(values, return_inverse=True)
+        return pandas.Categorical.from_codes(codes, [names.get(int(number), str(number)) for number in numbers])
+
+
+@overload
+def columns(path: Paths, name: str, *, system: int | None = None, component: int | None = None,
+            instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
+            fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> Columns: ...
+
+
+@overload
+def columns(path: Paths, name: list[str] | tuple[str, ...] | set[str] | frozenset[str], *,
+            system: int | None = None, component: int | None = None, instance: int | str | None = None,
+            start: Time | None = None, end: Time | None = None,
+            fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> dict[str, Columns]: ...
+
+
+def columns(path: Paths, name: str | Iterable[str], *, system: int | None = None, component: int | None = None,
+            instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
+            fields: Sequence[str] | None = None,
+            dialect: Dialect | None = None) -> Columns | dict[str, Columns]:
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
-    `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
-    sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
+    `path` may be a list of files, whose rows follow each other. `name` may be a list of messages: the result is then
+    {name: Columns}, as that of `tables`.
+
+    - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
+      sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
+    - `start` and `end` select the recorded times from `start` on and before `end`: Unix time in ns, an aware datetime,
+      a numpy.datetime64 or a pandas.Timestamp.
+    - `fields` selects the columns; time_ns, sys and comp are always there.
 
     An unknown name, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
     file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
 
-    The GIL is free during the read. At its peak, the call needs memory for the arrays and for all rows, with payloads
-    of full length.
+    The GIL is free during the read. At its peak, the call needs the memory of the arrays and once more of the largest.
     """
     definitions = Dialect() if dialect is None else dialect
-    info = definitions[name]
-    parts, junk_bytes = read_columns(path, name, system, component, instance, definitions)
-    return _made(info, parts, junk_bytes)
+    files, begin, before = paths_of(path), time_ns_of("start", start), time_ns_of("end", end)
+    wanted = None if fields is None else list_of_names("fields", fields)
+    if not isinstance(name, str):
+        names = list_of_names("name", name)
+        if instance is None and wanted is None:
+            found = tables(files, names, system=system, component=component, start=begin, end=before,
+                           dialect=definitions)
+            return {one: found[one] for one in names}
+        return {one: columns(files, one, system=system, component=component, instance=instance, start=begin, end=before,
+                             fields=None if wanted is None else [f for f in wanted if has_field(definitions, one, f)],
+                             dialect=definitions) for one in names}
+    parts, junk_bytes = read_columns(files, name, system, component, instance, begin, before, wanted, definitions)
+    return _made(definitions, name, parts, junk_bytes)
 
 
-def tables(path: str | os.PathLike[str], type: MessageTypes | None = None, *, system: int | None = None,
-           component: int | None = None, dialect: Dialect | None = None) -> dict[str, Columns]:
+def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
+           start: Time | None = None, end: Time | None = None, dialect: Dialect | None = None) -> dict[str, Columns]:
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
     without a definition are left out. Otherwise it works like `columns`, but checks every checksum.
     """
     definitions = Dialect() if dialect is None else dialect
-    made, junk_bytes = read_tables(path, type, system, component, definitions)
-    return {name: _made(definitions[name], parts, junk_bytes) for name, parts in made.items()}
+    made, junk_bytes = read_tables(paths_of(path), type, system, component, time_ns_of("start", start),
+                                   time_ns_of("end", end), definitions)
+    return {name: _made(definitions, name, parts, junk_bytes) for name, parts in made.items()}
 
 
-def _made(info: MessageInfo, parts: tuple[Array, Array, Array, dict[str, Array]], junk_bytes: int) -> Columns:
+def paths_of(path: Paths) -> list[Path]:
+    if isinstance(path, (str, bytes)) or hasattr(path, "__fspath__"):
+        return [path]  # type: ignore[list-item]
+    if not isinstance(path, Iterable):
+        raise UsageError(f"a recording is given by its path, or several by a list of paths, not {path!r}")
+    files = list(path)
+    if not files:
+        raise UsageError("an empty list of recordings")
+    return files
+
+
+def list_of_names(what: str, given: Iterable[str]) -> list[str]:
+    if isinstance(given, str):
+        return [given]
+    names: list[Any] = list(given) if isinstance(given, Iterable) else [given]
+    for one in names:
+        if not isinstance(one, str):
+            raise UsageError(f"{what}= takes a name or a list of names, not {one!r}")
+    return names
+
+
+def has_field(dialect: Dialect, message: str, field: str) -> bool:
+    return any(one.name == field for one in dialect[message].fields)
+
+
+def time_ns_of(what: str, given: Time | None) -> int | None:
+    """Unix time in ns."""
+    if given is None or isinstance(given, int) and not isinstance(given, bool):
+        return given
+    if isinstance(given, np.integer):
+        return int(given)
+    if isinstance(given, datetime.datetime):
+        if given.tzinfo is None:
+            raise UsageError(f"{what}: {given} has no time zone; for example, datetime(..., tzinfo=timezone.utc)")
+        nanoseconds = getattr(given, "value", None)  # of a pandas.Timestamp
+        if isinstance(nanoseconds, int):
+            return nanoseconds
+        since = given - datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc)
+        return (since.days * 86400 + since.seconds) * 10**9 + since.microseconds * 1000
+    if isinstance(given, np.datetime64):
+        return int(given.astype("datetime64[ns]").astype("int64"))
+    raise UsageError(f"{what}: a time is Unix time in ns, an aware datetime or a numpy.datetime64, not {given!r}")
+
+
+def _made(dialect: Dialect, name: str, parts: tuple[Array, Array, Array, dict[str, Array]],
+          junk_bytes: int) -> Columns:
     time_ns, systems, components, fields = parts
-    return Columns(info, {"time_ns": time_ns, "sys": systems, "comp": components, **fields}, junk_bytes)
+    return Columns(dialect, name, {"time_ns": time_ns, "sys": systems, "comp": components, **fields}, junk_bytes)

@@ -3,10 +3,14 @@
 
 Damaged input on a link or in a recording raises none of them: it is counted.
 """
+from __future__ import annotations
 
 
 class Error(Exception):
     """Base class of all errors of this package."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__(*args)
 
 
 class UsageError(Error, ValueError):
@@ -31,3 +35,27 @@ class PermissionDeniedError(SystemFailure, PermissionError):
 
 class ClosedError(Error):
     """The object was closed, its ring was removed, or it was opened before a fork and is used in the child."""
+
+
+class CommandError(Error):
+    """A vehicle refused a command. `result` is its MAV_RESULT."""
+
+    def __init__(self, text: str, result: int | None = None) -> None:
+        super().__init__(text)
+        self.result = result
+
+
+class ParameterError(Error):
+    """A vehicle refused to read or write a parameter. `result` is its MAV_PARAM_ERROR, if it sent one."""
+
+    def __init__(self, text: str, result: int | None = None) -> None:
+        super().__init__(text)
+        self.result = result
+
+
+class MissionError(Error):
+    """A vehicle refused a mission. `result` is its MAV_MISSION_RESULT."""
+
+    def __init__(self, text: str, result: int | None = None) -> None:
+        super().__init__(text)
+        self.result = result

@@ -3,31 +3,35 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import time
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from ._core import Dialect, LinkStats, Message, Port, RingWriter, Subscription
+from . import _views
+from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, Subscription, is_vehicle
 from ._errors import UsageError
+from ._sends import Calls, Sends
 from ._types import MessageTypes
+from ._vehicle import AsyncVehicle, Vehicle
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
+
+M = TypeVar("M", bound=Message)
 
 DEFAULT_BUFFER_BYTES = 16 << 20  # about 250,000 messages
 # ArduPilot accepts system 255 as its ground station. Ground stations do not use component 193: QGroundControl is
 # 255/190.
 DEFAULT_SOURCE = (255, 193)
-NO_VEHICLES = frozenset({6, 18, 26, 27, 30})  # MAV_TYPE: GCS, onboard controller, gimbal, ADS-B, camera
-AUTOPILOT_INVALID = 8
 
 
-def is_vehicle(heartbeat: Message) -> bool:
-    """Whether a HEARTBEAT comes from a vehicle with an autopilot."""
-    return heartbeat["autopilot"] != AUTOPILOT_INVALID and heartbeat["type"] not in NO_VEHICLES
+def is_vehicle_heartbeat(heartbeat: Message) -> bool:
+    """Whether a HEARTBEAT comes from a vehicle."""
+    return is_vehicle(heartbeat["type"], heartbeat["autopilot"])
 
 
-class Link:
+class Link(Sends):
     """One endpoint (docs/guide/endpoints.md) and all its peers.
 
     The endpoint is a listening port, a connection that is restored whenever it breaks, a serial device, or a ring in
@@ -39,6 +43,8 @@ class Link:
     of its own.
     """
 
+    __slots__ = ("_reader", "mav", "__weakref__")
+
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
                  dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
         """Opens the endpoint at once. Raises SystemFailure if, for example, the port is in use, and UsageError for a
@@ -47,7 +53,8 @@ class Link:
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
         call waits up to 5 s for the far side, and raises SystemFailure if it is still absent.
         """
-        self._port = Port(url, source_system, source_component, dialect, buffer, version)
+        check_url(url)
+        super().__init__(Port(url, source_system, source_component, dialect, buffer, version))
         self._reader: Subscription = self._port.reader
         self.mav = Sender(self._port)
 
@@ -71,7 +78,17 @@ class Link:
         """
         return self._reader.recv(timeout)
 
-    def recv_match(self, condition: Callable[[Message], object] | None = None, type: MessageTypes | None = None,
+    @overload
+    def recv_match(self, condition: Callable[[M], object] | None = None, *, type: type[M], blocking: bool = False,
+                   timeout: float | None = None, system: int | None = None,
+                   component: int | None = None) -> M | None: ...
+
+    @overload
+    def recv_match(self, condition: Callable[[Any], object] | None = None, type: MessageTypes | None = None,
+                   blocking: bool = False, timeout: float | None = None, system: int | None = None,
+                   component: int | None = None) -> Message | None: ...
+
+    def recv_match(self, condition: Callable[[Any], object] | None = None, type: MessageTypes | None = None,
                    blocking: bool = False, timeout: float | None = None, system: int | None = None,
                    component: int | None = None) -> Message | None:
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
@@ -88,6 +105,14 @@ class Link:
         Each reader gets every message. A reader keeps the link open as long as it exists.
         """
         return self._port.subscribe(type, system, component)
+
+    @overload
+    def latest(self, type: type[M], *, system: int | None = None, component: int | None = None,
+               instance: int | str | None = None, max_age: float | None = None) -> M | None: ...
+
+    @overload
+    def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None,
+               instance: int | str | None = None, max_age: float | None = None) -> Message | None: ...
 
     def latest(self, type: MessageTypes, *, system: int | None = None, component: int | None = None,
                instance: int | str | None = None, max_age: float | None = None) -> Message | None:
@@ -107,14 +132,6 @@ class Link:
 
     # ---- sending
 
-    def send(self, message: str | Message, /, **fields: Any) -> int:
-        """Sends a message, given by name and fields as for Dialect.encode, or as a Message.
-
-        The frame has the link's source ids and its next sequence number. Returns the number of peers. If that is 0,
-        nothing is sent and `stats.no_peer` counts it. Blocks only while the link's loop thread is behind.
-        """
-        return self._port.send(message, **fields)
-
     def forward(self, message: Message | Buffer, /) -> int:
         """Sends a Message, or the bytes of one whole frame, unchanged. Returns the number of peers, like `send`.
 
@@ -132,6 +149,41 @@ class Link:
         SystemFailure if another process serves the socket, and UsageError for a second inlet of one link.
         """
         self._port.serve_inlet(ring, mode)
+
+    # ---- recording
+
+    def record(self, path: str | os.PathLike[str]) -> LinkRecorder:
+        """Records every frame that arrives from now on to a tlog: `with link.record("flight.tlog"): ...`.
+
+        A thread of its own writes the file. An existing file is renamed. The recording ends with `close()`, with the
+        `with` block, or with the link.
+        """
+        return self._port.record(path)
+
+    # ---- vehicles
+
+    def vehicle(self, system: int | None = None, component: int = 1, *, timeout: float = 10.0) -> Vehicle:
+        """Returns a Vehicle: arm, set_mode, takeoff, land, command, params, mission.
+
+        Without `system`, it is the first vehicle that is heard. Raises TimeoutError if none is within `timeout`
+        seconds.
+        """
+        if system is None:
+            system, component = self._first_vehicle(timeout)
+        return Vehicle(self, target_id("system", system), target_id("component", component))
+
+    def vehicle_async(self, system: int, component: int = 1) -> AsyncVehicle:
+        """Returns an AsyncVehicle, whose methods are to be awaited."""
+        return AsyncVehicle(self, target_id("system", system), target_id("component", component))
+
+    def _first_vehicle(self, timeout: float) -> tuple[int, int]:
+        beats = self.subscribe("HEARTBEAT")
+        if not self.target_system:
+            beats.recv_match(lambda _: self.target_system, blocking=True, timeout=timeout)
+        beats.close()
+        if not self.target_system:
+            raise TimeoutError(f"{self.name}: no vehicle within {timeout} s")
+        return self.target_system, self.target_component
 
     # ---- state
 
@@ -171,7 +223,10 @@ class Link:
         self.close()
 
     def __repr__(self) -> str:
-        return f"<Link {self.name}>"
+        return _views.link_text(self)
+
+    def _repr_html_(self) -> str:
+        return _views.link_html(self)
 
     # ---- names that pymavlink users know
 
@@ -188,9 +243,10 @@ class Link:
     def wait_heartbeat(self, blocking: bool = True, timeout: float | None = None) -> Message | None:
         """Returns the next heartbeat of a vehicle, or None after `timeout` seconds.
 
-        Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles.
+        Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles. A type of vehicle,
+        such as a quadrotor, is one even if its heartbeat names no autopilot.
         """
-        return self.recv_match(is_vehicle, "HEARTBEAT", blocking, timeout)
+        return self.recv_match(is_vehicle_heartbeat, "HEARTBEAT", blocking, timeout)
 
     def wait_vehicle(self, timeout: float) -> Message:
         """Like wait_heartbeat, but raises TimeoutError after `timeout` seconds."""
@@ -256,32 +312,63 @@ class Latest(Mapping[str, Message]):
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
 
-class Sender:
+    def __repr__(self) -> str:
+        return f"<newest messages of system {self._link.target_system}: {', '.join(self) or 'none'}>"
+
+
+class Sender(Calls):
     """link.mav: NAME_send(...) and NAME_encode(...) for every message.
 
-    Fields are given in the order of the definition, or by name.
+    Fields are given in the order of the definition, or by name. `srcSystem`, `srcComponent` and `seq` are those of the
+    next frame that the link sends.
     """
 
-    def __init__(self, port: Port) -> None:
-        self._port = port  # not the Link, which would make a reference cycle
+    __slots__ = ()
+
+    @property
+    def srcSystem(self) -> int:
+        return self._port.source_system
+
+    @srcSystem.setter
+    def srcSystem(self, value: int) -> None:
+        self._port.source_system = value
+
+    @property
+    def srcComponent(self) -> int:
+        return self._port.source_component
+
+    @srcComponent.setter
+    def srcComponent(self, value: int) -> None:
+        self._port.source_component = value
+
+    @property
+    def seq(self) -> int:
+        return self._port.sequence
+
+    @seq.setter
+    def seq(self, value: int) -> None:
+        self._port.sequence = value
 
     def send(self, message: Message) -> int:
+        """Sends a message with the link's source and next sequence number. Returns the number of peers."""
         return self._port.send(message)
 
-    def __getattr__(self, call: str) -> Callable[..., Any]:
-        name, _, verb = call.rpartition("_")
-        if verb not in ("send", "encode") or name.upper() not in self._port.dialect:
-            raise AttributeError(f"no message for {call}: use NAME_send or NAME_encode, for example heartbeat_send")
-        info = self._port.dialect[name.upper()]
-        act: Callable[..., Any] = self._port.send if verb == "send" else self._port.dialect.message
+    def __repr__(self) -> str:
+        return f"<Sender of {self._port.name}: {self.srcSystem}/{self.srcComponent}, next seq {self.seq}>"
 
-        def run(*values: Any, **fields: Any) -> Any:
-            names = [field.name for field in info.fields]
-            if len(values) > len(names):
-                raise TypeError(f"{info.name} has {len(names)} fields, not {len(values)}")
-            return act(info.name, **dict(zip(names, values)), **fields)
-        return run
+
+def check_url(url: object) -> None:
+    if not isinstance(url, str):
+        raise UsageError(f"connect() takes an endpoint such as \"udpin://0.0.0.0:14550\", not {url!r}")
+
+
+def target_id(what: str, number: int) -> int:
+    if not isinstance(number, int) or not 1 <= number <= 255:
+        raise UsageError(f"{what}: {number!r} is out of range, 1 to 255")
+    return number
 
 
 def connect(url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],

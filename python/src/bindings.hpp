@@ -8,9 +8,14 @@ namespace mavloom::python {
 
 void bind_parser(nanobind::module_& module);
 void bind_recording(nanobind::module_& module);
+void bind_recording_writer(nanobind::module_& module);
 void bind_link(nanobind::module_& module);
 void bind_subscription(nanobind::module_& module);
 void bind_columns(nanobind::module_& module);
+void bind_mavutil_message(nanobind::module_& module);
+void bind_mavutil_state(nanobind::module_& module);
+void bind_mavutil_log(nanobind::module_& module);
+void bind_mavutil_parser(nanobind::module_& module);
 void bind_ring_writer(nanobind::module_& module);
 void bind_ring_reader(nanobind::module_& module);
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/string.h>
 
 #include <string>
+
+#include "strings.hpp"
 
 namespace mavloom::python {
 
@@ -19,7 +20,7 @@ namespace mavloom::python {
         if (name.starts_with('_')) continue;
         const nb::object value = self.attr(name.c_str());
         if (PyCallable_Check(value.ptr()) != 0 || PyObject_IsTrue(value.ptr()) != 1) continue;
-        text += before + name + "=" + nb::repr(value).c_str();
+        text += before + name + "=" + escaped(nb::repr(value));
         before = ", ";
     }
     return text + (*before == '(' ? "()" : ")");

@@ -3,6 +3,8 @@
 
 #include <cerrno>
 
+#include "strings.hpp"
+
 namespace mavloom::python {
 namespace {
 
@@ -53,6 +55,18 @@ void raise_error(const std::string& text) { raise_as("Error", text_of(text)); }
 void raise_buffer(const std::string& text) {
     PyErr_SetObject(PyExc_BufferError, text_of(text).ptr());
     throw nb::python_error();
+}
+
+std::string path_of(nb::handle path) {
+    try {
+        const auto bytes = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));
+        std::string made(bytes.c_str(), bytes.size());
+        if (made.find('\0') == std::string::npos) return made;
+    } catch (const nb::python_error& error) {
+        if (!error.matches(PyExc_UnicodeEncodeError)) throw;
+    }
+    const nb::object shown = nb::repr(path);
+    raise_usage(escaped(shown) + " cannot be the path of a file");
 }
 
 }  // namespace mavloom::python

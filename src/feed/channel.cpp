@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "feed/vehicle.hpp"
 #include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/vehicle.hpp"
 #include "mavloom/ring/frames.hpp"
 
 namespace mavloom::feed {
@@ -45,6 +45,7 @@ void Channel::on_frame(const link::RxFrame& rx, MonoTime now) {
     if (target_.system.value == 0 && is_vehicle_heartbeat(rx.frame)) target_ = rx.frame.source();
     for (auto* consumer : consumers_)
         if (consumer->armed_ && consumer->filter_.takes(rx.frame)) consumer->due_ = true;
+    for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
 }
 
 void Channel::on_link_up(LinkId link, std::string_view name) {
@@ -74,6 +75,7 @@ void Channel::publish() {
     if (!std::exchange(news_, false)) return;
     for (auto* consumer : consumers_)
         if (std::exchange(consumer->due_, false)) consumer->tell();
+    for (const auto& recorder : recorders_) recorder->publish();
     changed_.notify_all();
 }
 
@@ -84,7 +86,20 @@ void Channel::close() {
     room_made_ = {};
     peers_.store(0, std::memory_order_relaxed);
     for (auto* consumer : consumers_) consumer->tell();
+    for (const auto& recorder : recorders_) recorder->end();
+    recorders_.clear();
     changed_.notify_all();
+}
+
+void Channel::record_with(std::shared_ptr<record::Recorder> recorder) {
+    const std::lock_guard lock(mutex_);
+    if (closed_) recorder->end();
+    else recorders_.push_back(std::move(recorder));
+}
+
+void Channel::end_recording(const std::shared_ptr<record::Recorder>& recorder) {
+    const std::lock_guard lock(mutex_);
+    if (std::erase(recorders_, recorder) != 0) recorder->end();
 }
 
 void Channel::hold_for(const Consumer* reader, std::function<void()> room_made) {

@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: MIT
-#include "feed/vehicle.hpp"
+#include "mavloom/feed/vehicle.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "mavloom/msg/heartbeat.hpp"
 
 namespace mavloom::feed {
 namespace {
 
-// MAV_TYPEs that are not vehicles, and the autopilot value of components without one (MAVLink, minimal.xml).
-constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};  // GCS, onboard controller, gimbal, ADS-B, camera
+// MAV_TYPE and MAV_AUTOPILOT: MAVLink, minimal.xml.
+// GCS, onboard controller, gimbal, ADS-B, camera.
+constexpr std::uint8_t no_vehicles[] = {6, 18, 26, 27, 30};
+// Fixed wing, quadrotor, coaxial, helicopter; airship, balloon, rocket, rover, boat, submarine, hexarotor, octorotor,
+// tricopter, flapping wing, kite; seven kinds of VTOL; parafoil, dodecarotor, decarotor, generic multirotor,
+// spacecraft, ground quadruped, gyrodyne.
+constexpr std::uint8_t vehicles[] = {1,  2,  3,  4,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17,
+                                     19, 20, 21, 22, 23, 24, 25, 28, 29, 35, 43, 45, 46, 47};
 constexpr std::uint8_t autopilot_invalid = 8;
 
+bool has(const auto& types, std::uint8_t type) noexcept { return std::ranges::find(types, type) != std::end(types); }
+
 }  // namespace
+
+bool is_vehicle(std::uint8_t type, std::uint8_t autopilot) noexcept {
+    return has(vehicles, type) || (autopilot != autopilot_invalid && !has(no_vehicles, type));
+}
 
 bool is_vehicle_heartbeat(const wire::FrameView& frame) noexcept {
     if (frame.id() != msg::Heartbeat::id) return false;
     const auto heartbeat = msg::Heartbeat::decode(frame.payload());
-    return heartbeat.autopilot != autopilot_invalid &&
-           std::ranges::find(no_vehicles, heartbeat.type) == std::end(no_vehicles);
+    return is_vehicle(heartbeat.type, heartbeat.autopilot);
 }
 
 }  // namespace mavloom::feed

@@ -4,12 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 
+#include "record/foreign_file.hpp"
 #include "record/tlog_format.hpp"
 
 namespace mavloom::record {
+
+namespace {
+
+// Pipes and devices are not checked: their bytes cannot be read twice.
+SetupResult<void> refuse_foreign(File& file, const wire::MessageTable& table) {
+    if (!file.is_regular()) return {};
+    std::array<std::uint8_t, foreign_format_bytes> first{};
+    const auto got = file.read(first);
+    if (!got) return tl::unexpected(got.error());
+    if (const auto format = foreign_format(ByteView(first).first(*got), table))
+        return setup_error(SetupCode::bad_input,
+                           fmt::format("{} is {}, not a tlog: {}", file.path().string(), format->name, format->advice));
+    return file.seek(0);
+}
+
+}  // namespace
 
 TlogReader::TlogReader(File file, std::uint64_t size, const wire::MessageTable& table)
     : file_(std::move(file)),
@@ -23,6 +41,7 @@ SetupResult<TlogReader> TlogReader::open(const std::filesystem::path& path, cons
     if (!file) return tl::unexpected(std::move(file.error()));
     const auto size = file->is_regular() ? file->size() : std::uint64_t{0};
     if (!size) return tl::unexpected(size.error());
+    if (const auto foreign = refuse_foreign(*file, table); !foreign) return tl::unexpected(foreign.error());
     return TlogReader(std::move(*file), *size, table);
 }
 

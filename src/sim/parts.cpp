@@ -44,7 +44,8 @@ Parts::Parts(const VehicleOptions& given, Sink& sink, Moment moment)
       file_service(std::make_unique<FileService>(*this)),
       event_service(std::make_unique<EventService>(*this)),
       calibration_service(std::make_unique<CalibrationService>(*this)),
-      other_services(make_other_services(*this)) {
+      other_services(make_other_services(*this)),
+      created_(moment) {
     parameters.put(firmware.system_parameter(), options.system.value);
     other_services.push_back(std::make_unique<Connection>(*this));
     other_services.push_back(std::make_unique<DataStreams>(*this));
@@ -64,8 +65,7 @@ Parts::~Parts() = default;
 
 void Parts::add(Service& service) {
     services.push_back(&service);
-    for (const MessageId id : service.handled())
-        if (id.value < direct_ids) service_of_[id.value] = static_cast<std::uint8_t>(services.size());
+    for (const MessageId id : service.handled()) service_of_.at(id.value) = static_cast<std::uint8_t>(services.size());
 }
 
 Service* Parts::service_for(MessageId id) const noexcept {
@@ -88,7 +88,7 @@ View Parts::view() const {
 void Parts::step_to(Moment moment) {
     now = moment;
     flight.set_real_time(moment.real);
-    radio.set_utc(utc_at(moment.flight));
+    radio.set_utc(signing_time(moment));
     if (silent_until_ != FlightTime::min() && moment.flight >= silent_until_) end_silence();
     for (; stepped + step_time <= moment.flight; stepped += step_time) {
         flight.step();
@@ -152,11 +152,20 @@ void Parts::end_silence() {
     booted = stepped = silent_until_;
     silent_until_ = FlightTime::min();
     radio.set_silent(false);
-    radio.set_system(SystemId{static_cast<std::uint8_t>(
-        std::clamp(parameters.get(firmware.system_parameter(), options.system.value), 1.0, 255.0))});
     for (Service* const service : services) service->reboot();
     flight.reboot();
+    take_system();
     streams.reset(booted);
+}
+
+// The system id that the parameter asks for. 255 is the ground stations'. If another vehicle has it, the old one stays.
+void Parts::take_system() {
+    const std::string_view name = firmware.system_parameter();
+    const double wanted = std::clamp(parameters.get(name, radio.system().value), 1.0, 254.0);
+    const SystemId system{static_cast<std::uint8_t>(wanted)};
+    if (system == radio.system() || !is_free_system || is_free_system(system)) return radio.set_system(system);
+    parameters.put(name, radio.system().value);
+    on_text(Severity::critical, "System id is in use");
 }
 
 // PX4 ends a text with a tab if it is also an event, so that ground stations show one of the two.

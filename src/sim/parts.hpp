@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -60,11 +61,16 @@ struct Parts final : FlightObserver {
     std::unique_ptr<EventService> event_service;
     std::unique_ptr<CalibrationService> calibration_service;
     std::vector<std::unique_ptr<Service>> other_services;
-    std::vector<Service*> services;  // all of them
+    std::vector<Service*> services;                // all of them
+    std::function<bool(SystemId)> is_free_system;  // empty: all are
 
     [[nodiscard]] View view() const;
     [[nodiscard]] WallTime utc_at(FlightTime time) const noexcept { return options.utc_at_start + time; }
     [[nodiscard]] bool has_utc() const noexcept { return options.utc_at_start != WallTime{}; }
+    // The time of signatures runs in real time, as the clients' clocks do.
+    [[nodiscard]] WallTime signing_time(Moment moment) const noexcept {
+        return utc_at(created_.flight) + (moment.real - created_.real);
+    }
 
     // Null if no service handles the message.
     [[nodiscard]] Service* service_for(MessageId id) const noexcept;
@@ -100,6 +106,9 @@ private:
     void schedule_pump() noexcept;
     void begin_silence();
     void end_silence();
+    void take_system();
+
+    const Moment created_;
 
     FlightTime silent_until_ = FlightTime::min();
     Nanoseconds wanted_silence_{0};

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "sim/parts.hpp"
 #include "sim/service/guard.hpp"
@@ -13,6 +15,8 @@ namespace {
 
 // While something may change by itself, the vehicle looks at least this often.
 constexpr Nanoseconds longest_pause = std::chrono::milliseconds{100};
+// At rest and without links, it still steps this often, so that the steps do not pile up for its next client.
+constexpr Nanoseconds longest_rest = std::chrono::seconds{1};
 
 SetupResult<void> of_outcome(const Outcome& outcome) {
     if (outcome.is_accepted()) return {};
@@ -42,12 +46,19 @@ std::vector<StreamInfo> stream_infos() {
     return infos;
 }
 
+Home moved(const Home& home, double north_m, double east_m) {
+    const LocalFrame frame({home.latitude_deg, home.longitude_deg, home.altitude_m});
+    const GeoPoint place = frame.to_geo({north_m, east_m, 0});
+    return {place.latitude, place.longitude, home.altitude_m, home.heading_deg};
+}
+
 Vehicle::Vehicle(const VehicleOptions& options, Sink& sink, Moment now)
     : parts_(std::make_unique<Parts>(options, sink, now)) {}
 
 Vehicle::~Vehicle() = default;
 
 void Vehicle::open(LinkId link, const LinkOptions& options, Moment now) {
+    advance(now);
     parts_->radio.open(link);
     parts_->streams.open(link, options, parts_->view(), now.flight);
 }
@@ -64,8 +75,8 @@ void Vehicle::receive(LinkId link, const wire::FrameView& frame, const wire::Mes
     parts.radio.note_received(link, frame.size());
     if (info == nullptr || parts.is_silent(now.flight) || !is_for(parts.radio.system(), frame, *info)) return;
     Service* const service = parts.service_for(info->id);
-    if (service == nullptr || !parts.guard->admits(frame, parts.utc_at(now.flight))) return;
-    parts.step_to(now);
+    if (service == nullptr || !parts.guard->admits(frame, parts.signing_time(now))) return;
+    advance(now);
     service->receive({link, frame.source()}, info->id, frame.payload(), now);
     parts.report_changes();
 }
@@ -74,8 +85,7 @@ FlightTime Vehicle::next_due() const noexcept {
     const Parts& parts = *parts_;
     if (parts.silent_until() != FlightTime::min()) return parts.silent_until();
     FlightTime due = std::min(parts.streams.next_due(), parts.next_pump());
-    if (parts.may_change_by_itself()) due = std::min(due, parts.stepped + longest_pause);
-    return due;
+    return std::min(due, parts.stepped + (parts.may_change_by_itself() ? longest_pause : longest_rest));
 }
 
 void Vehicle::advance(Moment now) {
@@ -108,9 +118,17 @@ SetupResult<void> Vehicle::disarm(bool force) {
 SetupResult<void> Vehicle::take_off(double altitude_m) {
     const auto& home = parts_->flight.home();
     const double base = home ? home->altitude : parts_->flight.ground_altitude();
-    if (auto outcome = parts_->flight.take_off({.altitude = base + altitude_m}); !outcome.is_accepted())
-        return of_outcome(outcome);
-    return parts_->flight.armed() ? SetupResult<void>{} : arm(false);
+    const auto climb = [&] { return of_outcome(parts_->flight.take_off({.altitude = base + altitude_m})); };
+    const auto arm_first = [&] { return parts_->flight.armed() ? SetupResult<void>{} : arm(false); };
+    // PX4 changes to its take-off mode and climbs when it is armed. ArduPilot's copter takes off in Guided, armed.
+    if (parts_->firmware.is_px4() || parts_->options.kind != Kind::quad) {
+        if (auto taken = climb(); !taken) return taken;
+        return arm_first();
+    }
+    const ModeInfo* const guided = parts_->firmware.mode_for(Behaviour::offboard);
+    auto done = of_outcome(parts_->flight.set_mode(*guided, OrderedBy::operator_console));
+    if (done) done = arm_first();
+    return done ? climb() : done;
 }
 
 SetupResult<void> Vehicle::set_mode(std::string_view name) {
@@ -120,13 +138,20 @@ SetupResult<void> Vehicle::set_mode(std::string_view name) {
 }
 
 SetupResult<void> Vehicle::set_parameter(std::string_view name, double value) {
-    if (!parts_->parameters.find(name))
-        return setup_error(SetupCode::usage, "no parameter \"" + std::string(name) + "\"");
+    const auto index = parts_->parameters.find(name);
+    if (!index) return setup_error(SetupCode::usage, "no parameter \"" + std::string(name) + "\"");
+    const auto [lowest, highest] = range_of(parts_->parameters.info(*index).type);
+    if (!(value >= lowest && value <= highest))
+        return setup_error(SetupCode::usage, "the parameter cannot hold this value");
+    if (parts_->parameters.info(*index).type != ParamType::real32 && value != std::floor(value))
+        return setup_error(SetupCode::usage, "the parameter takes whole numbers");
     parts_->put_parameter(name, value);
     return {};
 }
 
 SystemId Vehicle::system() const noexcept { return parts_->radio.system(); }
+
+void Vehicle::ask_for_system(std::function<bool(SystemId)> is_free) { parts_->is_free_system = std::move(is_free); }
 
 VehicleStatus Vehicle::status() const {
     const Flight& flight = parts_->flight;
@@ -170,11 +195,13 @@ std::vector<std::string_view> Vehicle::parameter_names() const {
     return names;
 }
 
+std::string_view Vehicle::system_parameter() const noexcept { return parts_->firmware.system_parameter(); }
+
 std::optional<double> Vehicle::parameter(std::string_view name) const {
     const auto index = parts_->parameters.find(name);
     return index ? std::optional(parts_->parameters.value(*index)) : std::nullopt;
 }
 
-std::vector<StreamReport> Vehicle::stream_reports() const { return parts_->streams.reports(); }
+std::vector<StreamReport> Vehicle::stream_reports(LinkId link) const { return parts_->streams.reports(link); }
 
 }  // namespace mavloom::sim

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "mavloom/dialect/dialect.hpp"
@@ -200,8 +201,8 @@ LinkReport Connections::report_of(LinkId link, std::string_view name) const {
         report.bytes = parts_.shared.bytes();
     }
     parts_.fleet.each([&](const sim::Vehicle& vehicle) {
-        for (auto& stream : vehicle.stream_reports())
-            if (stream.link == link) report.streams.push_back(std::move(stream));
+        auto streams = vehicle.stream_reports(link);
+        std::ranges::move(streams, std::back_inserter(report.streams));
     });
     return report;
 }

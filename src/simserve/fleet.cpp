@@ -28,7 +28,8 @@ SetupResult<void> Fleet::add(const sim::VehicleOptions& options, sim::Moment now
         return setup_error(SetupCode::usage,
                            fmt::format("two vehicles have system id {}; each needs its own", options.system.value));
     place = static_cast<std::uint16_t>(vehicles_.size());
-    vehicles_.push_back({std::make_unique<sim::Vehicle>(options, sink_, now), options.autopilot});
+    vehicles_.push_back({std::make_unique<sim::Vehicle>(options, sink_, now), options.autopilot, options.system});
+    vehicles_.back().vehicle->ask_for_system([this](SystemId wanted) { return by_system_[wanted.value] == nobody; });
     schedule_.add(vehicles_.back().vehicle->next_due());
     return {};
 }
@@ -66,6 +67,7 @@ void Fleet::advance(sim::Moment now) {
     while (schedule_.due() <= now.flight) {
         const Index first = schedule_.first();
         vehicles_[first].vehicle->advance(now);
+        note_system(first);
         schedule_.update(first, std::max(vehicles_[first].vehicle->next_due(), now.flight + Nanoseconds{1}));
     }
 }
@@ -76,10 +78,20 @@ sim::Vehicle* Fleet::find(SystemId system) const noexcept {
 }
 
 void Fleet::reschedule(const sim::Vehicle& vehicle, sim::Moment now) noexcept {
-    note_due(by_system_[vehicle.system().value], now);
+    const auto at = std::ranges::find(vehicles_, &vehicle, [](const Member& member) { return member.vehicle.get(); });
+    if (at != vehicles_.end()) note_due(static_cast<Index>(at - vehicles_.begin()), now);
+}
+
+void Fleet::note_system(Index index) noexcept {
+    Member& member = vehicles_[index];
+    if (member.system == member.vehicle->system()) return;
+    by_system_[member.system.value] = nobody;
+    member.system = member.vehicle->system();
+    by_system_[member.system.value] = static_cast<std::uint16_t>(index);
 }
 
 void Fleet::note_due(Index index, sim::Moment now) noexcept {
+    note_system(index);
     schedule_.update(index, std::max(vehicles_[index].vehicle->next_due(), now.flight));
 }
 

@@ -28,6 +28,8 @@ class Fleet {
 public:
     // `sink` must outlive the object.
     explicit Fleet(sim::Sink& sink) noexcept : sink_(sink) {}
+    Fleet(const Fleet&) = delete;
+    Fleet& operator=(const Fleet&) = delete;
 
     // Adds a vehicle before any link is opened. Refuses a system id that another vehicle has (`usage`).
     [[nodiscard]] SetupResult<void> add(const sim::VehicleOptions& options, sim::Moment now);
@@ -60,10 +62,12 @@ private:
     struct Member {
         std::unique_ptr<sim::Vehicle> vehicle;
         sim::Autopilot autopilot;
+        SystemId system;  // under which `by_system_` has it; a reboot may change the vehicle's own
     };
     using Index = Schedule::Index;
     static constexpr std::uint16_t nobody = 0xFFFF;
 
+    void note_system(Index index) noexcept;
     void note_due(Index index, sim::Moment now) noexcept;
 
     sim::Sink& sink_;

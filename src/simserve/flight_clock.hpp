@@ -32,7 +32,7 @@ public:
 
 private:
     // Later instants mean never. Small enough that no conversion overflows.
-    static constexpr sim::FlightTime furthest = std::chrono::hours{24 * 365};
+    static constexpr sim::FlightTime furthest = std::chrono::hours{24 * 365 * 20};
 
     [[nodiscard]] static Nanoseconds scaled(Nanoseconds time, double factor, std::int64_t more) noexcept {
         return Nanoseconds{static_cast<std::int64_t>(std::floor(static_cast<double>(time.count()) * factor)) + more};

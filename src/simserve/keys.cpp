@@ -123,6 +123,7 @@ SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_vie
     if (info == infos.end())
         return endpoint::usage(
             fmt::format("vehicles stream no message {}{}", in_quotes(message), did_you_mean(message, names)));
+    if (message == "HEARTBEAT") return endpoint::usage("HEARTBEAT always comes once a second");
     const auto rate = parse_number(hz, {0, sim::fastest_stream_hz});
     if (!rate) return tl::unexpected(SetupError(rate.error()).within(message));
     rates.push_back({info->message, *rate});

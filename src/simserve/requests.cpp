@@ -53,7 +53,7 @@ SetupResult<std::vector<sim::Vehicle*>> vehicles_of(Simulator& simulator, const 
     const auto system = number_at(request, "system");
     std::erase_if(vehicles, [&](const sim::Vehicle* vehicle) { return vehicle->system().value != system; });
     if (vehicles.empty())
-        return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", request["system"].dump()));
+        return setup_error(SetupCode::usage, fmt::format("there is no vehicle {}", system.value_or(0)));
     return vehicles;
 }
 

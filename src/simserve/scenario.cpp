@@ -161,6 +161,8 @@ private:
         }
         vehicle.has_own_place = find(section, "home").origin != Origin::by_default;
         if (auto done = check_systems(vehicle, section, next); !done) return done;
+        if (vehicle.options.motion == sim::Motion::random && vehicle.options.kind != sim::Kind::quad)
+            return wrong(section, {"motion", "kind"}, "random motion is for a quad");
         complete(section, vehicle);
         scenario_.sections.push_back(std::move(section));
         scenario_.vehicles.push_back(std::move(vehicle));
@@ -195,22 +197,24 @@ private:
         const unsigned first = is_given ? vehicle.options.system.value : next;
         const unsigned last = first + static_cast<unsigned>(vehicle.count) - 1;
         if (last > 254)
-            return wrong(section,
+            return wrong(section, {"count", "system"},
                          fmt::format("the last of {} vehicles from system id {} on would have id {}; there are "
                                      "254",
                                      vehicle.count, first, last));
         for (const ScenarioVehicle& other : scenario_.vehicles) {
             const unsigned begin = other.options.system.value, end = begin + static_cast<unsigned>(other.count);
             if (first < end && begin <= last)
-                return wrong(section,
+                return wrong(section, {"count", "system"},
                              fmt::format("two vehicles have system id {}; each needs its own", std::max(first, begin)));
         }
         return {};
     }
 
-    // An error that belongs to the ids of a vehicle: at the key that sets them.
-    [[nodiscard]] tl::unexpected<SetupError> wrong(config::Section& section, std::string_view what) const {
-        for (const auto key : {"count", "system"}) {
+    // An error at the first of these keys that the file sets.
+    [[nodiscard]] tl::unexpected<SetupError> wrong(config::Section& section,
+                                                   std::initializer_list<std::string_view> keys,
+                                                   std::string_view what) const {
+        for (const auto key : keys) {
             const Setting& setting = find(section, key);
             if (setting.origin == Origin::file) return document_.error(setting.line, what);
             if (setting.origin == Origin::environment)
@@ -285,15 +289,11 @@ std::uint64_t seed_of(std::uint64_t seed, SystemId system) noexcept {
 }
 
 // The place number `index` of a square grid that grows north and east of home.
-sim::Home on_grid(sim::Home home, std::size_t index, std::size_t count) noexcept {
-    constexpr double distance_m = 5, earth_radius_m = 6'371'000;
+sim::Home on_grid(const sim::Home& home, std::size_t index, std::size_t count) {
+    constexpr double distance_m = 5;
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-    const double north = distance_m * static_cast<double>(index / columns);
-    const double east = distance_m * static_cast<double>(index % columns);
-    constexpr double degree = std::numbers::pi / 180;
-    home.latitude_deg += north / earth_radius_m / degree;
-    home.longitude_deg += east / (earth_radius_m * std::cos(home.latitude_deg * degree)) / degree;
-    return home;
+    return sim::moved(home, distance_m * static_cast<double>(index / columns),
+                      distance_m * static_cast<double>(index % columns));
 }
 
 }  // namespace
@@ -348,6 +348,14 @@ std::string unknown_parameter(const sim::Vehicle& vehicle, std::string_view name
                        in_quotes(name), did_you_mean(name, names));
 }
 
+SetupResult<void> check_parameter(sim::Vehicle& vehicle, std::string_view name, double value) {
+    if (!vehicle.parameter(name)) return setup_error(SetupCode::usage, unknown_parameter(vehicle, name));
+    if (name == vehicle.system_parameter())
+        return setup_error(SetupCode::usage, fmt::format("{} follows from the key system", name));
+    auto set = vehicle.set_parameter(name, value);
+    return set ? set : setup_error(SetupCode::usage, fmt::format("{}: {}", name, set.error().text));
+}
+
 std::uint32_t line_of_parameter(const Table& table, std::string_view name) {
     const Entry* const parameters = table.find("parameters");
     if (parameters == nullptr) return table.line;
@@ -361,10 +369,10 @@ SetupResult<void> check_parameters(const Scenario& scenario, const Document& doc
         table = std::find_if(table, document.tables.end(), [](const Table& t) { return t.name == vehicle_section; });
         if (!group.parameters.empty()) {
             NoSink nowhere;
-            const sim::Vehicle vehicle(group.options, nowhere, {});
+            sim::Vehicle vehicle(group.options, nowhere, {});
             for (const auto& [name, value] : group.parameters)
-                if (!vehicle.parameter(name))
-                    return document.error(line_of_parameter(*table, name), unknown_parameter(vehicle, name));
+                if (auto good = check_parameter(vehicle, name, value); !good)
+                    return document.error(line_of_parameter(*table, name), good.error().text);
         }
         if (table != document.tables.end()) ++table;
     }

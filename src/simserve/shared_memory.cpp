@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "simserve/shared_memory.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace mavloom::simserve {
@@ -21,6 +23,7 @@ SetupResult<void> SharedMemory::open_page(const std::string& name) {
     auto page = ring::RingPage::create(name, page_mode);
     if (!page) return tl::unexpected(std::move(page.error()));
     page_.emplace(std::move(*page));
+    page_name_ = name;
     return {};
 }
 
@@ -50,7 +53,10 @@ void SharedMemory::refresh_page(const link::Links& links, std::optional<link::En
 
 std::vector<std::string> SharedMemory::look_after(const link::Links& links) {
     if (ring_) return ring_->look_after(links);
-    return {};
+    if (!page_ || !page_->is_removed()) return {};
+    if (auto opened = open_page(page_name_); !opened) return {std::move(opened.error().text)};
+    for (const auto& link : links.links()) page_->name_link(link.id, link.name);
+    return {fmt::format("{}: the counter page was removed; there is a new one", page_name_)};
 }
 
 }  // namespace mavloom::simserve

@@ -47,7 +47,7 @@ public:
 private:
     std::unique_ptr<ring::RingTap> ring_;
     std::optional<ring::RingPage> page_;  // without a ring
-    std::string ring_name_;
+    std::string ring_name_, page_name_;
     LinkId ring_link_{};
     std::uint64_t frames_ = 0, bytes_ = 0;
 };

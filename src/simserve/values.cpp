@@ -103,7 +103,8 @@ SetupResult<sim::BatteryOptions> parse_battery(std::string_view text) {
         const auto index = parse_choice(name, battery_keys);
         if (!index) return tl::unexpected(index.error());
         const Range range = battery_ranges[*index];
-        if (value < range.least || value > range.most)
+        const bool is_whole = *index != 1 || value == std::floor(value);
+        if (value < range.least || value > range.most || !is_whole)
             return usage(fmt::format("{}: {} is not a number from {} to {}", name, value, range.least, range.most));
         if (*index == 0) battery.capacity_mah = value;
         if (*index == 1) battery.cells = static_cast<std::uint8_t>(value);

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """mavloom.columns() against pymavlink on the recorded flight. "Row N": the wishes listed in docs/guide/python.md."""
 import contextlib
+import copy
+import datetime
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -32,7 +35,7 @@ def expected_columns(peer, message_class, rows):
 
 
 def assert_same(columns, expected):
-    assert columns.keys() == list(expected)
+    assert list(columns) == list(expected)
     for name, values in expected.items():
         found = columns[name]
         assert (found.dtype, found.shape) == (values.dtype, values.shape), name
@@ -207,7 +210,112 @@ def test_arrays_outlive_everything(flight):
     assert (roll == expected + 1).all()
 
 
+def test_columns_are_copied_and_pickled(flight):
+    att = mavloom.columns(flight, "ATTITUDE", fields=["roll"])
+    for other in (copy.copy(att), copy.deepcopy(att), att.copy(), pickle.loads(pickle.dumps(att))):
+        assert type(other) is mavloom.Columns and (other.name, other.junk_bytes) == ("ATTITUDE", 0)
+        assert other.units == att.units and all((other[name] == att[name]).all() for name in att)
+    copy.deepcopy(att)["roll"][0] = 7
+    assert att["roll"][0] != 7
+
+
+def test_the_columns_cannot_be_exchanged(flight):
+    att = mavloom.columns(flight, "ATTITUDE", system=1)
+    for wrong in (lambda: att.update(x=1), lambda: att.pop("roll"), lambda: att.__setitem__("roll", 1), att.clear):
+        with pytest.raises(TypeError, match="cannot be exchanged"):
+            wrong()
+    assert dict(att) == dict(att.items()) and att == att and att != dict(att) and len({att, att}) == 1
+    assert "roll" in att and att.get("nothing") is None and [1] not in att.keys()
+
+
+def test_several_files_follow_each_other(flight, tmp_path):
+    records = list(frames_of(flight))
+    parts = [write(tmp_path / f"{i}.tlog", [frame for _, frame in part]) for i, part in
+             enumerate((records[:9000], records[9000:]))]
+    whole = mavloom.columns(write(tmp_path / "whole.tlog", [frame for _, frame in records]), "ATTITUDE")
+    for columns in (mavloom.columns(parts, "ATTITUDE"), mavloom.tables(iter(parts))["ATTITUDE"],
+                    mavloom.columns(tuple(map(str, parts)), ["HEARTBEAT", "ATTITUDE"])["ATTITUDE"]):
+        assert all((columns[name] == whole[name]).all() for name in whole if name != "time_ns")
+    with pytest.raises(mavloom.UsageError, match="an empty list of recordings"):
+        mavloom.columns([], "ATTITUDE")
+
+
+def test_a_part_of_the_time_and_of_the_fields(flight):
+    whole = mavloom.columns(flight, "ATTITUDE")
+    first, last = (int(whole["time_ns"][i]) for i in (100, 300))
+    at = datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc) + datetime.timedelta(microseconds=first // 1000)
+    for start, end in ((first, last), (whole["time_ns"][100], np.datetime64(last, "ns")), (at, last)):
+        part = mavloom.columns(flight, "ATTITUDE", start=start, end=end, fields=["yaw", "roll"])
+        assert list(part) == ["time_ns", "sys", "comp", "roll", "yaw"]
+        assert part["roll"].tolist() == whole["roll"][100:300].tolist()
+    assert len(mavloom.tables(flight, start=first, end=last)["ATTITUDE"]) == 200
+    with pytest.raises(mavloom.UsageError, match="no field 'rol', did you mean 'roll'"):
+        mavloom.columns(flight, "ATTITUDE", fields=["rol"])
+    with pytest.raises(mavloom.UsageError, match="has no time zone"):
+        mavloom.columns(flight, "ATTITUDE", start=datetime.datetime(2026, 1, 1))
+    with pytest.raises(mavloom.UsageError, match="start: a time is Unix time in ns"):
+        mavloom.columns(flight, "ATTITUDE", start="yesterday")
+
+
+def test_several_messages_are_a_dictionary(flight):
+    both = mavloom.columns(flight, ["ATTITUDE", "RPM"], fields=["roll", "rpm1"])
+    assert list(both) == ["ATTITUDE", "RPM"]
+    assert list(both["ATTITUDE"])[3:] == ["roll"] and list(both["RPM"])[3:] == ["rpm1"] and len(both["RPM"]) == 0
+    for wrong in (None, 3, ["ATTITUDE", 3]):
+        with pytest.raises(mavloom.UsageError, match="name= takes a name or a list of names"):
+            mavloom.columns(flight, wrong)
+
+
+def test_tables_take_at_most_twice_the_memory_of_their_result(flight, child_environment):
+    """The peak of the process, beyond what it has before."""
+    code = ("import resource, sys, mavloom\n"
+            "peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024\n"
+            "mavloom.tables(sys.argv[1])\nbefore = peak()\n"
+            "made = mavloom.tables([sys.argv[1]] * 100)\n"
+            "print(sum(c[n].nbytes for c in made.values() for n in c), peak() - before)")
+    # The address sanitizer, where one runs, would keep what was freed.
+    no_quarantine = os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=0:thread_local_quarantine_size_kb=0"
+    done = subprocess.run([sys.executable, "-c", code, flight], check=True, capture_output=True, text=True,
+                          env={**child_environment, "ASAN_OPTIONS": no_quarantine})
+    size, more = map(int, done.stdout.split())
+    assert size > 100e6 and more <= 2 * size
+
+
 # ---- tables
+
+def test_pandas_and_numpy_take_columns_as_they_are(flight):
+    import pandas
+    att, bat = mavloom.columns(flight, "ATTITUDE"), mavloom.columns(flight, "BATTERY_STATUS")
+    df = pandas.DataFrame(att)
+    assert list(df) == list(att) and all((df[name] == att[name]).all() for name in att) and df["roll"].dtype == "f4"
+    df = pandas.DataFrame(bat)
+    assert df["voltages[3]"].tolist() == bat["voltages"][:, 3].tolist() == bat["voltages[3]"].tolist()
+    assert np.asarray(att)["roll"].tolist() == att["roll"].tolist()
+    assert list(pandas.DataFrame(att, columns=["yaw", "roll"])) == ["yaw", "roll"]
+
+
+def test_arrow_takes_columns_as_they_are(flight):
+    import pyarrow
+    att = mavloom.columns(flight, "ATTITUDE")
+    assert pyarrow.table(att)["roll"] == att.to_arrow()["roll"]
+    assert pyarrow.RecordBatchReader.from_stream(att).read_all() == att.to_arrow()
+
+
+def test_names_of_enum_entries_in_pandas(flight):
+    beats = mavloom.columns(flight, "HEARTBEAT")
+    df, plain = beats.to_pandas(enums=True), beats.to_pandas()
+    assert set(df["type"]) == {"MAV_TYPE_QUADROTOR", "MAV_TYPE_GCS"}
+    assert [name == "MAV_TYPE_GCS" for name in df["type"]] == [kind == 6 for kind in plain["type"]]
+    assert df["base_mode"].tolist() == plain["base_mode"].tolist()  # flags
+
+
+def test_columns_are_shown_as_a_table(flight):
+    att = mavloom.columns(flight, "ATTITUDE")
+    assert repr(att).startswith("<ATTITUDE: 5312 rows of time_ns, sys, comp, time_boot_ms, roll")
+    shown = att._repr_html_()
+    assert shown.count("<tr>") == 11 and "<th>roll [rad]</th>" in shown
+    assert "roll" in att._ipython_key_completions_()
+
 
 def test_example_9_arrow_and_parquet_keep_units_and_enum_names(flight, tmp_path):
     import pyarrow.parquet

@@ -725,7 +725,7 @@ def test_row_26_what_is_iterated_stays_open(peer):
 
 
 def test_row_29_numbers_that_do_not_fit_are_value_errors(link):
-    for name, value, limits in (("source_system", 300, "0 to 255"), ("source_component", -1, "0 to 255"),
+    for name, value, limits in (("source_system", 300, "1 to 255"), ("source_component", 0, "1 to 255"),
                                 ("version", 3, "1 to 2"), ("buffer", -1, "0 to 68719476736"),
                                 ("buffer", 2**70, "0 to 68719476736")):
         with pytest.raises(mavloom.UsageError, match=f"^{name}: {value} is out of range, {limits}$"):

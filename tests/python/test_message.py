@@ -47,7 +47,7 @@ def test_row_28_every_message_is_encoded_and_decoded_as_pymavlink_does(dialect, 
         assert ours == theirs, (name, case)
 
         message = dialect.decode(theirs)
-        assert (message.name, message.id, message.sys, message.comp) == (name, identifier, 7, 42)
+        assert (message.name, message.header.id, message.sys, message.comp) == (name, identifier, 7, 42)
         for field in vectors.fields_of(message_class):
             value = expected_text(values[field.name]) if field.is_text else values[field.name]
             assert same(message[field.name], value), (name, field.name, case)
@@ -62,7 +62,7 @@ def test_row_10_mavlink_1_is_decoded_and_encoded_too(dialect, peer_v1):
         theirs = sender.pack(vectors.message_of(message_class, values))
 
         message = dialect.decode(theirs)
-        assert message.version == 1
+        assert message.header.version == 1
         assert dialect.encode(message) == theirs
         assert dialect.encode(message_class.msgname, source_system=1, source_component=1, frame_seq=theirs[2],
                               frame_version=1, **values) == theirs
@@ -70,13 +70,62 @@ def test_row_10_mavlink_1_is_decoded_and_encoded_too(dialect, peer_v1):
         dialect.encode("ODOMETRY", frame_version=1)
 
 
-def test_fields_that_attributes_hide_are_items(dialect):
+HEADER = ("frame", "id", "seq", "version")
+
+
+def test_fields_that_have_the_name_of_an_attribute(dialect):
+    """`msg.seq` of a MISSION_REQUEST was the frame's number, and an upload loop sent the wrong waypoints."""
     hidden = {field.name for name in dialect.message_names for field in dialect[name].fields
               if hasattr(mavloom.Message, field.name)}
-    assert hidden == {"frame", "id", "name", "seq", "version"}
+    assert hidden == {"name", *HEADER}
 
     message = dialect.message("MISSION_ITEM_INT", seq=500, frame="MAV_FRAME_GLOBAL_INT")
-    assert (message.seq, message["seq"], message["frame"], "seq" in message) == (0, 500, 5, True)
+    assert (message["seq"], message["frame"], "seq" in message, message.header.seq) == (500, 5, True, 0)
+    assert message.header.frame == message.get_msgbuf() == dialect.encode(message)
+    for name in ("seq", "frame", "".join(("s", "eq"))):  # the last one is not interned
+        with pytest.raises(AttributeError, match=rf'write msg\["{name}"\] for the field, msg\.header\.{name} for'):
+            getattr(message, name)
+    assert (message.id, message.version) == (message.header.id, message.header.version) == (73, 2)
+
+    named = dialect.message("NAMED_VALUE_FLOAT", name="speed")
+    assert (named.name, named["name"], named.header.name) == ("NAMED_VALUE_FLOAT", "speed", "NAMED_VALUE_FLOAT")
+
+
+def test_every_message_has_its_fields_as_attributes_or_refuses_to_guess(dialect):
+    for name in dialect.message_names:
+        message = dialect.message(name)
+        for field in dialect[name].fields:
+            if field.name in HEADER:
+                with pytest.raises(AttributeError, match=rf"{name} has a field '{field.name}'"):
+                    getattr(message, field.name)
+            elif field.name != "name":
+                assert same(getattr(message, field.name), message[field.name])
+        assert message.header.id == dialect[name].id
+
+
+def test_the_header_has_our_names_and_pymavlinks(dialect):
+    header = dialect.decode(dialect.encode("HEARTBEAT", source_system=7, source_component=8, frame_seq=9)).header
+    assert (header.name, header.id, header.sys, header.comp, header.seq, header.version) == ("HEARTBEAT", 0, 7, 8, 9, 2)
+    assert (header.msgId, header.srcSystem, header.srcComponent, header.mlen) == (0, 7, 8, 9)
+    assert repr(header) == "<Header of HEARTBEAT: id=0, sys=7, comp=8, seq=9, version=2>"
+
+
+def test_attributes_and_keys_can_be_listed_and_completed(dialect):
+    message = dialect.message("MISSION_ITEM_INT")
+    assert {"param1", "x", "seq", "sys", "to_dict", "header"} <= set(dir(message))
+    assert message.keys() == message._ipython_key_completions_() == [f.name for f in dialect["MISSION_ITEM_INT"].fields]
+    assert dict(message)["x"] == 0
+
+
+def test_messages_cannot_be_changed(dialect):
+    message = dialect.message("ATTITUDE", roll=0.5)
+    with pytest.raises(AttributeError, match=r"messages cannot be changed; make a new one: .*\(msg, roll=\.\.\.\)"):
+        message.roll = 1
+    with pytest.raises(AttributeError, match="no attribute 'colour' can be set"):
+        message.colour = 1
+    with pytest.raises(AttributeError, match="cannot be changed"):
+        del message.roll
+    assert message.dialect.message(message, roll=1).roll == 1
 
 
 # ---- row 12: text
@@ -88,7 +137,7 @@ def test_row_12_text_in_and_out(dialect, given, shown):
 
     assert message.text == shown
     assert message.raw("text") == (given.encode() if isinstance(given, str) else given).ljust(50, b"\0")
-    assert dialect.encode(message) == message.frame
+    assert dialect.encode(message) == message.header.frame
 
 
 def test_row_12_text_that_is_too_long_is_refused(dialect):

@@ -34,7 +34,7 @@ def test_every_message_and_value_is_pymavlinks(flight, peer):
     for (time_us, frame), ours in zip(frames_of(flight), log, strict=True):
         theirs = mav.parse_char(frame)
         assert ours.time_ns == time_us * 1000 and ours._timestamp == time_us * 1e-6
-        assert (ours.name, ours.sys, ours.comp, ours.seq, ours.frame) == (
+        assert (ours.name, ours.sys, ours.comp, ours.header.seq, ours.header.frame) == (
             theirs.get_type(), theirs.get_srcSystem(), theirs.get_srcComponent(), theirs.get_seq(), frame)
         for name, value in theirs.to_dict().items():
             if name != "mavpackettype":
@@ -69,7 +69,7 @@ def test_a_damaged_file_goes_on_behind_the_damage(flight, tmp_path):
 
     log = mavloom.read(path)
 
-    assert [m.frame for m in log] == [frame for i, (_, frame) in enumerate(whole) if i != 500]
+    assert [m.header.frame for m in log] == [frame for i, (_, frame) in enumerate(whole) if i != 500]
     assert (log.stats.junk_bytes, log.stats.damaged_places) == (len(damaged) + 100 + 11, 3)
 
 
@@ -107,7 +107,7 @@ def test_row_1_the_deadline_holds_for_a_condition_that_is_slow(flight):
 
 def test_row_1_a_poll_looks_at_all_of_a_file(flight):
     log = mavloom.read(flight)
-    assert log.recv_match(condition=lambda m: m.seq == -1, timeout=0) is None
+    assert log.recv_match(condition=lambda m: m.sys == -1, timeout=0) is None
     assert log.percent == 100
 
 
@@ -139,7 +139,7 @@ def test_counters_are_shown(flight):
           mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender):
         sender.send("HEARTBEAT")
         receiver.recv(timeout=10)
-        assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=13, ")
+        assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=21, ")
         assert "received=1)" in repr(receiver.stats)
 
 
@@ -150,7 +150,7 @@ def test_row_29_types_each_call_with_its_own(flight, peer):
     wanted = iter(frames_of(flight))
     for name in ("ATTITUDE", "HEARTBEAT", "ATTITUDE"):
         expected = next(frame for _, frame in wanted if frame[7] == ids[name] and frame[8:10] == b"\0\0")
-        assert log.recv_match(type=[name]).frame == expected
+        assert log.recv_match(type=[name]).header.frame == expected
     assert log.recv_match(type=("ATTITUDE", "VFR_HUD")).name in ("ATTITUDE", "VFR_HUD")
     assert log.recv_match(type=mavloom.messages.HEARTBEAT).name == "HEARTBEAT"
     assert log.recv_match(type={"HEARTBEAT"}).name == "HEARTBEAT"

@@ -103,7 +103,7 @@ public:
     [[nodiscard]] double worst_rate() const {
         double worst = 0;
         for (const auto& vehicle : vehicles_)
-            for (const auto& stream : vehicle->stream_reports())
+            for (const auto& stream : vehicle->stream_reports(LinkId{1}))
                 if (stream.sent > 10) worst = std::max(worst, std::abs(stream.achieved_hz / stream.asked_hz - 1));
         return worst;
     }

@@ -42,10 +42,11 @@ constexpr KeyOption key_options[] = {
     {"--vehicle", "vehicle", "kind", "what flies or drives: quad (default), plane, rover", "KIND"},
     {"--vehicles", "vehicle", "count", "this many vehicles, 5 m apart; their system ids count up", "N"},
     {"--system", "vehicle", "system", "system id of the first vehicle (default: 1)", "N"},
-    {"--autopilot", "vehicle", "autopilot", "whose manners it has: px4 (default) or ardupilot", "NAME"},
+    {"--autopilot", "vehicle", "autopilot", "firmware to imitate: px4 (default) or ardupilot", "NAME"},
     {"--home", "vehicle", "home", "where it stands: degrees, degrees, metres above sea level, degrees from north",
      "LAT,LON,ALT,HEADING"},
-    {"--wind", "vehicle", "wind", "metres a second, and the degrees from north that the wind comes from", "SPEED,DIR"},
+    {"--wind", "vehicle", "wind",
+     "metres a second, and the degrees from north that the wind comes from; with GUST, also gusts", "SPEED,DIR[,GUST]"},
     {"--gimbal", "vehicle", "gimbal", "a gimbal is mounted", nullptr},
     {"--traffic", "vehicle", "traffic", "this many other aircraft, reported by ADSB_VEHICLE", "N"},
     {"--motion", "vehicle", "motion", "flight (default), or random: coherent random values instead of flight", "HOW"},
@@ -260,7 +261,7 @@ Run declare_sim(Arguments command, const Common& common) {
     command.add_flag("--json", options->json, "with --report: print one JSON object per line");
     command.footer(
         "Simulates vehicles that ground stations and SDKs take for real. Without options, one PX4 quadrotor sends to "
-        "port 14550\nof this machine, where a ground station finds it. It answers whoever sends to it.\n\n"
+        "port 14550\nof this machine, where a ground station finds it. It answers every sender.\n\n"
         "Examples:\n"
         "  mavloom sim\n"
         "  mavloom sim --vehicle plane --autopilot ardupilot --listen tcpin://127.0.0.1:5760\n"

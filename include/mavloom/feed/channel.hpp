@@ -25,6 +25,7 @@
 #include "mavloom/feed/link_names.hpp"
 #include "mavloom/feed/newest_frames.hpp"
 #include "mavloom/link/links.hpp"
+#include "mavloom/record/recorder.hpp"
 #include "mavloom/wire/sequence.hpp"
 
 namespace mavloom::feed {
@@ -64,6 +65,11 @@ public:
     [[nodiscard]] std::map<MessageId, CrcErrors> crc_errors() const;
     // Losses of links that are gone.
     [[nodiscard]] Losses losses() const;
+
+    // From now on, the recorder also gets every frame, until `end_recording`. Recording never delays the loop thread.
+    void record_with(std::shared_ptr<record::Recorder> recorder);
+    // Ends the recording without waiting for the disk; the recorder's `stop` waits.
+    void end_recording(const std::shared_ptr<record::Recorder>& recorder);
 
     // ---- loop thread
     void on_frame(const link::RxFrame& rx, MonoTime now);
@@ -112,6 +118,7 @@ private:
     std::map<MessageId, std::uint64_t> bad_ids_;
     Losses losses_;
     std::vector<Consumer*> consumers_;
+    std::vector<std::shared_ptr<record::Recorder>> recorders_;
     const Consumer* holder_ = nullptr;
     std::function<void()> room_made_;
     bool full_ = false;

@@ -30,7 +30,8 @@ struct ReadCounters {
 
 class TlogReader {
 public:
-    // `table` must outlive the reader. `empty` selects what `next` does while a pipe or device is empty.
+    // `table` must outlive the reader. `empty` selects what `next` does while a pipe or device is empty. A file of
+    // another format, recognised by its first bytes (DataFlash, ULog, gzip, pcap, ...), is the error `bad_input`.
     [[nodiscard]] static SetupResult<TlogReader> open(const std::filesystem::path& path, const wire::MessageTable& table,
                                                       File::Empty empty = File::Empty::wait);
 

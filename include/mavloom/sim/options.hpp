@@ -32,6 +32,8 @@ struct Home {
     double altitude_m = 489.4;  // above mean sea level; the ground is flat at this height
     double heading_deg = 0;     // clockwise from north
 };
+// The place so far away from home, by the geodesic.
+[[nodiscard]] Home moved(const Home& home, double north_m, double east_m);
 
 // A steady wind with gusts. The direction is the one that the air moves to.
 struct Wind {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -85,15 +86,19 @@ public:
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
 
-    // A client may change the system id by a parameter. The new one holds after a reboot.
+    // A client may change the system id by a parameter. The new one holds after a reboot, unless `is_free` refuses it
+    // because another vehicle has it; without `is_free`, every id is free.
     [[nodiscard]] SystemId system() const noexcept;
+    void ask_for_system(std::function<bool(SystemId)> is_free);
     [[nodiscard]] VehicleStatus status() const;
     [[nodiscard]] std::vector<std::string_view> mode_names() const;
     [[nodiscard]] std::vector<std::string_view> parameter_names() const;
+    // The parameter that holds the system id.
+    [[nodiscard]] std::string_view system_parameter() const noexcept;
     // Empty if there is none of this name.
     [[nodiscard]] std::optional<double> parameter(std::string_view name) const;
-    // One row for each stream of each open link.
-    [[nodiscard]] std::vector<StreamReport> stream_reports() const;
+    // One row for each stream of an open link.
+    [[nodiscard]] std::vector<StreamReport> stream_reports(LinkId link) const;
 
 private:
     std::unique_ptr<Parts> parts_;

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/map.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "counters_repr.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 

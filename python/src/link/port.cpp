@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 
 #include <mutex>
@@ -13,11 +11,14 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "link/link_stats.hpp"
+#include "link/recorder.hpp"
 #include "link/subscription.hpp"
 #include "mavloom/feed/hub.hpp"
 #include "mavloom/feed/ring_alarm.hpp"
+#include "mavloom/feed/vehicle.hpp"
 #include "message/encode.hpp"
 #include "message/filter.hpp"
+#include "strings.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -30,13 +31,18 @@ endpoint::Endpoint endpoint_of(const std::string& url) {
     return endpoint;
 }
 
+// 0 addresses every system or component, and is no sender.
+SystemId sender_system(const Integer& given) { return SystemId{given.in<std::uint8_t>("source_system", 1, 255)}; }
+ComponentId sender_component(const Integer& given) {
+    return ComponentId{given.in<std::uint8_t>("source_component", 1, 255)};
+}
+
 class Port {
 public:
     Port(const std::string& url, const Integer& system, const Integer& component, const nb::object& dialect,
          const Integer& buffer, const Integer& version)
-        : origin_(std::make_shared<Origin>(definitions_of(dialect))),
-          source_{SystemId{system.in<std::uint8_t>("source_system")},
-                  ComponentId{component.in<std::uint8_t>("source_component")}},
+        : origin_(std::make_shared<Origin>(dialect)),
+          source_{sender_system(system), sender_component(component)},
           version_(version_of("version", version)) {
         const auto endpoint = endpoint_of(url);
         feed_ = feed_of(endpoint, buffer.in<std::size_t>("buffer", 0, feed::FrameRing::max_capacity));
@@ -140,8 +146,36 @@ public:
         return stats;
     }
 
+    // Records every frame that arrives, until the recorder or the link is closed.
+    nb::object record(const nb::object& path) {
+        check();
+        return nb::cast(new LinkRecorder(feed_.channel, path_of(path)), nb::rv_policy::take_ownership);
+    }
+
+    [[nodiscard]] int source_system() { return source().system.value; }
+    [[nodiscard]] int source_component() { return source().component.value; }
+    [[nodiscard]] int sequence() {
+        const auto lock = lock_without_gil(mutex_);
+        return sequence_;
+    }
+    void set_source_system(const Integer& system) {
+        const auto given = sender_system(system);
+        const auto lock = lock_without_gil(mutex_);
+        source_.system = given;
+    }
+    void set_source_component(const Integer& component) {
+        const auto given = sender_component(component);
+        const auto lock = lock_without_gil(mutex_);
+        source_.component = given;
+    }
+    void set_sequence(const Integer& sequence) {
+        const auto given = sequence.in<std::uint8_t>("seq");
+        const auto lock = lock_without_gil(mutex_);
+        sequence_ = given;
+    }
+
     [[nodiscard]] nb::object reader() const { return reader_; }
-    [[nodiscard]] PyDialect dialect() const { return {origin_->definitions()}; }
+    [[nodiscard]] PyDialect dialect() const { return {origin_->definitions(), nullptr}; }
     [[nodiscard]] const std::string& name() const noexcept { return opened_.name; }
     [[nodiscard]] int port() const noexcept { return opened_.port; }
     [[nodiscard]] int version() const noexcept { return static_cast<int>(version_); }
@@ -154,9 +188,8 @@ private:
     // The channel shares the definitions and the names of links with the messages.
     [[nodiscard]] LinkFeed feed_of(const endpoint::Endpoint& endpoint, std::size_t buffer_bytes) const {
         auto channel = std::make_shared<feed::Channel>(
-            std::shared_ptr<const dialect::Dialect>(origin_, &origin_->dialect()),
-            std::shared_ptr<feed::LinkNames>(origin_, &origin_->link_names()), buffer_bytes,
-            !endpoint.options.verify_key_file.empty());
+            std::shared_ptr<const dialect::Dialect>(origin_->definitions(), &origin_->dialect()),
+            origin_->shared_link_names(), buffer_bytes, !endpoint.options.verify_key_file.empty());
         const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
         return {origin_, std::move(channel), is_ring ? endpoint.path : std::string()};
     }
@@ -178,6 +211,10 @@ private:
         hub_->send(to_, make());
         return peers;
     }
+    [[nodiscard]] Source source() {
+        const auto lock = lock_without_gil(mutex_);
+        return source_;
+    }
     void check() {
         fork_.check();
         const auto lock = lock_without_gil(mutex_);
@@ -191,7 +228,7 @@ private:
 
     const BeforeFork fork_;
     const std::shared_ptr<Origin> origin_;
-    const Source source_;
+    Source source_;  // guarded by mutex_, once the object is made
     const wire::Version version_;
     LinkFeed feed_;
     nb::object reader_;
@@ -210,6 +247,7 @@ private:
 void bind_link(nb::module_& module) {
     bind_link_stats(module);
     bind_subscription(module);
+    bind_link_recorder(module);
     nb::class_<Port>(module, "Port", nb::is_final())
         .def(nb::init<const std::string&, const Integer&, const Integer&, const nb::object&, const Integer&,
                       const Integer&>(),
@@ -232,6 +270,14 @@ void bind_link(nb::module_& module) {
              nb::arg("component").none(),
              nb::sig("def subscribe(self, type: MessageTypes | None, system: int | None, component: int | None) -> "
                      "Subscription"))
+        .def("record", &Port::record, nb::arg("path"),
+             nb::sig("def record(self, path: str | os.PathLike[str]) -> LinkRecorder"))
+        .def_prop_rw("source_system", &Port::source_system, &Port::set_source_system,
+                     nb::for_setter(nb::sig("def source_system(self, value: int, /) -> None")))
+        .def_prop_rw("source_component", &Port::source_component, &Port::set_source_component,
+                     nb::for_setter(nb::sig("def source_component(self, value: int, /) -> None")))
+        .def_prop_rw("sequence", &Port::sequence, &Port::set_sequence,
+                     nb::for_setter(nb::sig("def sequence(self, value: int, /) -> None")))
         .def_prop_ro("stats", &Port::stats)
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))
         .def_prop_ro("dialect", &Port::dialect)
@@ -241,6 +287,8 @@ void bind_link(nb::module_& module) {
         .def_prop_ro("target_system", [](const Port& link) { return link.target().system.value; })
         .def_prop_ro("target_component", [](const Port& link) { return link.target().component.value; });
 
+    module.def("is_vehicle", &feed::is_vehicle, nb::arg("type"), nb::arg("autopilot"),
+               "Whether a HEARTBEAT with these values comes from a vehicle.");
     module.def("stop_all", [] {
         const nb::gil_scoped_release release;
         WithoutGil::end();

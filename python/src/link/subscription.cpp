@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 
 #include "bindings.hpp"
@@ -13,6 +12,7 @@
 #include "mavloom/feed/turns.hpp"
 #include "mavloom/ring/frames.hpp"
 #include "message/filter.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 
@@ -99,6 +99,11 @@ nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object&
 int Subscription::event_fd() {
     fork_.check();
     return value_or_raise(consumer_->event_fd());
+}
+
+std::string Subscription::shown() const {
+    return fork_.is_here() ? fmt::format("<Subscription: {} missed>", consumer_->missed())
+                           : "<Subscription, opened before a fork>";
 }
 
 std::uint64_t Subscription::missed() const {
@@ -205,6 +210,7 @@ void bind_subscription(nb::module_& module) {
              "unsigned, 16 for signed but not checked, 32 for signed and verified (docs/formats/ring.md).\n"
              "If a full ring has no room for a frame, the frame stays with this reader for its next call.")
         .def("event_fd", &Subscription::event_fd)
+        .def("__repr__", &Subscription::shown)
         .def_prop_ro("missed", &Subscription::missed, "Frames that were overwritten before this reader read them.")
         .def("close", &Subscription::close,
              "Closes the reader and wakes the threads that wait on it. May be called again.")

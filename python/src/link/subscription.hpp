@@ -48,6 +48,7 @@ public:
     // something.
     int event_fd();
     [[nodiscard]] std::uint64_t missed() const;
+    [[nodiscard]] std::string shown() const;  // for a repr
     void close();
     [[nodiscard]] const feed::Consumer& consumer() const noexcept { return *consumer_; }
 

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "message/encode.hpp"
 #include "message/message.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -114,7 +114,7 @@ MessageInfo find(const PyDialect& dialect, const nb::object& name_or_id) {
     if (PyUnicode_Check(name_or_id.ptr()))
         return {dialect.definitions, value_or_raise(definitions.message(nb::cast<std::string>(name_or_id)))};
     if (const auto* found = find_by_id(definitions, name_or_id)) return {dialect.definitions, found};
-    raise_usage(fmt::format("no message has id {}", nb::str(name_or_id).c_str()));
+    raise_usage(fmt::format("no message has id {}", escaped(nb::str(name_or_id))));
 }
 
 bool contains(const PyDialect& dialect, const nb::object& name_or_id) {
@@ -199,16 +199,19 @@ nb::object path_or_none(const PyDialect& dialect) {
 }  // namespace
 
 Definitions::Definitions(dialect::Dialect dialect, std::string path)
-    : dialect_(std::move(dialect)), path_(std::move(path)) {
+    : dialect_(std::move(dialect)), path_(std::move(path)), type_key_(interned("mavpackettype")) {
     const nb::handle message_type = nb::type<Message>();
+    constexpr std::string_view of_header[] = {"frame", "id", "seq", "version"};
     names_.reserve(dialect_.messages().size());
     for (const auto& message : dialect_.messages()) {
-        Names names{interned(message.name), {}, {}};
+        Names names{interned(message.name), {}, {}, {}};
         for (const auto& field : message.fields) {
             names.fields.push_back(interned(field.name));
             const auto& name = names.fields.back();
-            const bool taken = PyObject_HasAttr(message_type.ptr(), name.ptr()) != 0;
+            const bool ambiguous = std::ranges::find(of_header, field.name) != std::end(of_header);
+            const bool taken = !ambiguous && PyObject_HasAttr(message_type.ptr(), name.ptr()) != 0;
             names.attributes.push_back(taken ? nullptr : name.ptr());
+            names.ambiguous.push_back(ambiguous);
         }
         names_.push_back(std::move(names));
     }
@@ -245,6 +248,10 @@ std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect) {
     return nb::inst_ptr<PyDialect>(dialect)->definitions;
 }
 
+std::shared_ptr<MavutilStyle> style_of(const nb::object& dialect) {
+    return nb::isinstance<PyDialect>(dialect) ? nb::inst_ptr<PyDialect>(dialect)->style : nullptr;
+}
+
 void bind_dialect(nb::module_& module) {
     bind_infos(module);
     nb::class_<PyDialect>(
@@ -257,12 +264,10 @@ void bind_dialect(nb::module_& module) {
             "__init__",
             [](PyDialect* self, const nb::object& path) {
                 if (path.is_none()) {
-                    new (self) PyDialect{Definitions::builtin()};
+                    new (self) PyDialect{Definitions::builtin(), nullptr};
                     return;
                 }
-                const nb::object bytes = nb::module_::import_("os").attr("fsencode")(path);
-                const auto name = nb::cast<nb::bytes>(bytes);
-                new (self) PyDialect{Definitions::load(std::string(name.c_str(), name.size()))};
+                new (self) PyDialect{Definitions::load(path_of(path)), nullptr};
             },
             nb::arg("path") = nb::none(),
             nb::sig("def __init__(self, path: str | os.PathLike[str] | None = None) -> None"))
@@ -302,11 +307,12 @@ void bind_dialect(nb::module_& module) {
                  "frame_seq: int | None = None, frame_version: int | None = None, **fields: typing.Any) -> bytes"),
              "Returns one whole frame. `message` is a name or a Message.\n\n"
              "- For a name, the header defaults to 255/193, sequence 0, MAVLink 2, and fields that are not\n"
-             "  given are 0.\n"
+             "  given are 0 (HEARTBEAT.mavlink_version is 3).\n"
              "- For a Message, header and fields that are not given are those of the Message.\n"
              "  encode(decode(frame)) == frame for unsigned frames.\n\n"
              "Values are numbers or names of enum entries (\"A|B\" for flags), str (encoded as UTF-8) or bytes\n"
-             "for char[], and sequences of the right length for arrays. A value that does not fit raises\n"
+             "for char[], and sequences of the right length for arrays. A float may also be given as its bytes,\n"
+             "little-endian. A value that does not fit raises\n"
              "UsageError (a ValueError) that names message, field and range.")
         .def("message", &make, nb::arg(), nb::arg("fields"),
              nb::sig("def message(self, name: str | Message, /, **fields: typing.Any) -> Message"),

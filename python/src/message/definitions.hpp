@@ -22,9 +22,10 @@ public:
     struct Names {
         nb::object message;
         std::vector<nb::object> fields;
-        // The same, but null if class Message itself has an attribute of that name (`name`, `id`, `seq`, ...). That
-        // attribute then takes precedence.
+        // The same, but null if an attribute of class Message takes precedence, such as `name`.
         std::vector<PyObject*> attributes;
+        // Whether the attribute could mean the field as well as the frame's header: `frame`, `id`, `seq`, `version`.
+        std::vector<bool> ambiguous;
     };
 
     // `path` is the file that the dialect was read from; empty for the built-in dialect.
@@ -43,20 +44,29 @@ public:
         return names_[static_cast<std::size_t>(&message - dialect_.messages().data())];
     }
 
+    // The key "mavpackettype" of Message.to_dict().
+    [[nodiscard]] const nb::object& type_key() const noexcept { return type_key_; }
+
 private:
     dialect::Dialect dialect_;
     std::string path_;
+    nb::object type_key_;
     std::vector<Names> names_;  // by message
 };
 
 void bind_dialect(nb::module_& module);
 
+class MavutilStyle;
+
 // The Python class Dialect.
 struct PyDialect {
     std::shared_ptr<const Definitions> definitions;
+    // Not null for the dialect of a connection of mavloom.mavutil: it creates messages of that module.
+    std::shared_ptr<MavutilStyle> style;
 };
 
-// Returns the definitions of an argument `dialect`; the built-in ones for None.
+// Of an argument `dialect`; None is the built-in one.
 [[nodiscard]] std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect);
+[[nodiscard]] std::shared_ptr<MavutilStyle> style_of(const nb::object& dialect);
 
 }  // namespace mavloom::python

@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "errors.hpp"
+#include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/wire/frame_checksum.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -57,22 +59,24 @@ void set_number(MessageBuilder& builder, const Field& field, const nb::handle& v
     const double real = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() != nullptr) {
         clear_type_error();
-        refuse(builder, field, fmt::format("expected a number, not {}", nb::repr(value).c_str()));
+        refuse(builder, field, fmt::format("expected a number, not {}", escaped(nb::repr(value))));
     }
     value_or_raise(builder.set_number(field, real, index));
 }
 
+// Lone surrogates, which stand for bytes that are not UTF-8, cannot be sent as text.
 std::string_view utf8_of(const nb::handle& text) {
     Py_ssize_t size = 0;
     const char* utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
-    if (utf8 == nullptr) throw nb::python_error();
-    return {utf8, static_cast<std::size_t>(size)};
+    if (utf8 != nullptr) return {utf8, static_cast<std::size_t>(size)};
+    PyErr_Clear();
+    raise_usage(fmt::format("{} cannot be encoded as UTF-8; pass bytes instead", escaped(nb::repr(text))));
 }
 
 void set_text(MessageBuilder& builder, const Field& field, const nb::object& value) {
     if (PyUnicode_Check(value.ptr())) return value_or_raise(builder.set_text(field, utf8_of(value)));
     if (PyObject_CheckBuffer(value.ptr()) == 0)
-        refuse(builder, field, fmt::format("expected str or bytes, not {}", nb::repr(value).c_str()));
+        refuse(builder, field, fmt::format("expected str or bytes, not {}", escaped(nb::repr(value))));
     const Buffer buffer(value);
     const auto bytes = buffer.bytes();
     value_or_raise(builder.set_text(field, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
@@ -83,13 +87,24 @@ void set_array(MessageBuilder& builder, const Field& field, const nb::object& va
     if (!list.is_valid()) {
         clear_type_error();
         refuse(builder, field,
-               fmt::format("expected a sequence of {} numbers, not {}", field.count(), nb::repr(values).c_str()));
+               fmt::format("expected a sequence of {} numbers, not {}", field.count(), escaped(nb::repr(values))));
     }
     const auto given = static_cast<std::size_t>(PySequence_Fast_GET_SIZE(list.ptr()));
     if (given != field.count())
         refuse(builder, field, fmt::format("expected {} elements, not {}", field.count(), given));
     for (std::size_t i = 0; i < given; ++i)
         set_number(builder, field, PySequence_Fast_GET_ITEM(list.ptr(), static_cast<Py_ssize_t>(i)), i);
+}
+
+// The bytes of a float, for protocols that put other values into it (PX4's integer parameters).
+void set_real_bytes(MessageBuilder& builder, const Field& field, const nb::object& value) {
+    const ByteView bytes(reinterpret_cast<const std::uint8_t*>(PyBytes_AS_STRING(value.ptr())),
+                         static_cast<std::size_t>(PyBytes_GET_SIZE(value.ptr())));
+    if (bytes.size() != field.size())
+        refuse(builder, field,
+               fmt::format("expected a number, or its {} bytes, not {} bytes", field.size(), bytes.size()));
+    if (bytes.size() == sizeof(std::uint32_t)) builder.put(field, load_le<std::uint32_t>(bytes.data()));
+    else builder.put(field, load_le<std::uint64_t>(bytes.data()));
 }
 
 void set_value(MessageBuilder& builder, const Field& field, const nb::object& value) {
@@ -99,6 +114,7 @@ void set_value(MessageBuilder& builder, const Field& field, const nb::object& va
         return value_or_raise(builder.set_from_text(field, utf8_of(value)));
     }
     if (field.is_array()) return set_array(builder, field, value);
+    if (is_real(field) && PyBytes_Check(value.ptr())) return set_real_bytes(builder, field, value);
     set_number(builder, field, value, 0);
 }
 
@@ -149,15 +165,23 @@ void set_fields(const dialect::Dialect& dialect, MessageBuilder& builder, const 
     }
 }
 
+// A HEARTBEAT states the version of the protocol, which is 3 for MAVLink 1 and 2. All other fields are 0.
+static void set_defaults(MessageBuilder& builder) {
+    const auto& definition = builder.definition();
+    if (definition.id() != msg::Heartbeat::id) return;
+    if (const auto* version = definition.find("mavlink_version")) value_or_raise(builder.set_integer(*version, 3));
+}
+
 MessageBuilder build(const Definitions& definitions, const nb::object& message, const nb::kwargs& fields) {
     const auto& dialect = definitions.dialect();
     if (PyUnicode_Check(message.ptr())) {
         MessageBuilder builder(*value_or_raise(dialect.message(utf8_of(message))));
+        set_defaults(builder);
         set_fields(dialect, builder, fields);
         return builder;
     }
     if (!nb::isinstance<Message>(message)) {
-        PyErr_SetString(PyExc_TypeError, "expected the name of a message, or a Message");
+        PyErr_Format(PyExc_TypeError, "expected the name of a message, or a Message, not %R", message.ptr());
         throw nb::python_error();
     }
     const auto& given = *nb::inst_ptr<Message>(message);

@@ -16,7 +16,8 @@ namespace mavloom::python {
 // Sets the fields that are given by name and leaves the others unchanged.
 void set_fields(const dialect::Dialect& dialect, message::MessageBuilder& builder, const nb::kwargs& fields);
 
-// Builds a message from a name, with these fields and 0 in all others, or from a Message, with these fields replaced.
+// Builds a message from a name, with these fields and 0 in all others (but HEARTBEAT.mavlink_version is 3), or from a
+// Message, with these fields replaced.
 [[nodiscard]] message::MessageBuilder build(const Definitions& definitions, const nb::object& message,
                                             const nb::kwargs& fields);
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "message/filter.hpp"
 
-#include <nanobind/stl/string.h>
-
 #include <string>
 
 #include "errors.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {

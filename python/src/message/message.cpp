@@ -3,25 +3,25 @@
 
 #include <fmt/format.h>
 #include <nanobind/operators.h>
-#include <nanobind/stl/string.h>
-#include <nanobind/stl/string_view.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
-#include <type_traits>
-#include <vector>
 
 #include "errors.hpp"
 #include "mavloom/base/suggest.hpp"
 #include "mavloom/message/format.hpp"
-#include "mavloom/message/view.hpp"
-#include "mavloom/message/visit.hpp"
 #include "mavloom/ring/frames.hpp"
+#include "mavutil/message.hpp"
+#include "message/values.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 
 nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
                         std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame, std::uint8_t verdict) {
+    if (origin->style() != nullptr) [[unlikely]]
+        return make_mavutil_message(origin, definition, time_ns, link, frame, verdict);
     const auto bytes = frame.bytes();
     auto copy = std::make_unique_for_overwrite<std::uint8_t[]>(bytes.size());
     std::copy(bytes.begin(), bytes.end(), copy.get());
@@ -34,48 +34,14 @@ namespace {
 
 using dialect::Field;
 
-// ---- values
-
-template <class T>
-PyObject* number_of(T value) noexcept {
-    if constexpr (std::is_floating_point_v<T>) return PyFloat_FromDouble(value);
-    if constexpr (std::is_signed_v<T>) return PyLong_FromLongLong(static_cast<long long>(value));
-    return PyLong_FromUnsignedLongLong(static_cast<unsigned long long>(value));
-}
-
-std::string_view text_bytes(const Message& message, const Field& field) noexcept {
-    return message::MessageView(*message.definition, message.frame().payload()).text(field);
-}
-
-// Returns a new reference, or null with an exception set.
-PyObject* value_of(const Message& message, const Field& field) {
-    if (field.type == dialect::FieldType::char8) {
-        const auto text = text_bytes(message, field);
-        return PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
-    }
-    const message::MessageView view(*message.definition, message.frame().payload());
-    return message::visit_type(field.type, [&](auto tag) -> PyObject* {
-        using T = decltype(tag);
-        if (!field.is_array()) return number_of(view.get<T>(field));
-        PyObject* list = PyList_New(field.array_length);
-        for (std::size_t i = 0; list != nullptr && i < field.array_length; ++i) {
-            PyObject* element = number_of(view.get<T>(field, i));
-            if (element == nullptr) Py_CLEAR(list);
-            else PyList_SET_ITEM(list, static_cast<Py_ssize_t>(i), element);
-        }
-        return list;
-    });
-}
-
-std::vector<std::string_view> field_names(const dialect::Message& definition) {
-    std::vector<std::string_view> names;
-    for (const auto& field : definition.fields) names.push_back(field.name);
-    return names;
-}
-
 std::string type_of(const Message& message) {
     if (message.definition != nullptr) return std::string(message.definition->name);
     return fmt::format("UNKNOWN_{}", message.frame().id().value);
+}
+
+nb::object type_object(const Message& message) {
+    if (message.definition != nullptr) return message.origin->definitions()->names(*message.definition).message;
+    return nb::cast(type_of(message));
 }
 
 const Field& field_of(const Message& message, std::string_view name) {
@@ -88,11 +54,47 @@ const Field& field_of(const Message& message, std::string_view name) {
 
 // ---- attributes
 
-void suggest_attribute(const Message& message, std::string_view name) {
-    if (message.definition == nullptr || name.starts_with("__")) return;
-    const auto text = fmt::format("{} has no field or attribute '{}'{}", message.definition->name, name,
-                                  did_you_mean(name, field_names(*message.definition)));
+std::optional<std::string_view> utf8_of(PyObject* name) noexcept {
+    Py_ssize_t size = 0;
+    const char* text = PyUnicode_AsUTF8AndSize(name, &size);
+    if (text == nullptr) return std::nullopt;
+    return std::string_view(text, static_cast<std::size_t>(size));
+}
+
+PyObject* read(const Message& message, const Field& field) {
+    return value_of(*message.definition, message.frame().payload(), field);
+}
+
+// `msg.seq` could mean the field or the frame's sequence number.
+PyObject* refuse_ambiguous(const Message& message, const Field& field) {
+    const auto text = fmt::format(
+        "{0} has a field '{1}': write msg[\"{1}\"] for the field, msg.header.{1} for the one of its frame",
+        message.definition->name, field.name);
     PyErr_SetString(PyExc_AttributeError, text.c_str());
+    return nullptr;
+}
+
+// Names made at run time are not interned, so they are not found by their address.
+const Field* find_by_text(const Message& message, PyObject* name) noexcept {
+    const auto text = message.definition == nullptr ? std::nullopt : utf8_of(name);
+    if (!text) PyErr_Clear();
+    return text ? message.definition->find(*text) : nullptr;
+}
+
+// Returns the field that attribute `name` reads. `ambiguous` is set if the name could mean the frame's header as well.
+const Field* field_attribute(const Message& message, PyObject* name, bool& ambiguous) noexcept {
+    const auto* definition = message.definition;
+    if (definition == nullptr) return nullptr;
+    const auto& names = message.origin->definitions()->names(*definition);
+    auto place = static_cast<std::size_t>(std::ranges::find(names.attributes, name) - names.attributes.begin());
+    if (place == names.attributes.size() && PyUnicode_CHECK_INTERNED(name) == 0) {
+        const auto* field = find_by_text(message, name);
+        if (field != nullptr) place = static_cast<std::size_t>(field - definition->fields.data());
+        if (field != nullptr && names.attributes[place] == nullptr) return nullptr;
+    }
+    if (place == names.attributes.size()) return nullptr;
+    ambiguous = names.ambiguous[place];
+    return &definition->fields[place];
 }
 
 PyObject* get_attribute(PyObject* self, PyObject* name) noexcept {
@@ -101,41 +103,53 @@ PyObject* get_attribute(PyObject* self, PyObject* name) noexcept {
         return nullptr;
     }
     const Message& message = *nb::inst_ptr<Message>(self);
-    if (const auto* definition = message.definition; definition != nullptr) {
-        const auto& attributes = message.origin->definitions()->names(*definition).attributes;
-        const auto found = std::find(attributes.begin(), attributes.end(), name);
-        if (found != attributes.end())
-            return value_of(message, definition->fields[static_cast<std::size_t>(found - attributes.begin())]);
-    }
+    bool ambiguous = false;
+    if (const auto* field = field_attribute(message, name, ambiguous))
+        return ambiguous ? refuse_ambiguous(message, *field) : read(message, *field);
     PyObject* own = PyObject_GenericGetAttr(self, name);
-    if (own != nullptr || PyErr_ExceptionMatches(PyExc_AttributeError) == 0) return own;
-    Py_ssize_t size = 0;
-    const char* text = PyUnicode_AsUTF8AndSize(name, &size);
-    if (text == nullptr) return nullptr;
-    const std::string_view wanted(text, static_cast<std::size_t>(size));
-    if (const auto* field = message.definition == nullptr ? nullptr : message.definition->find(wanted)) {
-        PyErr_Clear();  // the name was made at run time and is not interned
-        return value_of(message, *field);
-    }
-    suggest_attribute(message, wanted);
+    if (own != nullptr || PyErr_ExceptionMatches(PyExc_AttributeError) == 0 || message.definition == nullptr)
+        return own;
+    const auto wanted = utf8_during_error(name);
+    if (wanted && !wanted->starts_with("__")) set_attribute_error(*message.definition, *wanted);
     return nullptr;
+}
+
+int set_attribute(PyObject* self, PyObject* name, PyObject*) noexcept {
+    const auto wanted = utf8_of(name);
+    if (!wanted) return -1;
+    const auto* definition = nb::inst_ready(self) ? nb::inst_ptr<Message>(self)->definition : nullptr;
+    const auto text = definition != nullptr && definition->find(*wanted) != nullptr
+                          ? fmt::format("messages cannot be changed; make a new one: msg.dialect.message(msg, {}=...)",
+                                        *wanted)
+                          : fmt::format("messages cannot be changed: no attribute '{}' can be set", *wanted);
+    PyErr_SetString(PyExc_AttributeError, text.c_str());
+    return -1;
+}
+
+// Attributes and fields, without the fields that are items only.
+nb::list names_of(nb::handle self) {
+    const auto& message = *nb::inst_ptr<Message>(self);
+    nb::list names(nb::module_::import_("builtins").attr("object").attr("__dir__")(self));
+    if (message.definition == nullptr) return names;
+    for (auto* name : message.origin->definitions()->names(*message.definition).attributes)
+        if (name != nullptr && !nb::cast<bool>(names.attr("__contains__")(nb::handle(name))))
+            names.append(nb::handle(name));
+    return names;
 }
 
 // ---- forms
 
 nb::object item(const Message& message, std::string_view name) {
-    return nb::steal(value_of(message, field_of(message, name)));
+    return nb::steal(read(message, field_of(message, name)));
 }
 
 nb::dict to_dict(const Message& message) {
     nb::dict dict;
-    dict["mavpackettype"] = type_of(message);
+    set_item(dict, message.origin->definitions()->type_key(), type_object(message));
     if (message.definition == nullptr) return dict;
     const auto& names = message.origin->definitions()->names(*message.definition).fields;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const nb::object value = nb::steal(value_of(message, message.definition->fields[i]));
-        if (!value.is_valid() || PyDict_SetItem(dict.ptr(), names[i].ptr(), value.ptr()) != 0) throw nb::python_error();
-    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+        set_item(dict, names[i], nb::steal(read(message, message.definition->fields[i])));
     return dict;
 }
 
@@ -153,27 +167,17 @@ std::string to_text(const Message& message) {
     const char* separator = "";
     for (const auto& [name, value] : fields) {
         if (nb::cast<std::string>(name) == "mavpackettype") continue;
-        text += fmt::format("{}{} : {}", separator, nb::str(name).c_str(), nb::repr(value).c_str());
+        text += fmt::format("{}{} : {}", separator, nb::str(name).c_str(), escaped(nb::repr(value)));
         separator = ", ";
     }
     return text + "}";
 }
 
-nb::bytes bytes_of(ByteView bytes) { return nb::bytes(bytes.data(), bytes.size()); }
-
 nb::bytes raw(const Message& message, std::string_view name) {
-    const auto& field = field_of(message, name);
-    std::string bytes(field.size(), '\0');
-    const auto payload = message.frame().payload();
-    const std::size_t there = std::min(payload.size(), std::size_t{field.offset} + field.size());
-    for (std::size_t at = field.offset; at < there; ++at) bytes[at - field.offset] = static_cast<char>(payload[at]);
-    return nb::bytes(bytes.data(), bytes.size());
+    return raw_of(message.frame().payload(), field_of(message, name));
 }
 
-nb::object name_of(const Message& message) {
-    if (message.definition == nullptr) return nb::none();
-    return message.origin->definitions()->names(*message.definition).message;
-}
+nb::object name_of(const Message& message) { return message.definition == nullptr ? nb::none() : type_object(message); }
 
 bool same_frame(const Message& a, const Message& b) noexcept {
     return std::ranges::equal(a.frame().bytes(), b.frame().bytes());
@@ -226,8 +230,8 @@ nb::tuple reduce(nb::handle self) {
     const auto& message = *nb::inst_ptr<Message>(self);
     return nb::make_tuple(
         nb::module_::import_("mavloom._pickle").attr("restore_message"),
-        nb::make_tuple(PyDialect{message.origin->definitions()}, bytes_of(message.frame().bytes()), message.time_ns,
-                       message.link, message.origin->link_name(message.link), message.verdict));
+        nb::make_tuple(PyDialect{message.origin->definitions(), nullptr}, bytes_of(message.frame().bytes()),
+                       message.time_ns, message.link, message.origin->link_name(message.link), message.verdict));
 }
 
 nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_t time_ns, std::uint32_t link,
@@ -240,23 +244,26 @@ nb::object restore(const PyDialect& dialect, const nb::bytes& frame, std::int64_
     return make_message(origin, origin->dialect().find(view.id()), time_ns, link, view, verdict);
 }
 
-// The result of pymavlink's get_header().
+// The header of a message's frame.
 struct Header {
-    // NOLINTBEGIN(readability-identifier-naming): pymavlink's names
-    std::uint32_t msgId;
-    std::uint8_t incompat_flags, compat_flags, mlen, seq, srcSystem, srcComponent;
-    // NOLINTEND(readability-identifier-naming)
+    nb::object message;
+
+    [[nodiscard]] const Message& of() const noexcept { return *nb::inst_ptr<Message>(message); }
+    [[nodiscard]] wire::FrameView frame() const noexcept { return of().frame(); }
 };
 
-Header header_of(const Message& message) noexcept {
-    const auto frame = message.frame();
-    return {frame.id().value, frame.incompat_flags(), frame.compat_flags(),   frame.payload_length(),
-            frame.sequence(), frame.system().value,   frame.component().value};
+Header header_of(nb::handle self) { return {nb::borrow(self)}; }
+
+std::string header_text(const Header& header) {
+    const auto frame = header.frame();
+    return fmt::format("<Header of {}: id={}, sys={}, comp={}, seq={}, version={}>", type_of(header.of()),
+                       frame.id().value, frame.system().value, frame.component().value, frame.sequence(),
+                       static_cast<int>(frame.version()));
 }
 
-template <auto get>
+template <auto get, class Of = Message>
 auto from_frame() {
-    return [](const Message& message) { return get(message.frame()); };
+    return [](const Of& of) { return get(of.frame()); };
 }
 
 int system_of(const wire::FrameView& frame) { return frame.system().value; }
@@ -267,15 +274,41 @@ int frame_version(const wire::FrameView& frame) { return static_cast<int>(frame.
 bool is_signed(const wire::FrameView& frame) { return frame.is_signed(); }
 nb::bytes frame_bytes(const wire::FrameView& frame) { return bytes_of(frame.bytes()); }
 nb::bytes payload_bytes(const wire::FrameView& frame) { return bytes_of(frame.payload()); }
+int incompat_flags(const wire::FrameView& frame) { return frame.incompat_flags(); }
+int compat_flags(const wire::FrameView& frame) { return frame.compat_flags(); }
+int payload_length(const wire::FrameView& frame) { return frame.payload_length(); }
 
 PyType_Slot slots[] = {
     {Py_tp_getattro, reinterpret_cast<void*>(get_attribute)},  // NOLINT
+    {Py_tp_setattro, reinterpret_cast<void*>(set_attribute)},  // NOLINT
     {0, nullptr},
 };
 
+void bind_header(nb::module_& module) {
+    nb::class_<Header>(module, "Header", nb::is_final(),
+                       "The header of a message's frame, under our names and under pymavlink's.")
+        .def_prop_ro(
+            "name", [](const Header& header) { return name_of(header.of()); }, nb::sig("def name(self) -> str | None"),
+            "The message's name; None for an id without definition.")
+        .def_prop_ro("id", from_frame<frame_id, Header>(), "The message's id.")
+        .def_prop_ro("sys", from_frame<system_of, Header>(), "The sender's system id.")
+        .def_prop_ro("comp", from_frame<component_of, Header>(), "The sender's component id.")
+        .def_prop_ro("seq", from_frame<sequence_of, Header>(), "The frame's sequence number, 0 to 255.")
+        .def_prop_ro("version", from_frame<frame_version, Header>(), "MAVLink 1 or 2.")
+        .def_prop_ro("frame", from_frame<frame_bytes, Header>(), "The whole frame as it arrived.")
+        .def_prop_ro("incompat_flags", from_frame<incompat_flags, Header>())
+        .def_prop_ro("compat_flags", from_frame<compat_flags, Header>())
+        .def_prop_ro("mlen", from_frame<payload_length, Header>(), "The length of the payload in bytes.")
+        .def_prop_ro("msgId", from_frame<frame_id, Header>())
+        .def_prop_ro("srcSystem", from_frame<system_of, Header>())
+        .def_prop_ro("srcComponent", from_frame<component_of, Header>())
+        .def("__repr__", &header_text);
+}
+
 // Adds the names that pymavlink's messages have.
 void bind_pymavlink_names(nb::class_<Message>& type) {
-    type.def("get_type", &type_of, "The name, or \"UNKNOWN_<id>\" for an id without definition.")
+    type.def("get_type", &type_object, nb::sig("def get_type(self) -> str"),
+             "The name, or \"UNKNOWN_<id>\" for an id without definition.")
         .def("get_msgId", from_frame<frame_id>(), "The same as `id`.")
         .def("get_srcSystem", from_frame<system_of>(), "The same as `sys`.")
         .def("get_srcComponent", from_frame<component_of>(), "The same as `comp`.")
@@ -288,7 +321,7 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
         .def(
             "get_signed", [](const Message& m) { return is_verified(m); },
             "Whether the signature was verified. `signed` is true for any signed frame.")
-        .def("get_header", &header_of, "The header's values under pymavlink's names.")
+        .def("get_header", &header_of, nb::sig("def get_header(self) -> Header"), "The same as `header`.")
         .def_prop_ro(
             "_timestamp",
             [](const Message& m) {
@@ -310,15 +343,7 @@ void bind_pymavlink_names(nb::class_<Message>& type) {
 }  // namespace
 
 void bind_message(nb::module_& module) {
-    nb::class_<Header>(module, "Header", "A frame's header under pymavlink's names.")
-        .def_ro("msgId", &Header::msgId)
-        .def_ro("incompat_flags", &Header::incompat_flags)
-        .def_ro("compat_flags", &Header::compat_flags)
-        .def_ro("mlen", &Header::mlen, "The length of the payload in bytes.")
-        .def_ro("seq", &Header::seq)
-        .def_ro("srcSystem", &Header::srcSystem)
-        .def_ro("srcComponent", &Header::srcComponent);
-
+    bind_header(module);
     nb::class_<Message> type(
         module, "Message", nb::type_slots(slots), nb::is_final(),
         "One message: a frame with its time and link.\n\n"
@@ -326,12 +351,16 @@ void bind_message(nb::module_& module) {
         "Numbers are int or float, and arrays are lists. char[] is str without trailing NULs; bytes that\n"
         "are not UTF-8 become U+FFFD, and `raw()` returns the original bytes. Trailing zeros that the\n"
         "sender cut off are restored.\n\n"
-        "If a field has the same name as an attribute listed here (name, id, seq, version, frame), it is\n"
-        "available as an item only.\n\n"
+        "`header` has the values of the frame's header. `id`, `seq`, `version` and `frame` are short forms of\n"
+        "them, except for messages that have a field of that name: these raise an AttributeError, and you\n"
+        "write `msg[\"seq\"]` or `msg.header.seq`. `name` is always the message's name; a field of that name\n"
+        "is `msg[\"name\"]`.\n\n"
         "Immutable, safe from any thread, and hashable. Messages are equal if their frames are. Can be\n"
         "copied and pickled.");
     type.def_prop_ro("name", &name_of, nb::sig("def name(self) -> str | None"),
                      "For example \"ATTITUDE\"; None for an id without definition.")
+        .def_prop_ro("header", &header_of, nb::sig("def header(self) -> Header"),
+                     "The header of the frame, for code that handles messages of any type.")
         .def_prop_ro("id", from_frame<frame_id>(), "The message's id.")
         .def_prop_ro("sys", from_frame<system_of>(), "The sender's system id.")
         .def_prop_ro("comp", from_frame<component_of>(), "The sender's component id.")
@@ -357,7 +386,10 @@ void bind_message(nb::module_& module) {
                      "\"echo\", \"filtered\", ... None for other links, and if the writer stored no verdict.")
         .def_prop_ro("frame", from_frame<frame_bytes>(), "The whole frame as it arrived.")
         .def_prop_ro(
-            "dialect", [](const Message& m) { return PyDialect{m.origin->definitions()}; },
+            "dialect",
+            [](const Message& m) {
+                return PyDialect{m.origin->definitions(), nullptr};
+            },
             "The definitions that decode it.")
         .def("raw", &raw, nb::arg("field"), "The bytes of a field in their full length, as on the wire.")
         .def("to_dict", &to_dict, nb::sig("def to_dict(self) -> dict[str, typing.Any]"),
@@ -370,6 +402,13 @@ void bind_message(nb::module_& module) {
              [](const Message& m, std::string_view field) {
                  return m.definition != nullptr && m.definition->find(field) != nullptr;
              })
+        .def("__dir__", &names_of, nb::sig("def __dir__(self) -> list[str]"))
+        .def("keys", &list_of_fields, nb::sig("def keys(self) -> list[str]"), "The same as `get_fieldnames`.")
+        .def("_ipython_key_completions_", &list_of_fields, nb::sig("def _ipython_key_completions_(self) -> list[str]"))
+        .def(
+            "_repr_html_",
+            [](nb::handle self) { return nb::module_::import_("mavloom._views").attr("message_html")(self); },
+            nb::sig("def _repr_html_(self) -> str"))
         .def("__str__", &to_text)
         .def("__repr__", &to_text)
         .def("__eq__", &same_frame, nb::is_operator(), nb::sig("def __eq__(self, other: object, /) -> bool"))

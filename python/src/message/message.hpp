@@ -15,21 +15,31 @@
 
 namespace mavloom::python {
 
+class MavutilStyle;
+
 // Origin: the definitions of messages, and the names of the links on which they arrived. Any thread.
 class Origin {
 public:
-    explicit Origin(std::shared_ptr<const Definitions> definitions) : definitions_(std::move(definitions)) {}
+    explicit Origin(std::shared_ptr<const Definitions> definitions, std::shared_ptr<MavutilStyle> style = nullptr)
+        : definitions_(std::move(definitions)), style_(std::move(style)) {}
+    // Of an argument `dialect`.
+    explicit Origin(const nb::object& dialect) : Origin(definitions_of(dialect), style_of(dialect)) {}
 
     [[nodiscard]] const std::shared_ptr<const Definitions>& definitions() const noexcept { return definitions_; }
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
+    // Not null if the messages are those of mavloom.mavutil (mavutil/field_message.hpp).
+    [[nodiscard]] MavutilStyle* style() const noexcept { return style_.get(); }
 
-    [[nodiscard]] feed::LinkNames& link_names() noexcept { return link_names_; }
+    [[nodiscard]] feed::LinkNames& link_names() noexcept { return *link_names_; }
+    // For a channel, which must not own the style: at the interpreter's end a channel may be leaked.
+    [[nodiscard]] const std::shared_ptr<feed::LinkNames>& shared_link_names() const noexcept { return link_names_; }
     // Empty for a link that has no name.
-    [[nodiscard]] std::string link_name(std::uint32_t link) const { return link_names_.find(LinkId{link}); }
+    [[nodiscard]] std::string link_name(std::uint32_t link) const { return link_names_->find(LinkId{link}); }
 
 private:
     std::shared_ptr<const Definitions> definitions_;
-    feed::LinkNames link_names_;
+    std::shared_ptr<MavutilStyle> style_;
+    std::shared_ptr<feed::LinkNames> link_names_ = std::make_shared<feed::LinkNames>();
 };
 
 struct Message {
@@ -44,7 +54,8 @@ struct Message {
     [[nodiscard]] wire::FrameView frame() const noexcept { return wire::FrameView::unchecked({bytes.get(), size}); }
 };
 
-// Returns a new Python object with a copy of the frame. Call with the GIL held.
+// Returns a new Python object with a copy of the frame: a Message, or a message of mavloom.mavutil if the origin has
+// that style. Call with the GIL held.
 [[nodiscard]] nb::object make_message(const std::shared_ptr<const Origin>& origin, const dialect::Message* definition,
                                       std::int64_t time_ns, std::uint32_t link, const wire::FrameView& frame,
                                       std::uint8_t verdict = 0);

@@ -18,7 +18,7 @@ namespace {
 class Parser {
 public:
     explicit Parser(const nb::object& dialect)
-        : origin_(std::make_shared<Origin>(definitions_of(dialect))), parser_(origin_->dialect().wire_table()) {}
+        : origin_(std::make_shared<Origin>(dialect)), parser_(origin_->dialect().wire_table()) {}
 
     nb::list feed(const nb::object& data, const Integer& time_ns) {
         const Buffer buffer(data);

@@ -1,30 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "recording/columns.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstring>
+#include <new>
+#include <numeric>
+#include <utility>
 
 #include "mavloom/message/visit.hpp"
 
 namespace mavloom::python {
 namespace {
 
-bool is_wanted(const wire::FrameView& frame, const ColumnsQuery& query, const dialect::Field* instance) {
+bool is_wanted(const record::Record& record, const RowsQuery& query, const dialect::Message& message) {
+    const auto& frame = record.frame;
+    const auto time_ns = record.time.time_since_epoch().count();
+    if (time_ns < query.begin || time_ns >= query.end) return false;
     if (query.system && frame.system().value != *query.system) return false;
     if (query.component && frame.component().value != *query.component) return false;
-    if (instance == nullptr || !query.instance) return true;
-    return feed::instance_of(*query.message, *instance, frame) == *query.instance;
+    if (!query.instance) return true;
+    const auto* field = feed::instance_field(message);
+    return field != nullptr && feed::instance_of(message, *field, frame) == *query.instance;
 }
 
 std::unique_ptr<std::uint8_t[]> room_for(std::size_t bytes) {
     return std::make_unique_for_overwrite<std::uint8_t[]>(bytes);
 }
 
-// Copies `count` values of type T, beginning at `offset` of each row.
+// Copies `count` values of type T, beginning at `offset` of each row, to `to`.
 template <class T>
-std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std::size_t count) {
-    auto values = room_for(rows.count() * count * sizeof(T));
-    auto* to = values.get();
+void gather(const Rows& rows, std::size_t offset, std::size_t count, std::uint8_t* to) {
     rows.each_run([&](const std::uint8_t* from, std::size_t many, std::size_t stride) {
         from += offset;
         const auto copy = [&](std::size_t each) {
@@ -38,14 +45,17 @@ std::unique_ptr<std::uint8_t[]> gather(const Rows& rows, std::size_t offset, std
         if (count == 1) copy(1);  // the case of nearly all fields
         else copy(count);
     });
-    return values;
+}
+
+void gather(const Rows& rows, const Column& column, std::uint8_t* to) {
+    message::visit_type(column.type, [&](auto tag) { gather<decltype(tag)>(rows, column.offset, column.count, to); });
 }
 
 }  // namespace
 
 void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     if (count_ == blocks_.size() * rows_per_block) blocks_.push_back(room_for(rows_per_block * stride_));
-    auto* row = blocks_.back().get() + count_ % rows_per_block * stride_;
+    auto* row = blocks_[count_ / rows_per_block].get() + count_ % rows_per_block * stride_;
     store_le(row + time_offset, time_ns);
     row[system_offset] = frame.system().value;
     row[component_offset] = frame.component().value;
@@ -56,6 +66,68 @@ void Rows::add(std::int64_t time_ns, const wire::FrameView& frame) {
     if (length != payload_length_) std::memset(row + prefix_bytes + length, 0, payload_length_ - length);
     ++count_;
 }
+
+Pages::Pages(std::size_t bytes) : data_(nullptr), bytes_(bytes) {
+    void* made = ::mmap(nullptr, std::max<std::size_t>(bytes, 1), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS,
+                        -1, 0);
+    if (made == MAP_FAILED) throw std::bad_alloc();  // NOLINT(performance-no-int-to-ptr): MAP_FAILED is a cast
+    data_ = static_cast<std::uint8_t*>(made);
+}
+
+Pages::~Pages() {
+    if (data_ != nullptr) ::munmap(data_, std::max<std::size_t>(bytes_, 1));
+}
+
+// ---- Table
+
+Table::Table(const dialect::Message& message, std::span<const std::size_t> fields)
+    : message_(&message), fields_(fields.begin(), fields.end()), rows_(message) {
+    using enum dialect::FieldType;
+    columns_.reserve(first_field + fields.size());
+    columns_.push_back({i64, Rows::time_offset, 1});
+    columns_.push_back({u8, Rows::system_offset, 1});
+    columns_.push_back({u8, Rows::component_offset, 1});
+    for (const auto place : fields_) {
+        const auto& field = message.fields[place];
+        columns_.push_back({field.type, Rows::prefix_bytes + field.offset, field.count()});
+    }
+}
+
+void Table::add(std::int64_t time_ns, const wire::FrameView& frame) {
+    if (rows_.count() == rows_per_group) gather_group();
+    rows_.add(time_ns, frame);
+}
+
+void Table::gather_group() {
+    for (auto& column : columns_) {
+        Pages group(rows_.count() * column.row_bytes());
+        gather(rows_, column, group.data());
+        column.groups.push_back(std::move(group));
+    }
+    gathered_ += rows_.count();
+    rows_.clear();
+}
+
+Values Table::take(std::size_t column) {
+    auto& from = columns_[column];
+    auto values = room_for(count() * from.row_bytes());
+    auto* to = values.get();
+    for (auto& group : std::exchange(from.groups, {})) {
+        const Pages pages(std::move(group));
+        std::memcpy(to, pages.data(), pages.bytes());
+        to += pages.bytes();
+    }
+    gather(rows_, from, to);
+    return values;
+}
+
+std::vector<std::size_t> all_fields(const dialect::Message& message) {
+    std::vector<std::size_t> places(message.fields.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    return places;
+}
+
+// ---- reading
 
 namespace {
 
@@ -78,42 +150,29 @@ SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_by
 
 }  // namespace
 
-SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows, std::uint64_t most_bytes) {
-    const auto* instance = feed::instance_field(*query.message);
+SetupResult<bool> read_rows(record::TlogReader& reader, const RowsQuery& query, Table& table, std::uint64_t most_bytes) {
+    const auto& message = table.message();
     return read_records(
-        reader, most_bytes, [&](std::uint64_t most) { return reader.next_of(query.message->id(), most); },
+        reader, most_bytes, [&](std::uint64_t most) { return reader.next_of(message.id(), most); },
         [&](const record::Record& record) {
-            if (is_wanted(record.frame, query, instance))
-                rows.add(record.time.time_since_epoch().count(), record.frame);
+            if (is_wanted(record, query, message)) table.add(record.time.time_since_epoch().count(), record.frame);
         });
 }
 
-SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const ColumnsQuery& query,
+SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect, const RowsQuery& query,
                               Tables& tables, std::uint64_t most_bytes) {
     return read_records(
         reader, most_bytes, [&](std::uint64_t most) { return reader.next(most); },
         [&](const record::Record& record) {
-            if (record.info == nullptr || !is_wanted(record.frame, query, nullptr)) return;
+            if (record.info == nullptr) return;
             const auto place = static_cast<std::size_t>(record.info - dialect.wire_table().messages().data());
             if (!tables.wanted[place]) return;
-            auto& rows = tables.rows[place];
-            if (!rows) rows = std::make_unique<Rows>(*dialect.find(record.frame.id()));
-            rows->add(record.time.time_since_epoch().count(), record.frame);
+            const auto& message = *dialect.find(record.frame.id());
+            if (!is_wanted(record, query, message)) return;
+            auto& table = tables.tables[place];
+            if (!table) table = std::make_unique<Table>(message, all_fields(message));
+            table->add(record.time.time_since_epoch().count(), record.frame);
         });
-}
-
-Columns columns_of(const dialect::Message& message, const Rows& rows) {
-    Columns columns;
-    columns.rows = rows.count();
-    columns.time_ns = gather<std::int64_t>(rows, Rows::time_offset, 1);
-    columns.system = gather<std::uint8_t>(rows, Rows::system_offset, 1);
-    columns.component = gather<std::uint8_t>(rows, Rows::component_offset, 1);
-    for (const auto& field : message.fields) {
-        const auto offset = Rows::prefix_bytes + field.offset;
-        columns.fields.push_back(message::visit_type(
-            field.type, [&](auto tag) { return gather<decltype(tag)>(rows, offset, field.count()); }));
-    }
-    return columns;
 }
 
 }  // namespace mavloom::python

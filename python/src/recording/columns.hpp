@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Reads a message of a tlog into columns: one contiguous array for each field, and no object for each message.
+// Reads messages of tlogs into columns: one contiguous array for each field, and no object for each message.
 // Does not depend on Python. Not synchronized.
+//
+// Memory: rows are gathered into columns in groups, and a group's rows are used again. At its peak, a table takes what
+// its arrays take, and once more its largest column.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mavloom/base/result.hpp"
@@ -18,14 +24,16 @@
 
 namespace mavloom::python {
 
-struct ColumnsQuery {
-    const dialect::Message* message = nullptr;
-    std::optional<std::uint8_t> system, component;
-    std::optional<feed::Instance> instance;  // value of the field that is marked as the instance
+// Which messages become rows.
+struct RowsQuery {
+    std::optional<std::uint8_t> system{}, component{};
+    std::optional<feed::Instance> instance{};  // value of the field that is marked as the instance
+    // Recorded times in ns: from `begin` on, and before `end`.
+    std::int64_t begin = std::numeric_limits<std::int64_t>::min(), end = std::numeric_limits<std::int64_t>::max();
 };
 
-// The rows of a query, stored in blocks. Each row holds receive time, source and the payload in its full length. Adding
-// a row never moves the others.
+// Rows in blocks. Each row holds receive time, source and the payload in its full length. Adding a row never moves the
+// others.
 class Rows {
 public:
     explicit Rows(const dialect::Message& message) noexcept
@@ -33,6 +41,8 @@ public:
 
     void add(std::int64_t time_ns, const wire::FrameView& frame);
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    // Forgets the rows and keeps their memory.
+    void clear() noexcept { count_ = 0; }
     // Calls take(first, rows, stride) for each run of rows that lie `stride` bytes apart. A row is eight bytes of time,
     // then system, component and payload.
     template <class Take>
@@ -50,29 +60,79 @@ private:
     std::vector<std::unique_ptr<std::uint8_t[]>> blocks_;
 };
 
-// Values in native byte order, row by row. Type and number of values in a row are those of the field.
-struct Columns {
-    using Values = std::unique_ptr<std::uint8_t[]>;
-    std::size_t rows = 0;
-    Values time_ns, system, component;  // int64, uint8, uint8
-    std::vector<Values> fields;         // in the order of the definition
+// Memory that returns to the system when it is freed, unlike that of small heap blocks.
+class Pages {
+public:
+    explicit Pages(std::size_t bytes);
+    Pages(Pages&& other) noexcept : data_(std::exchange(other.data_, nullptr)), bytes_(other.bytes_) {}
+    Pages& operator=(Pages&&) = delete;
+    ~Pages();
+
+    [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }
+    [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
+
+private:
+    std::uint8_t* data_;
+    std::size_t bytes_;
+};
+
+// One column of a message: where it is in a row, and its values so far.
+struct Column {
+    dialect::FieldType type;
+    std::size_t offset;  // in a row
+    std::size_t count;   // of values in a row
+    std::vector<Pages> groups{};
+
+    [[nodiscard]] std::size_t row_bytes() const noexcept { return count * dialect::size_of(type); }
+};
+
+// Values in native byte order, row by row.
+using Values = std::unique_ptr<std::uint8_t[]>;
+
+// The rows of one message, as they are read.
+class Table {
+public:
+    // `fields` are the positions of the fields that become columns.
+    Table(const dialect::Message& message, std::span<const std::size_t> fields);
+
+    void add(std::int64_t time_ns, const wire::FrameView& frame);
+    [[nodiscard]] std::size_t count() const noexcept { return gathered_ + rows_.count(); }
+    [[nodiscard]] const dialect::Message& message() const noexcept { return *message_; }
+    [[nodiscard]] std::span<const std::size_t> fields() const noexcept { return fields_; }
+
+    // The columns: receive time (int64), system and component (uint8), then the fields. Taking a column frees its
+    // memory in the table.
+    static constexpr std::size_t time_column = 0, system_column = 1, component_column = 2, first_field = 3;
+    [[nodiscard]] Values take(std::size_t column);
+
+private:
+    static constexpr std::size_t rows_per_group = 65'536;
+
+    void gather_group();
+
+    const dialect::Message* message_;
+    std::vector<std::size_t> fields_;
+    std::vector<Column> columns_;
+    Rows rows_;
+    std::size_t gathered_ = 0;  // rows that are in the groups of the columns
 };
 
 // Reads the next `most_bytes` bytes of the file, whatever they hold, or up to its end. Returns true if there may be
 // more. Errors are those of TlogReader.
-[[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const ColumnsQuery& query, Rows& rows,
+[[nodiscard]] SetupResult<bool> read_rows(record::TlogReader& reader, const RowsQuery& query, Table& table,
                                           std::uint64_t most_bytes);
 
-// The rows of many messages, by the position of the message in the dialect's wire table. A null entry means that the
-// message is not wanted or did not occur.
+// The tables of many messages, by the position of the message in the dialect's wire table. Null: not wanted, or did not
+// occur yet.
 struct Tables {
     std::vector<bool> wanted;
-    std::vector<std::unique_ptr<Rows>> rows;
+    std::vector<std::unique_ptr<Table>> tables;
 };
-// Like read_rows, but `query` only selects system and component, and every checksum is checked.
+// Like read_rows, but checks every checksum.
 [[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
-                                            const ColumnsQuery& query, Tables& tables, std::uint64_t most_bytes);
+                                            const RowsQuery& query, Tables& tables, std::uint64_t most_bytes);
 
-[[nodiscard]] Columns columns_of(const dialect::Message& message, const Rows& rows);
+// The positions of all fields.
+[[nodiscard]] std::vector<std::size_t> all_fields(const dialect::Message& message);
 
 }  // namespace mavloom::python

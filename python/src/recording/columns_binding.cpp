@@ -4,11 +4,13 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bindings.hpp"
 #include "errors.hpp"
@@ -17,6 +19,7 @@
 #include "message/filter.hpp"
 #include "message/message.hpp"
 #include "recording/columns.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -25,7 +28,7 @@ constexpr std::uint64_t bytes_between_signals = 4 << 20;  // some tens of millis
 
 // One dimension if `count` is 0, else two.
 template <class T>
-nb::object array_of(Columns::Values values, std::size_t rows, std::size_t count) {
+nb::object array_of(Values values, std::size_t rows, std::size_t count) {
     auto* data = values.get();
     const nb::capsule owner(data, [](void* held) noexcept { delete[] static_cast<std::uint8_t*>(held); });
     values.release();  // NOLINT(bugprone-unused-return-value): the capsule owns it
@@ -34,23 +37,50 @@ nb::object array_of(Columns::Values values, std::size_t rows, std::size_t count)
 }
 
 // char[N] becomes numpy's fixed-length type S<N>.
-nb::object array_of(Columns::Values values, std::size_t rows, const dialect::Field& field) {
+nb::object array_of(Values values, std::size_t rows, const dialect::Field& field) {
     const nb::object array = message::visit_type(
         field.type, [&](auto tag) { return array_of<decltype(tag)>(std::move(values), rows, field.array_length); });
     if (field.type != dialect::FieldType::char8) return array;
     return array.attr("view")(fmt::format("S{}", field.count())).attr("reshape")(-1);
 }
 
-const dialect::Message& message_of(const dialect::Dialect& dialect, const std::string& name, bool with_instance) {
-    const auto* message = value_or_raise(dialect.message(name));
-    if (with_instance && feed::instance_field(*message) == nullptr)
-        raise_usage(fmt::format("{} has no field that distinguishes instances", name));
-    return *message;
+Values take(Table& table, std::size_t column) {
+    const WithoutGil outside;
+    return table.take(column);
 }
 
-record::TlogReader open(const nb::object& path, const dialect::Dialect& dialect) {
-    const auto file = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));
-    return value_or_raise(record::TlogReader::open(std::string(file.c_str(), file.size()), dialect.wire_table()));
+// Returns (times, systems, components, {field: values}).
+nb::tuple arrays_of(const Definitions& definitions, Table& table) {
+    const auto rows = table.count();
+    const auto& names = definitions.names(table.message()).fields;
+    auto times = array_of<std::int64_t>(take(table, Table::time_column), rows, 0);
+    auto systems = array_of<std::uint8_t>(take(table, Table::system_column), rows, 0);
+    auto components = array_of<std::uint8_t>(take(table, Table::component_column), rows, 0);
+    nb::dict fields;
+    std::size_t column = Table::first_field;
+    for (const auto place : table.fields())
+        fields[names[place]] = array_of(take(table, column++), rows, table.message().fields[place]);
+    return nb::make_tuple(times, systems, components, fields);
+}
+
+// The positions of the named fields, in the order of the definition; of all fields if none are named.
+std::vector<std::size_t> places_of(const dialect::Dialect& dialect, const dialect::Message& message,
+                                   const std::optional<std::vector<std::string>>& fields) {
+    if (!fields) return all_fields(message);
+    std::vector<std::size_t> places;
+    for (const auto& name : *fields) {
+        const auto* field = message.find(name);
+        if (field == nullptr) raise(dialect.field(fmt::format("{}.{}", message.name, name)).error());
+        places.push_back(static_cast<std::size_t>(field - message.fields.data()));
+    }
+    std::ranges::sort(places);
+    const auto twice = std::ranges::unique(places);
+    places.erase(twice.begin(), twice.end());
+    return places;
+}
+
+record::TlogReader open(const nb::handle& path, const dialect::Dialect& dialect) {
+    return value_or_raise(record::TlogReader::open(path_of(path), dialect.wire_table()));
 }
 
 // Calls `read` without the GIL until there is no more. Handles signals between the calls.
@@ -65,81 +95,89 @@ void read_all(Read read) {
     }
 }
 
-// Returns (times, systems, components, {field: values}).
-nb::tuple arrays_of(const Definitions& definitions, const dialect::Message& message, const Rows& rows) {
-    auto columns = [&] {
-        const WithoutGil outside;
-        return columns_of(message, rows);
-    }();
-    nb::dict fields;
-    const auto& names = definitions.names(message).fields;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        fields[names[i]] = array_of(std::move(columns.fields[i]), columns.rows, message.fields[i]);
-    return nb::make_tuple(array_of<std::int64_t>(std::move(columns.time_ns), columns.rows, 0),
-                          array_of<std::uint8_t>(std::move(columns.system), columns.rows, 0),
-                          array_of<std::uint8_t>(std::move(columns.component), columns.rows, 0), fields);
+RowsQuery query_of(const OptionalInteger& system, const OptionalInteger& component, const OptionalInteger& begin,
+                   const OptionalInteger& end) {
+    RowsQuery query{.system = in<std::uint8_t>("system", system), .component = in<std::uint8_t>("component", component)};
+    if (begin) query.begin = begin->in<std::int64_t>("start");
+    if (end) query.end = end->in<std::int64_t>("end");
+    return query;
 }
 
-nb::tuple read_columns_of(const nb::object& path, const std::string& name, const OptionalInteger& system,
+nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const OptionalInteger& system,
                           const OptionalInteger& component, std::optional<feed::Instance> instance,
-                          const nb::object& dialect) {
+                          const OptionalInteger& begin, const OptionalInteger& end,
+                          const std::optional<std::vector<std::string>>& fields, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
-    const auto& message = message_of(definitions->dialect(), name, instance.has_value());
-    auto reader = open(path, definitions->dialect());
-    const ColumnsQuery query{&message, in<std::uint8_t>("system", system), in<std::uint8_t>("component", component),
-                             std::move(instance)};
-    Rows rows(message);
-    read_all([&] { return read_rows(reader, query, rows, bytes_between_signals); });
-    return nb::make_tuple(arrays_of(*definitions, message, rows), reader.counters().lost_bytes.value());
+    const auto& message = *value_or_raise(definitions->dialect().message(name));
+    if (instance && feed::instance_field(message) == nullptr)
+        raise_usage(fmt::format("{} has no field that distinguishes instances", name));
+    auto query = query_of(system, component, begin, end);
+    query.instance = std::move(instance);
+    Table table(message, places_of(definitions->dialect(), message, fields));
+    std::uint64_t lost_bytes = 0;
+    for (const nb::handle path : paths) {
+        auto reader = open(path, definitions->dialect());
+        read_all([&] { return read_rows(reader, query, table, bytes_between_signals); });
+        lost_bytes += reader.counters().lost_bytes.value();
+    }
+    return nb::make_tuple(arrays_of(*definitions, table), lost_bytes);
 }
 
-nb::tuple read_tables_of(const nb::object& path, const nb::object& type, const OptionalInteger& system,
-                         const OptionalInteger& component, const nb::object& dialect) {
+nb::tuple read_tables_of(const nb::list& paths, const nb::object& type, const OptionalInteger& system,
+                         const OptionalInteger& component, const OptionalInteger& begin, const OptionalInteger& end,
+                         const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& known = definitions->dialect();
     const auto infos = known.wire_table().messages();
     const auto filter = make_filter(known, type, system, component);
-    Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Rows>>(infos.size())};
+    Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Table>>(infos.size())};
     for (std::size_t i = 0; i < infos.size(); ++i) {
         const bool named = filter.ids && std::ranges::find(*filter.ids, infos[i].id) != filter.ids->end();
         tables.wanted[i] = !filter.ids || named;
+        if (!named) continue;
         // A named message gets a table even if it does not occur.
-        if (named) tables.rows[i] = std::make_unique<Rows>(*known.find(infos[i].id));
-    }
-    auto reader = open(path, known);
-    read_all([&] {
-        return read_tables(reader, known, {nullptr, filter.system, filter.component, {}}, tables, bytes_between_signals);
-    });
-    nb::dict made;
-    for (std::size_t i = 0; i < infos.size(); ++i) {
-        if (!tables.rows[i]) continue;
         const auto& message = *known.find(infos[i].id);
-        made[definitions->names(message).message] = arrays_of(*definitions, message, *tables.rows[i]);
-        tables.rows[i].reset();  // the arrays hold copies
+        tables.tables[i] = std::make_unique<Table>(message, all_fields(message));
     }
-    return nb::make_tuple(made, reader.counters().lost_bytes.value());
+    const auto query = query_of(system, component, begin, end);
+    std::uint64_t lost_bytes = 0;
+    for (const nb::handle path : paths) {
+        auto reader = open(path, known);
+        read_all([&] { return read_tables(reader, known, query, tables, bytes_between_signals); });
+        lost_bytes += reader.counters().lost_bytes.value();
+    }
+    nb::dict made;
+    for (auto& table : tables.tables) {
+        if (!table) continue;
+        made[definitions->names(table->message()).message] = arrays_of(*definitions, *table);
+        table.reset();  // the arrays hold copies
+    }
+    return nb::make_tuple(made, lost_bytes);
 }
 
 }  // namespace
 
 void bind_columns(nb::module_& module) {
     module.def(
-        "read_columns", &read_columns_of, nb::arg("path"), nb::arg("name"), nb::arg("system").none(),
-        nb::arg("component").none(), nb::arg("instance").none(), nb::arg("dialect").none(),
+        "read_columns", &read_columns_of, nb::arg("paths"), nb::arg("name"), nb::arg("system").none(),
+        nb::arg("component").none(), nb::arg("instance").none(), nb::arg("begin").none(), nb::arg("end").none(),
+        nb::arg("fields").none(), nb::arg("dialect").none(),
         nb::sig(
-            "def read_columns(path: str | os.PathLike[str], name: str, system: int | None, component: int | None, "
-            "instance: int | str | None, "
+            "def read_columns(paths: list[str | os.PathLike[str]], name: str, system: int | None, component: int | "
+            "None, "
+            "instance: int | str | None, begin: int | None, end: int | None, fields: list[str] | None, "
             "dialect: Dialect | None) -> tuple[tuple[typing.Any, typing.Any, typing.Any, dict[str, typing.Any]], int]"),
         "Returns ((times, systems, components, {field: values}), bytes of damage), from which\n"
         "mavloom.columns() makes its result.");
-    module.def("read_tables", &read_tables_of, nb::arg("path"), nb::arg("type").none(), nb::arg("system").none(),
-               nb::arg("component").none(), nb::arg("dialect").none(),
-               nb::sig("def read_tables(path: str | os.PathLike[str], type: MessageTypes | None, system: int | None, "
-                       "component: int | None, "
-                       "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
-                       "dict[str, typing.Any]]], int]"),
-               "Returns ({message: as in read_columns}, bytes of damage), from which mavloom.tables() makes its\n"
-               "result.");
+    module.def(
+        "read_tables", &read_tables_of, nb::arg("paths"), nb::arg("type").none(), nb::arg("system").none(),
+        nb::arg("component").none(), nb::arg("begin").none(), nb::arg("end").none(), nb::arg("dialect").none(),
+        nb::sig("def read_tables(paths: list[str | os.PathLike[str]], type: MessageTypes | None, system: int | None, "
+                "component: int | None, begin: int | None, end: int | None, "
+                "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
+                "dict[str, typing.Any]]], int]"),
+        "Returns ({message: as in read_columns}, bytes of damage), from which mavloom.tables() makes its\n"
+        "result.");
 }
 
 }  // namespace mavloom::python

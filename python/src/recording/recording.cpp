@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 
 #include <mutex>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "mavloom/record/tlog_reader.hpp"
 #include "message/filter.hpp"
 #include "message/message.hpp"
+#include "strings.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -32,7 +32,7 @@ public:
     Recording(std::string path, const nb::object& dialect, const nb::object& type, const OptionalInteger& system,
               const OptionalInteger& component)
         : path_(std::move(path)),
-          origin_(std::make_shared<Origin>(definitions_of(dialect))),
+          origin_(std::make_shared<Origin>(dialect)),
           filter_(make_filter(origin_->dialect(), type, system, component)),
           reader_(value_or_raise(open())) {
         origin_->link_names().add(LinkId{0}, "tlog://" + path_);
@@ -67,6 +67,13 @@ public:
         const auto& file = reader();
         if (ended_ && batch_.size() == delivered_) return 100;
         return file.size() == 0 ? 0 : 100.0 * static_cast<double>(file.position()) / static_cast<double>(file.size());
+    }
+
+    // For a repr, which works on a closed recording too.
+    [[nodiscard]] std::string shown() {
+        const auto lock = lock_without_gil(mutex_);
+        if (!reader_) return fmt::format("<Recording {}, closed>", path_);
+        return fmt::format("<Recording {}: {} records read>", path_, reader_->counters().records.value());
     }
 
     [[nodiscard]] RecordingStats stats() {
@@ -203,11 +210,8 @@ void bind_recording(nb::module_& module) {
         .def(
             "__init__",
             [](Recording* self, const nb::object& path, const nb::object& type, const OptionalInteger& system,
-               const OptionalInteger& component, const nb::object& dialect) {
-                const nb::object bytes = nb::module_::import_("os").attr("fsencode")(path);
-                const auto name = nb::cast<nb::bytes>(bytes);
-                new (self) Recording(std::string(name.c_str(), name.size()), dialect, type, system, component);
-            },
+               const OptionalInteger& component,
+               const nb::object& dialect) { new (self) Recording(path_of(path), dialect, type, system, component); },
             nb::arg("path"), nb::kw_only(), nb::arg("type") = nb::none(), nb::arg("system") = nb::none(),
             nb::arg("component") = nb::none(), nb::arg("dialect") = nb::none(),
             nb::sig("def __init__(self, path: str | os.PathLike[str], *, type: MessageTypes | None = None, system: int "
@@ -235,6 +239,7 @@ void bind_recording(nb::module_& module) {
         .def_prop_ro("percent", &Recording::percent, "The percentage of the file that was read, 0 to 100.")
         .def_prop_ro("stats", &Recording::stats, "A snapshot of the counters, as RecordingStats.")
         .def_prop_ro("path", &Recording::path)
+        .def("__repr__", &Recording::shown)
         .def("close", &Recording::close, "Closes the file. May be called again. Later reads raise ClosedError.")
         .def(
             "__enter__", [](nb::object self) { return self; }, nb::sig("def __enter__(self) -> Recording"))

@@ -6,7 +6,6 @@
 // memoryview itself.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "ring/reader.hpp"
+#include "strings.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
@@ -423,6 +423,7 @@ void bind_batch(nb::module_& module) {
                       "One or more records that were read together. Supports indexing and iteration. The views of a\n"
                       "lossless reader end together, with the next read or `release()`.")
         .def("__len__", &Batch::size)
+        .def("__repr__", [](const Batch& batch) { return fmt::format("<RecordBatch of {}>", batch.size()); })
         .def("__getitem__", &Batch::at, nb::arg("index"))
         .def(
             "__iter__", [](nb::handle self) { return nb::steal(PySeqIter_New(self.ptr())); },

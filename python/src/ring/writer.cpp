@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <array>
@@ -14,6 +13,7 @@
 #include "mavloom/shm/ring_info.hpp"
 #include "message/encode.hpp"
 #include "ring/claim.hpp"
+#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -337,7 +337,7 @@ void bind_ring_writer(nb::module_& module) {
              "writer.claim(n) as view` commits it at the end of the block. Waits for room like `write`.\n\n"
              "Only one claim is open at a time. Meanwhile other threads wait, and every write by the claiming\n"
              "thread raises BufferError.")
-        .def("close", &PyRingWriter::close, "remove"_a = false,
+        .def("close", &PyRingWriter::close, "remove"_a = false, nb::sig("def close(self, remove: bool = False) -> None"),
              "Ends writing. May be called again.\n\n"
              "With `remove` it also removes the ring; readers are notified and can read what is left. If an\n"
              "earlier close kept the ring, `remove` raises ClosedError, because another process may write the\n"

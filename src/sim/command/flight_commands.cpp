@@ -3,6 +3,7 @@
 // MAVLink common.xml. Comments state where PX4 and ArduPilot differ.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
@@ -225,16 +226,21 @@ Outcome start_landing(Parts& parts, const Command& /*command*/, Moment /*now*/) 
 
 // --- Home, origin, region of interest, fence
 
+std::optional<GeoPoint> whole_point(const Command& command, const Parts& parts) {
+    const Place place = place_of(command, parts);
+    if (std::isnan(place.latitude) || std::isnan(place.longitude) || std::isnan(command.z)) return std::nullopt;
+    return GeoPoint{place.latitude, place.longitude, altitude_of(command, parts)};
+}
+
 Outcome set_home(Parts& parts, const Command& command, Moment /*now*/) {
     if (command.param(1) >= 0.5f) return parts.flight.set_home(std::nullopt, nan);
-    if (std::isnan(command.x) || std::isnan(command.y) || std::isnan(command.z)) return Result::denied;
-    return parts.flight.set_home(GeoPoint{command.x, command.y, altitude_of(command, parts)},
-                                 to_radians(double{command.param(4)}));
+    const auto point = whole_point(command, parts);
+    return point ? parts.flight.set_home(*point, to_radians(double{command.param(4)})) : Outcome{Result::denied};
 }
 
 Outcome set_origin(Parts& parts, const Command& command, Moment /*now*/) {
-    if (std::isnan(command.x) || std::isnan(command.y) || std::isnan(command.z)) return Result::denied;
-    return set_global_origin(parts, {command.x, command.y, altitude_of(command, parts)});
+    const auto point = whole_point(command, parts);
+    return point ? set_global_origin(parts, *point) : Outcome{Result::denied};
 }
 
 Outcome look_at_place(Parts& parts, const Command& command, Moment /*now*/) {

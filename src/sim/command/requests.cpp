@@ -2,7 +2,7 @@
 #include "sim/command/requests.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 #include "mavloom/msg/autopilot_version.hpp"
 #include "mavloom/msg/available_modes.hpp"
@@ -27,7 +27,7 @@ using namespace msg;
 // The text without its terminator if it fills the field.
 template <std::size_t Size>
 void copy_text(std::string_view text, std::array<char, Size>& field) noexcept {
-    std::memcpy(field.data(), text.data(), std::min(text.size(), Size));
+    std::ranges::copy(text.substr(0, Size), field.begin());
 }
 
 Result send_autopilot_version(Parts& parts, LinkId link, double /*index*/) {
@@ -67,7 +67,7 @@ void send_mode(Parts& parts, LinkId link, const ModeInfo& mode, std::uint8_t num
 Result send_available_modes(Parts& parts, LinkId link, double index) {
     const auto modes = parts.firmware.modes();
     const auto count = static_cast<std::uint8_t>(std::ranges::count_if(modes, &ModeInfo::is_listed));
-    if (!(index >= 0 && index <= count)) return Result::denied;
+    if (!(index >= 0 && index <= count) || index != std::floor(index)) return Result::denied;
     std::uint8_t number = 0;
     for (const ModeInfo& mode : modes) {
         if (!mode.is_listed) continue;

@@ -80,6 +80,7 @@ constexpr Texts ardupilot_texts_of(std::string_view banner) {
         .disarmed_without_takeoff = "Disarming motors",
         .not_ready = "PreArm: Vehicle is not ready",
         .no_position = "PreArm: Need a position",
+        .not_in_mode = "Arm: this mode does not allow it",
         .not_landed = "Disarm refused: not landed",
         .mission_finished_hold = "Mission complete",
         .no_mission = "Auto refused: no mission",

@@ -28,7 +28,7 @@ struct Texts {
     std::string_view banner{};  // name and version, for a client that connects
     std::string_view armed{}, disarmed{}, disarmed_by_landing{}, disarmed_without_takeoff{};
     std::string_view takeoff_detected{}, landing_detected{};
-    std::string_view not_ready{}, no_position{}, not_landed{};  // refusals
+    std::string_view not_ready{}, no_position{}, not_in_mode{}, not_landed{};  // refusals
     std::string_view mission_finished_landed{}, mission_finished_hold{}, no_mission{};
     std::string_view executing_mission{}, climb_to{};
     std::string_view return_begins{}, return_lands{};

@@ -221,7 +221,7 @@ Outcome Flight::set_current_item(std::optional<std::uint16_t> seq, bool resets) 
 }
 
 Outcome Flight::set_home(const std::optional<GeoPoint>& point, double yaw) {
-    if (point && !is_valid(*point)) return Result::denied;
+    if (point && (!is_valid(*point) || distance_m(*point, position()) > farthest_origin)) return Result::denied;
     return impl_->carry_out([&] { return impl_->commander.set_home(point, yaw); });
 }
 

@@ -109,6 +109,14 @@ Result Gimbal::mount_control(double pitch, double yaw, float mode) {
     return Result::accepted;
 }
 
+void Gimbal::reboot() {
+    primary_ = secondary_ = {SystemId{0}, ComponentId{0}};
+    rest_ = 0;
+    interest_.reset();
+    follows_interest_ = false;
+    motion_.center(heading());
+}
+
 void Gimbal::step() {
     if (interest_ != parts_.flight.region_of_interest() || (interest_ && origin_ != parts_.flight.frame().origin()))
         notice_interest();

@@ -22,6 +22,7 @@ public:
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    void reboot() override;
 
     // MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW and _CONFIGURE. The vehicle's own mission needs no control.
     [[nodiscard]] Result set_pitch_yaw(const Command& command);

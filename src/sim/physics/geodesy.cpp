@@ -42,6 +42,8 @@ double bearing_rad(const GeoPoint& from, const GeoPoint& to) {
     return wrap_2pi(to_radians(first));
 }
 
-std::int32_t to_degrees_e7(double degrees) noexcept { return static_cast<std::int32_t>(std::lround(degrees * 1e7)); }
+std::int32_t to_degrees_e7(double degrees) noexcept {
+    return std::abs(degrees) <= 180 ? static_cast<std::int32_t>(std::lround(degrees * 1e7)) : 0;
+}
 
 }  // namespace mavloom::sim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kinds of noise that sensors and estimates have. Private to module sim. Each object holds one scalar process;
-// `next` advances it by `dt` seconds and returns its value. Nothing allocates.
+// The kinds of noise that sensors and estimates have beside uniform and Gaussian samples (random.hpp). Private to
+// module sim. Each object holds one scalar process; `next` advances it by a step. Nothing allocates.
 #pragma once
 
 #include <cmath>
@@ -9,25 +9,11 @@
 
 namespace mavloom::sim {
 
-// Independent samples from [-half_width, half_width).
-struct UniformNoise {
-    double half_width = 0;
-    [[nodiscard]] double next(Random& random) const noexcept { return random.uniform(-half_width, half_width); }
-};
-
-// Independent samples with standard deviation `sigma`.
-struct GaussianNoise {
-    double sigma = 0;
-    [[nodiscard]] double next(Random& random) const noexcept { return sigma * random.normal(); }
-};
-
 // The integral of white noise. Its variance grows by `rate`^2 each second, without bound.
 class RandomWalk {
 public:
     explicit RandomWalk(double rate) noexcept : rate_(rate) {}
-    [[nodiscard]] double next(Random& random, double dt) noexcept {
-        return value_ += rate_ * std::sqrt(dt) * random.normal();
-    }
+    void next(Random& random, double dt) noexcept { value_ += rate_ * std::sqrt(dt) * random.normal(); }
     [[nodiscard]] double value() const noexcept { return value_; }
 
 private:
@@ -35,22 +21,16 @@ private:
 };
 
 // First-order Gauss-Markov process: correlated over `tau` seconds, with steady standard deviation `sigma`. Exact for
-// any step. `derivative` is the rate of change over the last step, for a position whose velocity must agree with it.
+// any step.
 class GaussMarkov {
 public:
     GaussMarkov(double sigma, double tau, double dt) noexcept
-        : decay_(std::exp(-dt / tau)), drive_(sigma * std::sqrt(1 - decay_ * decay_)), per_second_(1 / dt) {}
-    double next(Random& random) noexcept {
-        const double last = value_;
-        value_ = decay_ * value_ + drive_ * random.normal();
-        derivative_ = (value_ - last) * per_second_;
-        return value_;
-    }
+        : decay_(std::exp(-dt / tau)), drive_(sigma * std::sqrt(1 - decay_ * decay_)) {}
+    void next(Random& random) noexcept { value_ = decay_ * value_ + drive_ * random.normal(); }
     [[nodiscard]] double value() const noexcept { return value_; }
-    [[nodiscard]] double derivative() const noexcept { return derivative_; }
 
 private:
-    double decay_, drive_, per_second_, value_ = 0, derivative_ = 0;
+    double decay_, drive_, value_ = 0;
 };
 
 // A slow and smooth wander: a critically damped oscillator that white noise drives. `value` is exactly the sum of
@@ -79,7 +59,7 @@ class ExponentialDecay {
 public:
     ExponentialDecay(double tau, double dt) noexcept : decay_(std::exp(-dt / tau)) {}
     void kick(double amount) noexcept { value_ += amount; }
-    double next() noexcept { return value_ *= decay_; }
+    void next() noexcept { value_ *= decay_; }
     [[nodiscard]] double value() const noexcept { return value_; }
 
 private:

@@ -13,11 +13,14 @@ constexpr unsigned magnetometer_period = 5;  // 50 Hz
 constexpr unsigned barometer_period = 12;    // 20 Hz
 constexpr double gps_interval = gps_period * step_s;
 
-constexpr double accelerometer_sigma = 0.1;  // m/s^2
-constexpr double gyroscope_sigma = 0.01;     // rad/s
-constexpr double pressure_sigma = 0.01;      // hPa
-constexpr double airspeed_sigma = 0.2;       // m/s
-constexpr double calm_share = 0.2;           // of the noise, while motors and vehicle rest
+constexpr double accelerometer_sigma = 0.1;   // m/s^2
+constexpr double gyroscope_sigma = 0.01;      // rad/s
+constexpr double pressure_sigma = 0.01;       // hPa
+constexpr double airspeed_sigma = 0.2;        // m/s
+constexpr double gyroscope_bias_rate = 1e-5;  // rad/s per square root of a second: 0.03 degrees/s in an hour
+constexpr double temperature_step = 0.1;      // K, the sensor's resolution
+constexpr double touchdown_vibration = 8;     // m/s^2
+constexpr double calm_share = 0.2;            // of the noise, while motors and vehicle rest
 constexpr double estimated_rate_sigma = to_radians(0.2);
 constexpr double resting_vibration = 0.02, flying_vibration = 2;  // m/s^2
 constexpr double self_heating = 3;                                // K, of the board above the air
@@ -56,18 +59,23 @@ Sensors::Sensors(bool has_noise, std::uint64_t seed)
       position_wander_(wander(0.03, 0.03, 0.03, 3)),
       attitude_wander_(wander(to_radians(0.15), to_radians(0.15), to_radians(0.3), 2)),
       gps_position_(markov(0.025, 0.037, 0.45)),
-      gps_velocity_(markov(0.024, 0.029, 0.2)) {}
+      gps_velocity_(markov(0.024, 0.029, 0.2)),
+      gyroscope_bias_{RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate)},
+      impact_(0.3, step_s) {}
 
 void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
                    double air_density) {
     const double share = has_noise_ ? (at_rest ? calm_share : 1) : 0;
     step_estimate(truth, share);
     step_imu(truth);
-    vibration_ += ((at_rest ? resting_vibration : flying_vibration) - vibration_) * step_s;
+    step_vibration(at_rest);
     if (steps_ % magnetometer_period == 0) step_magnetometer(truth.attitude);
     if (steps_ % barometer_period == 0)
         step_barometer(truth, air_velocity, origin_altitude - truth.position.z(), air_density);
-    if (steps_ % gps_period == 0) step_gps(truth);
+    if (steps_ % gps_period == 0) {
+        step_gps(truth);
+        step_bias();
+    }
     ++steps_;
 }
 
@@ -89,7 +97,20 @@ void Sensors::step_imu(const Kinematics& truth) {
     const Vector3 shaking = noise(Vector3::Constant(accelerometer_sigma));
     if (!failures_.accelerometer_off) imu_.acceleration = force + shaking;
     const Vector3 jitter = noise(Vector3::Constant(gyroscope_sigma));
-    if (!failures_.gyroscope_off) imu_.rates = truth.rates + jitter;
+    if (!failures_.gyroscope_off) imu_.rates = truth.rates + jitter + values(gyroscope_bias_);
+}
+
+// The level follows the motors within a second; a touchdown adds a shake that fades.
+void Sensors::step_vibration(bool at_rest) {
+    if (at_rest && !rested_) impact_.kick(touchdown_vibration);
+    rested_ = at_rest;
+    impact_.next();
+    vibration_ += ((at_rest ? resting_vibration : flying_vibration) + impact_.value() - vibration_) * step_s;
+}
+
+void Sensors::step_bias() {
+    if (!has_noise_) return;
+    for (RandomWalk& axis : gyroscope_bias_) axis.next(random_, gps_interval);
 }
 
 void Sensors::step_magnetometer(const Quaternion& attitude) {
@@ -99,12 +120,13 @@ void Sensors::step_magnetometer(const Quaternion& attitude) {
 
 void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density) {
     const Vector3 jitter = noise({pressure_sigma, airspeed_sigma, 0});
+    const double reading = has_noise_ ? random_.uniform(-temperature_step / 2, temperature_step / 2) : 0;
     const double along = (truth.attitude.conjugate() * air_velocity).x() + jitter.y();
     imu_.differential_hpa = std::copysign(0.5 * air_density * along * along, along) / 100;
     if (failures_.barometer_off) return;
     imu_.pressure_hpa = pressure_at(altitude) + jitter.x();
     imu_.pressure_altitude = altitude_of(imu_.pressure_hpa);
-    imu_.temperature_c = temperature_at(altitude) - 273.15 + self_heating;
+    imu_.temperature_c = temperature_at(altitude) - 273.15 + self_heating + reading;
 }
 
 void Sensors::step_gps(const Kinematics& truth) {

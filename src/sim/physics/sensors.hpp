@@ -71,6 +71,8 @@ private:
     using Wander3 = std::array<SmoothWander, 3>;
 
     void step_imu(const Kinematics& truth);
+    void step_vibration(bool at_rest);
+    void step_bias();
     void step_magnetometer(const Quaternion& attitude);
     void step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density);
     void step_gps(const Kinematics& truth);
@@ -82,6 +84,9 @@ private:
     SensorFailures failures_;
     Wander3 position_wander_, attitude_wander_;
     std::array<GaussMarkov, 3> gps_position_, gps_velocity_;
+    std::array<RandomWalk, 3> gyroscope_bias_;
+    ExponentialDecay impact_;  // of a touchdown
+    bool rested_ = true;
     Estimate estimate_;
     ImuSample imu_;
     GpsFix gps_;

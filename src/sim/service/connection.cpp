@@ -16,6 +16,7 @@ namespace mavloom::sim {
 namespace {
 
 constexpr std::array connection_ids{msg::Heartbeat::id, msg::Timesync::id, msg::Ping::id, msg::RadioStatus::id};
+constexpr Source radio_source{SystemId{51}, ComponentId{68}};
 
 }  // namespace
 
@@ -54,18 +55,12 @@ void Connection::on_ping(const Client& from, ByteView payload) {
 }
 
 // A telemetry radio reports how full its buffer is (txbuf, percent free). PX4's rule: slow down below 35 %, quickly
-// below 25 %, speed up again above 50 %.
+// below 25 %, speed up again above 50 %. Radios have the source 51/68, as the firmware of SiK sets it.
 void Connection::on_radio_status(const Client& from, ByteView payload, Moment now) {
+    if (from.id != radio_source) return;
     const auto free = msg::RadioStatus::decode(payload).txbuf;
-    if (free < 25) {
-        radio_share_ *= 0.8;
-    } else if (free < 35) {
-        radio_share_ *= 0.975;
-    } else if (free > 50) {
-        radio_share_ *= 1.025;
-    }
-    radio_share_ = std::clamp(radio_share_, 0.05, 1.0);
-    parts_.streams.set_share(from.link, radio_share_, now.flight);
+    const double factor = free < 25 ? 0.8 : free < 35 ? 0.975 : free > 50 ? 1.025 : 1.0;
+    parts_.streams.scale_share(from.link, factor, now.flight);
 }
 
 }  // namespace mavloom::sim

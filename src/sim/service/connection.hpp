@@ -23,7 +23,6 @@ private:
     void on_radio_status(const Client& from, ByteView payload, Moment now);
 
     Parts& parts_;
-    double radio_share_ = 1;
 };
 
 }  // namespace mavloom::sim

@@ -23,6 +23,7 @@ public:
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
+    void reboot() override { channels_ = {}; }
 
 private:
     void on_manual_control(const Client& from, ByteView payload);

@@ -22,6 +22,8 @@ using namespace msg;
 
 constexpr std::array file_ids{FileTransferProtocol::id};
 constexpr Nanoseconds session_idle = std::chrono::seconds{10};
+// A request that comes again within this time is a repetition; later, a new one that looks alike.
+constexpr Nanoseconds repeat_window = std::chrono::seconds{2};
 // PX4's numbers: what it sends at once, and how many replies make a burst.
 constexpr unsigned pieces_at_once = 56, pieces_of_burst = 168;
 
@@ -61,8 +63,9 @@ void FileService::receive(const Client& from, MessageId /*id*/, ByteView payload
         return send(stranger, request.header, {.error = {MAV_FTP_ERR_NOSESSIONSAVAILABLE}});
     }
     const std::uint32_t identity = crc32(0, message.payload);
+    const bool repeats = peer->answered == identity && now.real - peer->used < repeat_window;
     peer->used = now.real;
-    if (peer->answered != identity) {
+    if (!repeats) {
         peer->answered = identity;
         answer(*peer, request);
     } else if (request.header.opcode != MAV_FTP_OPCODE_BURSTREADFILE) {

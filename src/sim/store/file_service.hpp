@@ -26,6 +26,7 @@ public:
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
     [[nodiscard]] bool is_busy() const noexcept override;
     void pump(Moment now) override;
+    void reboot() override { peers_.clear(); }
     void forget(LinkId link) override;
 
 private:

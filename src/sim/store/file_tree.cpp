@@ -18,6 +18,8 @@ namespace {
 
 using namespace msg;
 
+// A list entry with its size and time fits one reply, and so does a request with a path.
+constexpr std::size_t longest_name = 200, longest_path = 239;
 constexpr FileError not_found{MAV_FTP_ERR_FILENOTFOUND};
 constexpr FileError protected_file{MAV_FTP_ERR_FILEPROTECTED};
 constexpr FileError existing{MAV_FTP_ERR_FILEEXISTS};
@@ -160,6 +162,8 @@ std::uint32_t FileTree::checksum(const FileRef& file) const {
 
 FileError FileTree::check_writable(std::string_view path) const {
     if (path.empty()) return {MAV_FTP_ERR_FAIL};
+    if (path.size() > longest_path || path.size() - parent_of(path).size() > longest_name)
+        return of_errno(ENAMETOOLONG);
     // The name of a special file, such as @PARAM/param.pck, is not one that a client may take.
     if (path.front() == '@' || touches(path, logs_.folder())) return protected_file;
     for (const std::string_view shared : metadata_paths(firmware_))
@@ -238,8 +242,11 @@ FileError FileTree::rename(std::string_view from, std::string_view to) {
         if (target->is_directory || find_node(from)->is_directory) return existing;
         if (const FileError error = remove(to); error.is_error()) return error;
     }
+    const auto moves = [&](const Node& node) { return node.path == from || is_below(node.path, from); };
+    for (const Node& node : nodes_)
+        if (moves(node) && to.size() + node.path.size() - from.size() > longest_path) return of_errno(ENAMETOOLONG);
     for (Node& node : nodes_)
-        if (node.path == from || is_below(node.path, from)) node.path = std::string(to) + node.path.substr(from.size());
+        if (moves(node)) node.path = std::string(to) + node.path.substr(from.size());
     return {};
 }
 

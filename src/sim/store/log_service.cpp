@@ -126,6 +126,11 @@ void LogService::pump(Moment now) {
     streams_.pump(now);
 }
 
+void LogService::reboot() {
+    downloads_.clear();
+    streams_.reboot();
+}
+
 void LogService::forget(LinkId link) {
     std::erase_if(downloads_, [&](const Download& download) { return download.client.link == link; });
     streams_.forget(link);

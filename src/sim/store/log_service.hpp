@@ -24,6 +24,7 @@ public:
     void receive(const Client& from, MessageId id, ByteView payload, Moment now) override;
     [[nodiscard]] bool is_busy() const noexcept override { return !downloads_.empty() || streams_.is_busy(); }
     void pump(Moment now) override;
+    void reboot() override;
     void forget(LinkId link) override;
 
     [[nodiscard]] const RecordedLogs& logs() const noexcept { return logs_; }
@@ -47,7 +48,7 @@ private:
     void stop(const Client& client);
     void send_entry(const Client& to, std::uint32_t index);
     void send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset);
-    // Both false: the download is complete.
+    // Both return false when the download is complete.
     [[nodiscard]] bool send_next(Download& download);
     [[nodiscard]] bool advance(Download& download);  // by as many messages as may be sent at once
 

@@ -31,6 +31,7 @@ public:
 
     [[nodiscard]] bool is_busy() const noexcept { return !streams_.empty(); }
     void pump(Moment now);
+    void reboot() { streams_.clear(); }
     void forget(LinkId link);
 
 private:

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "mavloom/msg/enums/mav_param_error.hpp"
 #include "mavloom/msg/enums/mav_param_type.hpp"
@@ -37,7 +36,7 @@ std::string_view name_of(const std::array<char, 16>& id) noexcept {
 
 std::array<char, 16> id_of(std::string_view name) noexcept {
     std::array<char, 16> id{};
-    std::memcpy(id.data(), name.data(), std::min(name.size(), id.size()));
+    std::ranges::copy(name.substr(0, id.size()), id.begin());
     return id;
 }
 

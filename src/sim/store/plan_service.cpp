@@ -350,6 +350,11 @@ bool PlanService::keep_alive(Transfer& transfer, Moment now) {
     return true;
 }
 
+void PlanService::reboot() {
+    transfers_.clear();
+    reached_ = {};
+}
+
 void PlanService::forget(LinkId link) {
     std::erase_if(transfers_, [&](const Transfer& transfer) { return transfer.client.link == link; });
 }

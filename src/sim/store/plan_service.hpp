@@ -28,6 +28,7 @@ public:
     [[nodiscard]] bool is_busy() const noexcept override { return !transfers_.empty(); }
     [[nodiscard]] FlightTime wakes_at() const noexcept override;
     void pump(Moment now) override;
+    void reboot() override;
     void forget(LinkId link) override;
 
     // Sends MISSION_ITEM_REACHED to all links. PX4 repeats it ten times, once a second.

@@ -137,7 +137,10 @@ void Streams::close(LinkId link) {
 }
 
 void Streams::reset(FlightTime now) {
-    for (LinkStreams& link : links_) fill(link, now);
+    for (LinkStreams& link : links_) {
+        link.share = 1;
+        fill(link, now);
+    }
 }
 
 FlightTime Streams::next_due() const noexcept {
@@ -294,19 +297,11 @@ std::optional<Nanoseconds> Streams::interval(LinkId link, MessageId message) con
     return at == of->streams.end() ? Nanoseconds{0} : at->asked;
 }
 
-void Streams::set_share(LinkId link, double share, FlightTime now) {
+void Streams::scale_share(LinkId link, double factor, FlightTime now) {
     LinkStreams* const of = find(link);
-    if (of == nullptr || of->share == share) return;
-    of->share = share;
-    limit(*of, now);
-}
-
-double Streams::bytes_s(LinkId link) const noexcept {
-    double sum = 0;
-    if (const LinkStreams* const of = find(link))
-        for (const Stream& stream : of->streams)
-            if (stream.interval.count() != 0) sum += bytes_s_at(*stream.projection, stream.interval);
-    return sum;
+    if (of == nullptr) return;
+    const double before = std::exchange(of->share, std::clamp(of->share * factor, 0.05, 1.0));
+    if (of->share != before) limit(*of, now);
 }
 
 // One factor for all streams but the constant ones, so that the sum fits the link: PX4's rule. The factor is at least
@@ -347,12 +342,12 @@ bool Streams::streams(const LinkStreams& link, MessageId message) noexcept {
     });
 }
 
-std::vector<StreamReport> Streams::reports() const {
+std::vector<StreamReport> Streams::reports(LinkId link) const {
     std::vector<StreamReport> reports;
-    for (const LinkStreams& link : links_)
-        for (const Stream& stream : link.streams)
+    if (const LinkStreams* const of = find(link))
+        for (const Stream& stream : of->streams)
             if (stream.interval.count() != 0 || stream.sent != 0)
-                reports.push_back(report_of(radio_.system(), link.link, stream));
+                reports.push_back(report_of(radio_.system(), link, stream));
     return reports;
 }
 

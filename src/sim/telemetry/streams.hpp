@@ -47,12 +47,10 @@ public:
     bool set_interval(LinkId link, MessageId message, std::optional<Nanoseconds> interval, FlightTime now);
     // As asked for, before the bandwidth limit. Empty: unknown message; 0: off.
     [[nodiscard]] std::optional<Nanoseconds> interval(LinkId link, MessageId message) const noexcept;
-    // The share that RADIO_STATUS or log streaming leaves of the link's bandwidth for telemetry (0 to 1).
-    void set_share(LinkId link, double share, FlightTime now);
-    // The telemetry of all streams after the limit, in bytes a second.
-    [[nodiscard]] double bytes_s(LinkId link) const noexcept;
+    // Multiplies the share of the link's bandwidth that telemetry may use. It stays between 0.05 and 1, its start.
+    void scale_share(LinkId link, double factor, FlightTime now);
 
-    [[nodiscard]] std::vector<StreamReport> reports() const;
+    [[nodiscard]] std::vector<StreamReport> reports(LinkId link) const;
 
 private:
     // Deadlines stand in LinkStreams::due, so that the search for the next one reads few cache lines.

@@ -349,12 +349,11 @@ def test_b32_a_reboot(sim):
     assert station.command(246, 1) == ACCEPTED
     beat = station.expect("HEARTBEAT", since=station.mark())
     arrived = station.times("HEARTBEAT", mark)
-    stamps = [m.time_boot_ms for m in station.since(mark, "ATTITUDE")]
 
     assert not beat.base_mode & 128
     assert any(1.9 < b - a < 4 for a, b in zip([station.log[mark][0], *arrived], arrived))
     station.until(lambda: station.latest("ATTITUDE").time_boot_ms < before, what="a clock that started again")
-    assert min(m.time_boot_ms for m in station.since(mark, "ATTITUDE")) < 1000 or stamps
+    assert min(m.time_boot_ms for m in station.since(mark, "ATTITUDE")) < 1000
     station.ready()
     assert station.parameter("MIS_TAKEOFF_ALT").param_value == 7.25
     assert len(station.download()) == 2

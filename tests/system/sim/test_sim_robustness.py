@@ -94,8 +94,12 @@ def test_b84_the_last_of_two_modes_wins(sim):
         second.send(mavlink.MAVLink_command_long_message(1, 1, 176, 0, 1, 4, 3, 0, 0, 0, 0))
         assert [s.expect("COMMAND_ACK", since=m).result for s, m in zip((first, second), marks)] == [ACCEPTED] * 2
     modes = [station.expect("HEARTBEAT").custom_mode for station in (first, second)]
-
     assert modes[0] == modes[1] and modes[0] in (ALTITUDE, HOLD)
+
+    assert first.command(176, 1, 2) == ACCEPTED  # the last of the two, now beyond doubt
+    mark = first.mark()
+    assert second.command(176, 1, 4, 3) == ACCEPTED
+    assert first.expect("HEARTBEAT", since=mark).custom_mode == HOLD
 
 
 def test_b85_a_network_that_reorders_and_repeats(sim, rng):

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "mavloom/record/recorder.hpp"
+#include "mavloom/record/tlog_reader.hpp"
 #include "mavloom/ring/frames.hpp"
 #include "support/golden_frames.hpp"
+#include "support/temp_dir.hpp"
 #include "unit/feed/fixture.hpp"
 
 namespace mavloom::feed {
@@ -363,6 +366,50 @@ TEST_F(HeldChannelTest, NothingIsMissedWhileTheLoopThreadPausesAndGoesOn) {
 }
 
 // ---- what a channel knows of its endpoint
+
+// ---- recording
+
+struct RecordedChannelTest : ChannelTest {
+    std::shared_ptr<record::Recorder> recorder(const char* name) {
+        auto made = record::Recorder::create("test", folder.path() / name, {}, {});
+        EXPECT_TRUE(made) << made.error().text;
+        return std::move(*made);
+    }
+    std::vector<std::uint32_t> numbers_recorded(const char* name) {
+        auto reader = record::TlogReader::open(folder.path() / name, dialect::default_dialect().wire_table());
+        std::vector<std::uint32_t> numbers;
+        while (const auto found = reader->next(1 << 20)) numbers.push_back(number_of(found->frame));
+        return numbers;
+    }
+    test::TempDir folder;
+};
+
+TEST_F(RecordedChannelTest, ARecorderGetsEveryFrameUntilItsEnd) {
+    const auto one = recorder("one.tlog"), two = recorder("two.tlog");
+    receive_numbers(*channel, 1, 10);
+    channel->record_with(one);
+    receive_numbers(*channel, 11, 20);
+    channel->record_with(two);
+    receive_numbers(*channel, 21, 30);
+    channel->end_recording(one);
+    receive_numbers(*channel, 31, 40);
+    one->stop();
+    channel->end_recording(two);
+    two->stop();
+    EXPECT_EQ(numbers_recorded("one.tlog"), from_to(11, 30));
+    EXPECT_EQ(numbers_recorded("two.tlog"), from_to(21, 40));
+}
+
+TEST_F(RecordedChannelTest, ARecordingEndsWithItsChannel) {
+    const auto before = recorder("before.tlog"), after = recorder("after.tlog");
+    channel->record_with(before);
+    receive_numbers(*channel, 1, 10);
+    channel->close();
+    channel->record_with(after);
+    EXPECT_TRUE(eventually([&] { return before->finished() && after->finished(); }));
+    EXPECT_EQ(numbers_recorded("before.tlog"), from_to(1, 10));
+    EXPECT_THAT(numbers_recorded("after.tlog"), IsEmpty());
+}
 
 TEST_F(ChannelTest, TheFirstVehicleIsTheTarget) {
     EXPECT_EQ(channel->target(), Source{});

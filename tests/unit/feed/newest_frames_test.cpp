@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "mavloom/feed/newest_frames.hpp"
+#include "mavloom/feed/vehicle.hpp"
 
 #include <gtest/gtest.h>
 
-#include "feed/vehicle.hpp"
 #include "unit/feed/fixture.hpp"
 
 namespace mavloom::feed {
@@ -96,7 +96,9 @@ TEST(Vehicle, OnlyTheHeartbeatOfAVehicleMakesOne) {
     EXPECT_TRUE(is_vehicle_heartbeat(view(heartbeat(0, 0))));
     EXPECT_FALSE(is_vehicle_heartbeat(view(heartbeat(ground_station, ardupilot))));
     EXPECT_FALSE(is_vehicle_heartbeat(view(heartbeat(gimbal, 0))));
-    EXPECT_FALSE(is_vehicle_heartbeat(view(heartbeat(quadrotor, no_autopilot))));
+    EXPECT_TRUE(is_vehicle_heartbeat(view(heartbeat(quadrotor, no_autopilot))));  // home-made boards
+    EXPECT_FALSE(is_vehicle_heartbeat(view(heartbeat(ground_station, no_autopilot))));
+    EXPECT_FALSE(is_vehicle_heartbeat(view(heartbeat(0, no_autopilot))));
     EXPECT_FALSE(is_vehicle_heartbeat(view(numbered(1))));
 }
 

@@ -9,6 +9,7 @@
 
 #include "mavloom/msg/attitude.hpp"
 #include "mavloom/msg/command_cancel.hpp"
+#include "mavloom/msg/enums/mav_sys_status_sensor.hpp"
 #include "mavloom/msg/gps_global_origin.hpp"
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/mission_count.hpp"
@@ -20,6 +21,7 @@
 #include "mavloom/msg/play_tune_v2.hpp"
 #include "mavloom/msg/set_mode.hpp"
 #include "mavloom/msg/supported_tunes.hpp"
+#include "mavloom/msg/sys_status.hpp"
 #include "unit/sim/bench.hpp"
 
 namespace mavloom::sim {
@@ -403,6 +405,47 @@ TEST(FlightCommands, ArduPilotTurnsInGuided) {
     EXPECT_EQ(bench.command(115, {500, 20, 1, 0}), failed);
     EXPECT_EQ(bench.command(115, {nan_f, 20, 1, 0}), failed);
     EXPECT_EQ(Bench().command(115, {90, 20, 1, 0}), unsupported) << "PX4 does not know it";
+}
+
+TEST(FlightCommands, ZeroZeroIsNoHome) {
+    Bench bench;
+    bench.rig.run(5.0);
+    const double before = bench.state().relative_altitude_m;
+    EXPECT_EQ(bench.command(179, {0, 0, 0, 0, 0, 0, 0}), denied);
+    EXPECT_EQ(bench.command(179, {0, 0, 0, 0, 10, 10, 0}), denied) << "thousands of kilometres away";
+    bench.rig.run(0.1);
+    EXPECT_NEAR(bench.state().relative_altitude_m, before, 0.5);
+}
+
+TEST(FlightCommands, HalfAModeIsNone) { EXPECT_EQ(Bench().command(512, {435, 1.5f}), denied); }
+
+TEST(Console, TakeOffBringsAnArduPilotCopterIntoGuided) {
+    Rig rig(VehicleOptions{.autopilot = Autopilot::ardupilot, .ready_after = 0ms});
+    rig.run(3.0);
+    ASSERT_TRUE(rig.vehicle.take_off(10));
+    rig.run(20.0);
+    EXPECT_EQ(rig.vehicle.status().mode, "GUIDED");
+    EXPECT_NEAR(rig.vehicle.status().relative_altitude_m, 10, 1);
+}
+
+TEST(Console, RefusesParametersThatTheirTypeCannotHold) {
+    Rig rig;
+    EXPECT_FALSE(rig.vehicle.set_parameter("MIS_TAKEOFF_ALT", 1e300));
+    EXPECT_FALSE(rig.vehicle.set_parameter("MIS_TAKEOFF_ALT", std::nan("")));
+    EXPECT_FALSE(rig.vehicle.set_parameter("NAV_DLL_ACT", 2.5));
+    EXPECT_FALSE(rig.vehicle.set_parameter("NAV_DLL_ACT", 3e9));
+    EXPECT_TRUE(rig.vehicle.set_parameter("NAV_DLL_ACT", 2));
+}
+
+TEST(FlightCommands, ArduPilotNamesTheModeThatForbidsToArm) {
+    Rig rig(VehicleOptions{.autopilot = Autopilot::ardupilot, .ready_after = 0ms});
+    rig.run(3.0);
+    ASSERT_TRUE(rig.vehicle.set_mode("RTL"));
+    const auto refused = rig.vehicle.arm(false);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().text, "Arm: this mode does not allow it");
+    rig.run(1.0);
+    EXPECT_NE(rig.last<msg::SysStatus>()->onboard_control_sensors_health & msg::MAV_SYS_STATUS_PREARM_CHECK, 0u);
 }
 
 // --- Maintenance

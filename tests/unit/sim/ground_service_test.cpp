@@ -265,6 +265,21 @@ TEST(Signing, TheSameKeyAgainChangesNothing) {
     EXPECT_FALSE(client.is_heard(frame));
 }
 
+TEST(Signing, ItsTimeIsRealTimeWhateverTheSpeed) {
+    Rig rig;
+    SigningClient client(rig);
+    client.set_key(client.key.bytes(), false);
+    // A client that connects after 6 s, on a vehicle whose clock has run for 10 minutes.
+    const Moment later{.flight = std::chrono::minutes{10}, .real = MonoTime{std::chrono::seconds{6}}};
+    rig.vehicle.advance(later);
+    rig.forget();
+    const auto bytes = client.frame_of(question);
+    const auto frame = wire::FrameView::unchecked(bytes);
+    rig.vehicle.receive(LinkId{1}, frame, dialect::default_dialect().wire_table().find(frame.id()), later);
+
+    EXPECT_FALSE(rig.all<msg::Timesync>().empty());
+}
+
 TEST(Signing, RefusesAKeyWhileArmed) {
     Rig rig(ready_px4);
     rig.run(1.0);

@@ -15,6 +15,7 @@
 #include "mavloom/msg/link_node_status.hpp"
 #include "mavloom/msg/ping.hpp"
 #include "mavloom/msg/radio_status.hpp"
+#include "mavloom/msg/timesync.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim {
@@ -43,8 +44,8 @@ std::size_t count_of(const Rig& rig, MessageId message, LinkId link = LinkId{1})
 }
 
 StreamReport report_of(const Rig& rig, MessageId message, LinkId link = LinkId{1}) {
-    for (const StreamReport& report : rig.vehicle.stream_reports())
-        if (report.message == message && report.link == link) return report;
+    for (const StreamReport& report : rig.vehicle.stream_reports(link))
+        if (report.message == message) return report;
     return {};
 }
 
@@ -86,7 +87,7 @@ TEST_P(EveryProfile, StreamsKeepTheirGridToTheMicrosecond) {
         rig.forget();
         rig.run(60.0);
 
-        for (const StreamReport& report : rig.vehicle.stream_reports()) {
+        for (const StreamReport& report : rig.vehicle.stream_reports(LinkId{1})) {
             SCOPED_TRACE(report.name);
             const auto times = times_of(rig, report.message);
             if (report.sent < 3) continue;
@@ -105,7 +106,7 @@ TEST(Streams, WakeUpsThatComeTooLateCauseNoDrift) {
 
     for (int i = 0; i < 8'600; ++i) stall(rig, std::chrono::microseconds{7'000});
 
-    for (const StreamReport& report : rig.vehicle.stream_reports()) {
+    for (const StreamReport& report : rig.vehicle.stream_reports(LinkId{1})) {
         if (report.sent < 3) continue;
         EXPECT_NEAR(report.achieved_hz, report.asked_hz, report.asked_hz * 1e-3) << report.name;
         EXPECT_EQ(report.skipped, 0u) << report.name;
@@ -206,13 +207,13 @@ TEST(Streams, AClosedLinkIsForgotten) {
     rig.run(1.0);
 
     EXPECT_TRUE(rig.sink.frames.empty());
-    EXPECT_TRUE(rig.vehicle.stream_reports().empty());
+    EXPECT_TRUE(rig.vehicle.stream_reports(LinkId{1}).empty());
 }
 
 // Sizes of MAVLink 2 frames: 12 bytes around the full payload.
 double bytes_s(const Rig& rig, double seconds) {
     double bytes = 0;
-    for (const StreamReport& report : rig.vehicle.stream_reports()) {
+    for (const StreamReport& report : rig.vehicle.stream_reports(LinkId{1})) {
         const auto* const info = dialect::default_dialect().wire_table().find(report.message);
         bytes += (info->max_length + 12) * static_cast<double>(count_of(rig, report.message));
     }
@@ -315,6 +316,42 @@ TEST(Streams, ARepeatedRequestForTheSameRateDisturbsNothing) {
 }
 
 // ATTITUDE_TARGET of the default profile needs an armed vehicle. Time without it must not lower the reported rate.
+TEST(Streams, OnlyARadioSlowsALinkAndOnlyItsOwn) {
+    const LinkOptions limited{.profile = Profile::px4_normal, .max_bytes_s = 4000};
+    Rig rig({.ready_after = Nanoseconds{0}}, limited);
+    rig.vehicle.open(LinkId{2}, limited, rig.now());
+    const auto rate = [&](LinkId link) {
+        rig.forget();
+        rig.run(10.0);
+        return static_cast<double>(count_of(rig, msg::Attitude::id, link)) / 10;
+    };
+    const double before = rate(LinkId{2});
+    for (int i = 0; i < 50; ++i) rig.send(msg::RadioStatus{.txbuf = 0}, Peer{.link = LinkId{2}});
+    EXPECT_NEAR(rate(LinkId{2}), before, 0.2) << "from a client that is no radio";
+    const Source radio{SystemId{51}, ComponentId{68}};
+    for (int i = 0; i < 50; ++i) rig.send(msg::RadioStatus{.txbuf = 0}, Peer{.link = LinkId{1}, .id = radio});
+    rig.send(msg::RadioStatus{.txbuf = 45}, Peer{.link = LinkId{2}, .id = radio});
+    EXPECT_LT(rate(LinkId{1}), before / 2);
+    EXPECT_NEAR(rate(LinkId{2}), before, 0.2);
+}
+
+TEST(Streams, ARequestBetweenTwoInstantsDoesNotChangeWhatIsDueBefore) {
+    // Woken late, the vehicle hears a client first; what was due before still shows its own instant.
+    const auto stamps = [](bool is_asked) {
+        Rig rig({.ready_after = Nanoseconds{0}}, {.profile = Profile::px4_normal});
+        rig.forget();
+        for (int i = 0; i < 200; ++i) {
+            rig.flight += std::chrono::milliseconds{15};
+            if (is_asked) rig.send(msg::Timesync{.tc1 = 0, .ts1 = 1});
+            rig.vehicle.advance(rig.now());
+        }
+        std::vector<std::uint32_t> all;
+        for (const auto& message : rig.all<msg::Attitude>()) all.push_back(message.time_boot_ms);
+        return all;
+    };
+    EXPECT_EQ(stamps(true), stamps(false));
+}
+
 TEST(Streams, AConditionalStreamReportsTheRateOfTheTimeInWhichItRan) {
     Rig rig({.ready_after = Nanoseconds{0}});
     rig.run(5.0);

@@ -94,13 +94,18 @@ protected:
         }
     }
 
-    void send_command(std::uint8_t target) {
+    void send_command(std::uint8_t target, std::uint16_t command = 31'999, float param1 = 0) {  // nobody has 31999
         msg::CommandLong message{};
-        message.command = 31'999;  // nobody has it
+        message.command = command;
+        message.param1 = param1;
         message.target_system = target;
-        std::array<std::uint8_t, msg::CommandLong::max_length> payload;
+        send(message);
+    }
+    template <class Message>
+    void send(const Message& message) {
+        std::array<std::uint8_t, Message::max_length> payload;
         (void)message.encode(payload);
-        const auto& info = *dialect::default_dialect().wire_table().find(msg::CommandLong::id);
+        const auto& info = *dialect::default_dialect().wire_table().find(Message::id);
         wire::FrameBuffer buffer;
         const auto frame = wire::write_frame(buffer, {.sequence = 0, .source = {SystemId{255}, ComponentId{190}}}, info,
                                              payload);
@@ -162,6 +167,33 @@ TEST_F(FleetTest, TwoVehiclesCannotShareAnId) {
     ASSERT_FALSE(added);
     EXPECT_EQ(added.error().code, SetupCode::usage);
     EXPECT_EQ(sut.size(), 3u);
+}
+
+TEST_F(FleetTest, AVehicleWithANewIdIsFoundUnderItAfterAReboot) {
+    ASSERT_TRUE(sut.find(SystemId{2})->set_parameter("MAV_SYS_ID", 42));
+    send_command(2, 246, 1);  // PREFLIGHT_REBOOT_SHUTDOWN
+    run(5s);
+
+    ASSERT_EQ(sut.find(SystemId{2}), nullptr);
+    ASSERT_NE(sut.find(SystemId{42}), nullptr);
+    sink.frames.clear();
+    send_command(42);
+    EXPECT_THAT(senders(msg::CommandAck::id), ElementsAre(42));
+    sut.reschedule(*sut.find(SystemId{42}), now());
+    run(3s);
+    EXPECT_THAT(senders(msg::Heartbeat::id), testing::Contains(42));
+}
+
+TEST_F(FleetTest, AVehicleKeepsItsIdIfTheNewOneIsTaken) {
+    ASSERT_TRUE(sut.find(SystemId{2})->set_parameter("MAV_SYS_ID", 9));
+    send_command(2, 246, 1);
+    run(5s);
+    sink.frames.clear();
+    run(10s);
+
+    EXPECT_EQ(sut.find(SystemId{2})->parameter("MAV_SYS_ID"), 2);
+    EXPECT_THAT(std::ranges::count(senders(msg::Heartbeat::id), 2), testing::Ge(9));
+    EXPECT_THAT(std::ranges::count(senders(msg::Heartbeat::id), 9), testing::Le(11));
 }
 
 TEST_F(FleetTest, AClosedLinkGetsNothingMore) {

@@ -100,10 +100,7 @@ Outcome Commander::arm(bool force, OrderedBy /*by*/) {
     const Texts& texts = context_.texts();
     const Result refused = context_.firmware.is_px4() ? Result::temporarily_rejected : Result::failed;
     if (is_terminated_) return context_.refuse(refused, texts.not_ready);
-    if (reasons != 0 && !force)
-        return context_.refuse(refused, (reasons & unready_position) != 0 && !texts.no_position.empty()
-                                            ? texts.no_position
-                                            : texts.not_ready);
+    if (reasons != 0 && !force) return context_.refuse(refused, refusal(reasons));
     context_.armed = true;
     context_.armed_at = context_.now();
     has_flown_ = false;
@@ -111,6 +108,12 @@ Outcome Commander::arm(bool force, OrderedBy /*by*/) {
     navigator_.mission().on_armed();
     context_.say(Severity::info, texts.armed);
     return Result::accepted;
+}
+
+std::string_view Commander::refusal(std::uint32_t reasons) const noexcept {
+    const Texts& texts = context_.texts();
+    if ((reasons & unready_position) != 0 && !texts.no_position.empty()) return texts.no_position;
+    return reasons == unready_mode && !texts.not_in_mode.empty() ? texts.not_in_mode : texts.not_ready;
 }
 
 bool Commander::may_disarm() const noexcept {

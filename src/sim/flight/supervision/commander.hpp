@@ -36,6 +36,7 @@ public:
     [[nodiscard]] std::uint32_t flights() const noexcept { return flights_; }
 
 private:
+    [[nodiscard]] std::string_view refusal(std::uint32_t reasons) const noexcept;
     [[nodiscard]] bool is_booted() const noexcept;
     [[nodiscard]] bool can_run(Behaviour behaviour) const noexcept;
     [[nodiscard]] bool can_arm_in(Behaviour behaviour) const noexcept;

@@ -42,7 +42,8 @@ constexpr std::uint32_t ardupilot_sensors = MAV_SYS_STATUS_SENSOR_3D_GYRO | MAV_
                                             MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS | MAV_SYS_STATUS_SENSOR_RC_RECEIVER |
                                             MAV_SYS_STATUS_AHRS | MAV_SYS_STATUS_LOGGING |
                                             MAV_SYS_STATUS_SENSOR_BATTERY | MAV_SYS_STATUS_PREARM_CHECK;
-constexpr SensorBits ardupilot_bits{ardupilot_sensors, ardupilot_sensors, ardupilot_sensors};
+// A fence that is not breached is healthy, enabled or not.
+constexpr SensorBits ardupilot_bits{ardupilot_sensors, ardupilot_sensors, ardupilot_sensors | MAV_SYS_STATUS_GEOFENCE};
 
 std::uint32_t failed_bits(const View& view) noexcept {
     const Sensors& sensors = view.flight.sensors();
@@ -54,7 +55,9 @@ std::uint32_t failed_bits(const View& view) noexcept {
     fails(failures.accelerometer_off, MAV_SYS_STATUS_SENSOR_3D_ACCEL);
     fails(failures.magnetometer_off, MAV_SYS_STATUS_SENSOR_3D_MAG);
     fails(failures.barometer_off, MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE);
-    fails(view.flight.unready() != 0, MAV_SYS_STATUS_PREARM_CHECK);
+    // ArduPilot's checks do not depend on the mode.
+    const std::uint32_t ignored = view.firmware.is_px4() ? 0 : std::uint32_t{unready_mode};
+    fails((view.flight.unready() & ~ignored) != 0, MAV_SYS_STATUS_PREARM_CHECK);
     return failed;
 }
 

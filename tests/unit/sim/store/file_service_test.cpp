@@ -295,6 +295,39 @@ TEST_F(FileService, GivesTheSameReplyToTheSameRequest) {
         << "another request with that number is another request";
 }
 
+TEST_F(FileService, ALaterRequestThatLooksAlikeIsANewOne) {
+    ftp.upload("/file", bytes_of("old"));
+    const std::uint16_t seq = ftp.seq;
+    const std::uint32_t before = ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/file").value();
+    FtpClient other(rig, {.id = {SystemId{254}, ComponentId{1}}});
+    other.upload("/file", bytes_of("new"));
+    rig.run(3.0);
+
+    ftp.seq = seq;
+    EXPECT_NE(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/file").value(), before);
+}
+
+TEST_F(FileService, EveryNameThatItTakesFitsAListing) {
+    constexpr int name_too_long = 36;  // ENAMETOOLONG
+    const std::string longest(199, 'a'), longer(236, 'b');
+    EXPECT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/" + longest).is_ack());
+    ftp.upload("/z", {});
+    EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/" + longer).number(), name_too_long);
+    EXPECT_THAT(ftp.list("/"), Contains(testing::StartsWith("Fz")));
+}
+
+TEST_F(FileService, AFolderMovesOnlyWhereAllItsPathsFit) {
+    constexpr int name_too_long = 36;
+    const std::string name(150, 'a');
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEDIRECTORY, "/f").is_ack());
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/f/" + name).is_ack());
+    Bytes paths = bytes_of("/f");
+    paths.push_back(0);
+    const Bytes to = bytes_of("/" + std::string(120, 'g'));
+    paths.insert(paths.end(), to.begin(), to.end());
+    EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_RENAME, paths).number(), name_too_long);
+}
+
 TEST_F(FileService, RefusesUnknownOperationsAndSizes) {
     EXPECT_EQ(ftp.ask(17, Bytes{}).error(), MAV_FTP_ERR_UNKNOWNCOMMAND);
     EXPECT_EQ(ftp.ask(127, Bytes{}).error(), MAV_FTP_ERR_UNKNOWNCOMMAND);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
 #include "mavloom/msg/enums/mav_frame.hpp"
 #include "mavloom/msg/enums/mav_mission_result.hpp"
@@ -134,6 +135,15 @@ TEST_F(PlanService, AsksForEachItemInOrderAndAcknowledgesTheLastWithTheIdThatPx4
     EXPECT_EQ(ack->opaque_id, recorded_plan_id);
     EXPECT_EQ(rig.all<MissionRequestInt>().size(), 6u);
     EXPECT_EQ(rig.all<MissionAck>().size(), 1u);
+}
+
+TEST_F(PlanService, ARebootEndsAnUpload) {
+    announce(6);
+    rig.send(msg::CommandLong{.target_system = 1, .target_component = 1, .command = 246, .param1 = 1});
+    rig.run(2.6);
+    rig.forget();
+    rig.run(3.0);
+    EXPECT_FALSE(rig.last<MissionRequestInt>());
 }
 
 TEST_F(PlanService, ReturnsItemsBitByBit) {

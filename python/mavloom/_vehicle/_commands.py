@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""The command protocol, and commands that change the mode or arm.
+
+Source: https://mavlink.io/en/services/command.html
+"""
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Generator
+from typing import TypeVar
+
+from .. import _modes, enums
+from .._core import Message
+from .._errors import CommandError, UsageError
+from ._exchange import Peer, Protocol, wait_until
+
+_T = TypeVar("_T")
+
+ANSWERS = ("COMMAND_ACK", "HEARTBEAT")
+ANSWER_S = 1.0  # how long one request waits for its answer
+TRIES = 4
+IN_PROGRESS_S = 30.0  # how long a command in progress may report nothing
+HEARTBEATS_S = 5.0  # how long a change of mode or of arming may take to appear in heartbeats
+
+ACCEPTED, IN_PROGRESS = 0, 5  # MAV_RESULT
+ARM_DISARM, DO_SET_MODE, NAV_TAKEOFF, NAV_LAND, RETURN_TO_LAUNCH = 400, 176, 22, 21, 20  # MAV_CMD
+ARMED = 128  # MAV_MODE_FLAG
+FORCE = 21196  # param2 of ARM_DISARM: without the vehicle's own checks
+
+
+def number_of(command: int | str) -> int:
+    """The number of a command: an int, or a name of MAV_CMD with or without its prefix."""
+    if isinstance(command, int):
+        return int(command)
+    members = enums.MAV_CMD.__members__
+    for name in (command, f"MAV_CMD_{command}"):
+        if name in members:
+            return int(members[name])
+    raise UsageError(f"unknown command {command!r}; see mavloom.enums.MAV_CMD")
+
+
+def name_of(command: int) -> str:
+    names = {int(member): name for name, member in enums.MAV_CMD.__members__.items()}
+    return names.get(command, f"command {command}")
+
+
+def result_name(result: int) -> str:
+    names = {int(member): name for name, member in enums.MAV_RESULT.__members__.items()}
+    return names.get(result, f"result {result}")
+
+
+def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRIES) -> Protocol[Message]:
+    """Sends a command until it is acknowledged. Returns the acknowledgement.
+
+    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer.
+    """
+    if len(params) > 7:
+        raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
+    fields = {f"param{place}": value for place, value in enumerate(params, 1)}
+    for confirmation in range(tries):
+        peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
+        acknowledged = yield from acknowledgement(peer, number)
+        if acknowledged is None:
+            continue
+        if acknowledged["result"] != ACCEPTED:
+            raise CommandError(f"{peer}: {name_of(number)}: {result_name(acknowledged['result'])}",
+                               acknowledged["result"])
+        return acknowledged
+    raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
+
+
+def acknowledgement(peer: Peer, number: int) -> Generator[float, Message | None, Message | None]:
+    """Waits for the final answer to a command; None if there is none."""
+    deadline = time.monotonic() + ANSWER_S
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
+            continue
+        if answer["result"] != IN_PROGRESS:
+            return answer
+        deadline = time.monotonic() + IN_PROGRESS_S
+    return None
+
+
+def heartbeat_with(peer: Peer, what: str, is_so: object, seconds: float) -> Protocol[Message]:
+    """Waits for a heartbeat of which `is_so(heartbeat)` is true."""
+    assert callable(is_so)
+    deadline = time.monotonic() + seconds
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name == "HEARTBEAT" and is_so(answer):
+            return answer
+    raise TimeoutError(f"{peer}: {what} does not appear in its heartbeats within {seconds:g} s")
+
+
+def known_heartbeat(peer: Peer) -> Protocol[Message]:
+    """The newest heartbeat of the vehicle; waits for the first one."""
+    heartbeat = peer.heartbeat()
+    if heartbeat is None:
+        heartbeat = yield from heartbeat_with(peer, "the vehicle", lambda _: True, HEARTBEATS_S)
+    return heartbeat
+
+
+def arm(peer: Peer, armed: bool, force: bool) -> Protocol[None]:
+    """Arms or disarms the motors, and waits until the heartbeats report it."""
+    yield from command(peer, ARM_DISARM, (float(armed), float(FORCE if force else 0)))
+    yield from heartbeat_with(peer, "armed" if armed else "disarmed",
+                              lambda beat: bool(beat["base_mode"] & ARMED) is armed, HEARTBEATS_S)
+
+
+def mode_params(heartbeat: Message, mode: str | int) -> tuple[float, float, float, int]:
+    """The parameters of DO_SET_MODE for a mode, and the custom mode that the heartbeats then report."""
+    if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
+        if isinstance(mode, int):
+            main, sub = mode >> 16 & 0xff, mode >> 24 & 0xff
+        else:
+            _, main, sub = known_mode(mode, _modes.PX4)
+        return _modes.CUSTOM_MODE_ENABLED, main, sub, main << 16 | sub << 24
+    if isinstance(mode, int):
+        number = mode
+    else:
+        number = known_mode(mode, _modes.ardupilot_modes(heartbeat["type"]) or {})
+    return _modes.CUSTOM_MODE_ENABLED, number, 0, number
+
+
+def known_mode(mode: str, modes: dict[str, _T]) -> _T:
+    if mode.upper() not in modes:
+        raise UsageError(f"unknown mode {mode!r}: this vehicle has {', '.join(sorted(modes)) or 'no modes with names'}")
+    return modes[mode.upper()]
+
+
+def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
+    """Requests a mode by name or custom mode, and waits until the heartbeats report it."""
+    heartbeat = yield from known_heartbeat(peer)
+    base, main, sub, custom_mode = mode_params(heartbeat, mode)
+    yield from command(peer, DO_SET_MODE, (base, main, sub))
+    yield from heartbeat_with(peer, f"mode {mode}", lambda beat: beat["custom_mode"] == custom_mode, HEARTBEATS_S)
+
+
+def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
+    """Requests a take-off to `altitude` m above the present place. An ArduPilot is put into mode GUIDED first."""
+    heartbeat = yield from known_heartbeat(peer)
+    if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
+        here = peer.link.latest("GLOBAL_POSITION_INT", system=peer.system)
+        above_sea = math.nan if here is None else here["alt"] / 1000 + altitude
+        nan = math.nan
+        yield from command(peer, NAV_TAKEOFF, (nan, nan, nan, nan, nan, nan, above_sea))
+        return
+    guided = known_mode("GUIDED", _modes.ardupilot_modes(heartbeat["type"]) or {"GUIDED": 4})
+    if heartbeat["custom_mode"] != guided:
+        yield from set_mode(peer, guided)
+    yield from command(peer, NAV_TAKEOFF, (0, 0, 0, 0, 0, 0, altitude))
+
+
+def land(peer: Peer) -> Protocol[None]:
+    """Requests a landing at the present place."""
+    heartbeat = yield from known_heartbeat(peer)
+    unset = math.nan if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4 else 0.0
+    yield from command(peer, NAV_LAND, (0, 0, 0, unset, unset, unset, unset))

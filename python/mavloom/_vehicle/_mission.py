@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: MIT
+"""The mission protocol: upload, download and clear, of missions, fences and rally points.
+
+Source: https://mavlink.io/en/services/mission.html
+"""
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from .. import enums
+from .._core import Message
+from .._errors import MissionError, UsageError
+from ._exchange import Peer, Protocol, wait_until
+
+ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK")
+ANSWER_S = 1.5
+TRIES = 5
+ACCEPTED = 0  # MAV_MISSION_RESULT
+GLOBAL_RELATIVE_ALT_INT = 6  # MAV_FRAME
+DEGREES = 1e7  # of latitude and longitude in x and y
+FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
+MOST_ITEMS = 65535
+
+
+@dataclass
+class MissionItem:
+    """One item of a mission. `x` and `y` are degrees * 1e7 in a global frame, else metres * 1e4."""
+    command: int = 16  # MAV_CMD_NAV_WAYPOINT
+    x: int = 0
+    y: int = 0
+    z: float = 0.0
+    frame: int = GLOBAL_RELATIVE_ALT_INT
+    param1: float = 0.0
+    param2: float = 0.0
+    param3: float = 0.0
+    param4: float = 0.0
+    current: int = 0
+    autocontinue: int = 1
+
+    @classmethod
+    def at(cls, lat: float, lon: float, alt: float, command: int = 16, **fields: Any) -> MissionItem:
+        """An item at a place in degrees, `alt` m above home: MissionItem.at(47.398, 8.546, 20)."""
+        return cls(int(command), round(lat * DEGREES), round(lon * DEGREES), float(alt), **fields)
+
+    @property
+    def lat(self) -> float:
+        """The latitude in degrees, in a global frame."""
+        return self.x / DEGREES
+
+    @property
+    def lon(self) -> float:
+        """The longitude in degrees, in a global frame."""
+        return self.y / DEGREES
+
+
+FIELDS = tuple(MissionItem.__dataclass_fields__)
+
+
+def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
+    """An item from a MissionItem, a MISSION_ITEM_INT or MISSION_ITEM, or a mapping of the fields."""
+    if isinstance(given, MissionItem):
+        return given
+    if isinstance(given, Message):
+        if given.name not in ("MISSION_ITEM_INT", "MISSION_ITEM"):
+            raise UsageError(f"a mission has items, not {given.name}")
+        fields = {name: given[name] for name in FIELDS}
+        if given.name == "MISSION_ITEM":
+            scale = DEGREES if given["frame"] in FRAMES_IN_DEGREES else 1e4
+            fields.update(x=round(given["x"] * scale), y=round(given["y"] * scale))
+        return MissionItem(**fields)
+    if not isinstance(given, Mapping):
+        raise UsageError(f"an item is a MissionItem, a MISSION_ITEM_INT or a mapping, not {given!r}")
+    unknown = set(given) - set(FIELDS)
+    if unknown:
+        raise UsageError(f"an item of a mission has no {sorted(unknown)[0]!r}; it has {', '.join(FIELDS)}")
+    return MissionItem(**given)
+
+
+def error_of(peer: Peer, what: str, result: int) -> MissionError:
+    names = {int(member): text for text, member in enums.MAV_MISSION_RESULT.__members__.items()}
+    return MissionError(f"{peer}: {what}: {names.get(result, result)}", result)
+
+
+def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) -> Protocol[Message | None]:
+    """Waits for the next of these messages that is about this kind of mission."""
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name in names and answer["mission_type"] == kind and peer.is_for_us(answer):
+            return answer
+    return None
+
+
+def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> Protocol[None]:
+    """Replaces the mission of the vehicle. Raises MissionError if the vehicle refuses it."""
+    wanted = [item_of(item) for item in items]
+    if len(wanted) > MOST_ITEMS:
+        raise UsageError(f"a mission has at most {MOST_ITEMS} items, not {len(wanted)}")
+    checked(peer, wanted, kind)
+    started, tries = False, 0
+    while tries < TRIES:
+        if not started:
+            peer.send("MISSION_COUNT", count=len(wanted), mission_type=kind)
+        answer = yield from answer_of(peer, ("MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ACK"), kind,
+                                      time.monotonic() + ANSWER_S)
+        if answer is None:
+            tries += 1
+            continue
+        if answer.name == "MISSION_ACK":
+            if answer["type"] != ACCEPTED:
+                raise error_of(peer, "upload of the mission", answer["type"])
+            if started or not wanted:
+                return
+            continue
+        started, tries = True, 0
+        if answer["seq"] < len(wanted):
+            peer.send("MISSION_ITEM_INT", seq=answer["seq"], mission_type=kind, **asdict(wanted[answer["seq"]]))
+    raise TimeoutError(f"{peer}: no answer during the upload of the mission")
+
+
+def checked(peer: Peer, items: list[MissionItem], kind: int) -> None:
+    """Raises UsageError, before anything is sent, if an item has a value that cannot be sent."""
+    for number, item in enumerate(items):
+        try:
+            peer.link.dialect.encode("MISSION_ITEM_INT", seq=number, mission_type=kind, **asdict(item))
+        except (UsageError, TypeError) as error:
+            raise UsageError(f"item {number} of the mission: {error}") from None
+
+
+def download(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
+    """Fetches the mission of the vehicle."""
+    count = yield from request(peer, "MISSION_REQUEST_LIST", {}, ("MISSION_COUNT",), kind, None)
+    items: list[MissionItem] = []
+    for seq in range(count["count"]):
+        item = yield from request(peer, "MISSION_REQUEST_INT", {"seq": seq}, ("MISSION_ITEM_INT",), kind, seq)
+        items.append(item_of(item))
+    peer.send("MISSION_ACK", type=ACCEPTED, mission_type=kind)
+    return items
+
+
+def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, ...], kind: int,
+            seq: int | None) -> Protocol[Message]:
+    """Sends a request until it is answered."""
+    for _ in range(TRIES):
+        peer.send(name, mission_type=kind, **fields)
+        deadline = time.monotonic() + ANSWER_S
+        while (answer := (yield from answer_of(peer, (*answers, "MISSION_ACK"), kind, deadline))) is not None:
+            if answer.name == "MISSION_ACK" and answer["type"] != ACCEPTED:
+                raise error_of(peer, "download of the mission", answer["type"])
+            if answer.name in answers and (seq is None or answer["seq"] == seq):
+                return answer
+    raise TimeoutError(f"{peer}: no answer to {name} after {TRIES} tries")
+
+
+def clear(peer: Peer, kind: int) -> Protocol[None]:
+    """Deletes the mission of the vehicle."""
+    for _ in range(TRIES):
+        peer.send("MISSION_CLEAR_ALL", mission_type=kind)
+        answer = yield from answer_of(peer, ("MISSION_ACK",), kind, time.monotonic() + ANSWER_S)
+        if answer is None:
+            continue
+        if answer["type"] != ACCEPTED:
+            raise error_of(peer, "clearing the mission", answer["type"])
+        return
+    raise TimeoutError(f"{peer}: no answer to MISSION_CLEAR_ALL after {TRIES} tries")

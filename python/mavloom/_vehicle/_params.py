@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""The parameter protocol, with the encodings of PX4 and ArduPilot.
+
+Source: https://mavlink.io/en/services/parameter.html
+"""
+from __future__ import annotations
+
+import struct
+import time
+from dataclasses import dataclass
+
+from .. import _modes, enums
+from .._core import Message
+from .._errors import ParameterError, UsageError
+from ._commands import known_heartbeat
+from ._exchange import Peer, Protocol, wait_until
+
+ANSWERS = ("PARAM_VALUE", "PARAM_ERROR", "HEARTBEAT")
+ANSWER_S = 1.0
+TRIES = 4
+QUIET_S = 1.0  # without a value for this long, the missing ones are requested one by one
+AT_ONCE = 10  # requests for missing values that are open at the same time
+NO_INDEX = 65535  # of a value outside the list, such as PX4's _HASH_CHECK
+ENCODES_BYTEWISE = 16  # MAV_PROTOCOL_CAPABILITY
+LONGEST_NAME = 16
+
+# MAV_PARAM_TYPE: integers of up to 4 bytes, in a field of 4 bytes.
+INTEGERS = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
+REAL32 = 9
+TOLERANCE = 1e-6  # relative, of a value that a vehicle stores as float
+
+
+@dataclass(frozen=True)
+class Value:
+    """A parameter: its value, MAV_PARAM_TYPE and place in the vehicle's list."""
+    value: int | float
+    type: int
+    index: int
+
+
+def encodes_bytewise(peer: Peer, heartbeat: Message) -> bool:
+    """Whether integers are sent as the bytes of the field (PX4), and not as a float of that value (ArduPilot)."""
+    if heartbeat["autopilot"] in (_modes.AUTOPILOT_PX4, _modes.AUTOPILOT_ARDUPILOT):
+        return bool(heartbeat["autopilot"] == _modes.AUTOPILOT_PX4)
+    version = peer.link.latest("AUTOPILOT_VERSION", system=peer.system, component=peer.component)
+    return version is not None and bool(version["capabilities"] & ENCODES_BYTEWISE)
+
+
+def decoded(message: Message, bytewise: bool) -> Value:
+    kind = message["param_type"]
+    value: int | float = message["param_value"]
+    if kind in INTEGERS:
+        value = struct.unpack_from(INTEGERS[kind], message.raw("param_value"))[0] if bytewise else int(value)
+    return Value(value, kind, message["param_index"])
+
+
+def encoded(name: str, value: float, kind: int, bytewise: bool) -> bytes:
+    """The four bytes of `param_value`. Raises UsageError if the value does not fit the type."""
+    if kind not in INTEGERS:
+        return pack(name, "<f", float(value))
+    if value != int(value):
+        raise UsageError(f"parameter {name} is an integer, not {value}")
+    whole = pack(name, INTEGERS[kind], int(value))
+    return whole.ljust(4, b"\0") if bytewise else pack(name, "<f", float(value))
+
+
+def pack(name: str, layout: str, value: float) -> bytes:
+    try:
+        return struct.pack(layout, value)
+    except (struct.error, OverflowError) as error:
+        raise UsageError(f"parameter {name}: {value} does not fit its type: {error}") from None
+
+
+def check_name(name: str) -> None:
+    if not isinstance(name, str) or not name.isascii() or not 1 <= len(name) <= LONGEST_NAME:
+        raise UsageError(f"{name!r} is no name of a parameter: 1 to {LONGEST_NAME} ASCII characters")
+
+
+def answer_about(name: str, deadline: float) -> Protocol[Message | None]:
+    """Waits for the next PARAM_VALUE or PARAM_ERROR of this name."""
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name in ("PARAM_VALUE", "PARAM_ERROR") and answer["param_id"] == name:
+            return answer
+    return None
+
+
+def error_in(peer: Peer, answer: Message, name: str) -> ParameterError:
+    names = {int(member): text for text, member in enums.MAV_PARAM_ERROR.__members__.items()}
+    return ParameterError(f"{peer}: parameter {name}: {names.get(answer['error'], answer['error'])}", answer["error"])
+
+
+def read(peer: Peer, name: str) -> Protocol[Value]:
+    """Requests one parameter. Raises ParameterError if the vehicle has none of this name and reports it."""
+    check_name(name)
+    heartbeat = yield from known_heartbeat(peer)
+    for _ in range(TRIES):
+        peer.send("PARAM_REQUEST_READ", param_id=name, param_index=-1)
+        answer = yield from answer_about(name, time.monotonic() + ANSWER_S)
+        if answer is not None and answer.name == "PARAM_ERROR":
+            raise error_in(peer, answer, name)
+        if answer is not None:
+            return decoded(answer, encodes_bytewise(peer, heartbeat))
+    raise TimeoutError(f"{peer}: no answer about parameter {name} after {TRIES} tries; the vehicle may not have it")
+
+
+def write(peer: Peer, name: str, value: float, known: Value | None) -> Protocol[Value]:
+    """Sets a parameter, and waits until the vehicle confirms the value. `known` is its present value."""
+    check_name(name)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise UsageError(f"parameter {name}: a value is a number, not {value!r}")
+    heartbeat = yield from known_heartbeat(peer)
+    bytewise = encodes_bytewise(peer, heartbeat)
+    before = known if known is not None else (yield from read(peer, name))
+    data = encoded(name, value, before.type, bytewise)
+    for _ in range(TRIES):
+        peer.send("PARAM_SET", param_id=name, param_value=data, param_type=before.type)
+        deadline = time.monotonic() + ANSWER_S
+        answer = yield from answer_about(name, deadline)
+        if answer is None:
+            continue
+        if answer.name == "PARAM_ERROR":
+            raise error_in(peer, answer, name)
+        now = decoded(answer, bytewise)
+        if not is_close(now.value, value):
+            raise ParameterError(f"{peer}: parameter {name} is {now.value}, not {value}: the vehicle did not take it")
+        return now
+    raise TimeoutError(f"{peer}: parameter {name} was not confirmed after {TRIES} tries")
+
+
+def is_close(one: float, other: float) -> bool:
+    return one == other or abs(one - other) <= TOLERANCE * max(abs(one), abs(other)) or one != one and other != other
+
+
+def fetch(peer: Peer) -> Protocol[dict[str, Value]]:
+    """Fetches all parameters. Missing ones are requested one by one."""
+    heartbeat = yield from known_heartbeat(peer)
+    bytewise = encodes_bytewise(peer, heartbeat)
+    found: dict[str, Value] = {}
+    seen: set[int] = set()
+    count: int | None = None
+    in_vain = 0  # rounds without a new value
+    while in_vain < TRIES:
+        if count is None:
+            peer.send("PARAM_REQUEST_LIST")
+        else:
+            for index in [i for i in range(count) if i not in seen][:AT_ONCE]:
+                peer.send("PARAM_REQUEST_READ", param_id="", param_index=index)
+        before = len(seen)
+        count = yield from collect(found, seen, count, bytewise)
+        if count is not None and len(seen) >= count:
+            return dict(sorted(found.items()))
+        in_vain = 0 if len(seen) > before else in_vain + 1
+    if count is None:
+        raise TimeoutError(f"{peer}: no answer to the request for all parameters")
+    raise TimeoutError(f"{peer}: {count - len(seen)} of {count} parameters did not arrive")
+
+
+def collect(found: dict[str, Value], seen: set[int], count: int | None,
+            bytewise: bool) -> Protocol[int | None]:
+    """Takes values until all are there or none arrives for a while. Returns how many the vehicle has."""
+    deadline = time.monotonic() + (QUIET_S if count is not None else ANSWER_S * 2)
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name != "PARAM_VALUE" or answer["param_index"] == NO_INDEX:
+            continue
+        count = answer["param_count"]
+        found[answer["param_id"]] = decoded(answer, bytewise)
+        seen.add(answer["param_index"])
+        deadline = time.monotonic() + QUIET_S
+        if len(seen) >= answer["param_count"]:
+            break
+    return count

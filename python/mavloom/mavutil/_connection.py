@@ -1,0 +1,382 @@
+# SPDX-License-Identifier: MIT
+"""Connection: reading, and the state that is read, of live connections and recordings."""
+from __future__ import annotations
+
+import os
+import struct
+import time
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from .. import _modes
+from .._core import MavutilState, MavutilTypes, hides_extensions, is_vehicle
+from .._errors import UsageError
+from . import _current
+from ._conditions import evaluate_condition
+from ._messages import MAVLink_bad_data, MAVLink_message, as_bytes
+from ._state import Systems, mavfile_state, param_state
+
+if TYPE_CHECKING:
+    from . import mavlink
+
+POSITION_FIX = 3  # GPS_FIX_TYPE: in three dimensions
+ARMED = 128  # MAV_MODE_FLAG
+IDLE_HOOKS_PAUSE_S = 0.05
+
+Types = str | Iterable[str] | None
+
+
+class Connection:
+    """One source of messages, and the way back to it. The class mavfile adds the services of vehicles."""
+
+    def __init__(self, address: str, source_system: int = 255, source_component: int = 0,
+                 notimestamps: bool = False) -> None:
+        self.address = address
+        self.source_system = source_system
+        self.source_component = source_component
+        self.notimestamps = notimestamps
+        self.robust_parsing = True
+        self.portdead = False
+        self.first_byte = True  # whether auto_mavlink_version() was not called yet
+        self.stop_on_EOF = True
+        self.start_time = time.time()
+        self.param_fetch_start: float = 0
+        self.target_component = 0
+        self.param_state: dict[tuple[int, int], param_state] = {(0, 0): param_state()}
+        self.message_hooks: list[Callable[[Any, MAVLink_message], object]] = []
+        self.idle_hooks: list[Callable[[Any], object]] = []
+        self.logfile: BinaryIO | None = None
+        self.logfile_raw: BinaryIO | None = None
+        self._records = False
+        self.sysid_state = Systems()
+        self._state = MavutilState(self.sysid_state.messages_of)
+        self._types: dict[Any, MavutilTypes] = {}
+        self.sysid_state[0]
+        self._use(_current.module())
+
+    def _use(self, module: Any) -> None:
+        """Sends with the definitions and the MAVLink version of a module, from sequence number 0 on."""
+        before = getattr(self, "mav", None)
+        self.mav: mavlink.MAVLink = module.MAVLink(self, srcSystem=self.source_system,
+                                                   srcComponent=self.source_component)
+        self.mav.robust_parsing = self.robust_parsing
+        self.WIRE_PROTOCOL_VERSION: str = module.WIRE_PROTOCOL_VERSION
+        if before is not None:
+            self.mav._take_over(before)
+
+    def _change_version(self) -> None:
+        """Sends MAVLink 2 from now on if a message of it was received."""
+        if self.WIRE_PROTOCOL_VERSION != "2.0" and not hides_extensions(self.mav._dialect):
+            self._use(_current.change_to_version_2())
+
+    # ---- to be defined by the kinds of connections
+
+    def _read(self, timeout: float) -> MAVLink_message | None:
+        """Returns the next message that arrives within `timeout` seconds; 0 polls."""
+        raise NotImplementedError
+
+    def _has_ended(self) -> bool:
+        """Whether no more messages will come."""
+        return False
+
+    def write(self, buf: bytes) -> None:
+        raise UsageError(f"{self.address}: nothing can be sent here")
+
+    def close(self) -> None:
+        for file in (self.logfile, self.logfile_raw):
+            if file is not None:
+                file.close()
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.address}>"
+
+    # ---- receiving
+
+    def recv_msg(self) -> Any:
+        """Returns the next message; None if there is none now."""
+        message = self._read(0)
+        return None if message is None else self._post(message)
+
+    def recv_match(self, condition: str | None = None, type: Types = None, blocking: bool = False,
+                   timeout: float | None = None) -> Any:
+        """Returns the next message of these types for which the condition is true, and skips those before it.
+
+        None if there is none: at once, with `blocking` after `timeout` seconds, or at the end of a recording. A
+        condition is an expression over the newest messages of the sender: "ATTITUDE.roll > 0.1".
+        """
+        types = self._types_of(type)
+        if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
+            raise UsageError(f"type={type!r}: no such message, so this call would wait for ever")
+        end = None if timeout is None else time.monotonic() + timeout
+        while True:
+            left = 0.0 if not blocking else 3600.0 if end is None else max(0.0, end - time.monotonic())
+            message = self._read(min(left, IDLE_HOOKS_PAUSE_S) if self.idle_hooks else left)
+            if message is not None:
+                message = self._post(message)
+                if (types is None or types.takes(message)) and self._agrees(message, condition):
+                    return message
+                continue
+            if self._has_ended():
+                return None
+            for hook in self.idle_hooks:
+                hook(self)
+            if not blocking or end is not None and time.monotonic() >= end:
+                return None
+
+    def _types_of(self, type: Types) -> MavutilTypes | None:
+        if type is None:
+            return None
+        if not isinstance(type, (str, list, tuple, set, frozenset, dict)):
+            raise UsageError(f"type= takes names of messages, not {type!r}")
+        key = type if isinstance(type, str) else tuple(type)
+        if key not in self._types:
+            if len(self._types) > 1000:
+                self._types.clear()
+            self._types[key] = MavutilTypes(self.mav._dialect, (key,) if isinstance(key, str) else key)
+        return self._types[key]
+
+    def _agrees(self, message: MAVLink_message, condition: str | None) -> bool:
+        """Whether a condition is true of the newest messages of the sender."""
+        return condition is None or evaluate_condition(condition, self._state.messages(message.get_srcSystem()))
+
+    def check_condition(self, condition: str | None) -> bool:
+        """Whether a condition is true of the newest messages."""
+        return evaluate_condition(condition, self.messages)
+
+    def recv(self, n: int | None = None) -> bytes:
+        """Returns the bytes of the next message; b"" if there is none now."""
+        message = self._read(0)
+        return b"" if message is None else bytes(message.get_msgbuf())
+
+    def post_message(self, msg: MAVLink_message) -> None:
+        """Notes a message that the program received itself, and calls the hooks: with `recv` and `mav.parse_buffer`."""
+        if self._state.note(msg):
+            self._notice(msg)
+        for hook in self.message_hooks:
+            hook(self, msg)
+
+    def _post(self, message: MAVLink_message) -> MAVLink_message:
+        if self.mav.signing.secret_key is not None:
+            message = self.mav._checked(message)
+        if self.mav.callback is not None:
+            self.mav.callback(message, *self.mav.callback_args, **self.mav.callback_kwargs)
+        if self._records:
+            self._log(message)
+        self.post_message(message)
+        return message
+
+    # ---- what some messages mean
+
+    def _notice(self, message: MAVLink_message) -> None:
+        name = message.get_type()
+        if name == "HEARTBEAT":
+            self._notice_heartbeat(message)
+        elif name == "PARAM_VALUE":
+            source = (message.get_srcSystem(), message.get_srcComponent())
+            self.param_state.setdefault(source, param_state()).params[message.param_id] = message.param_value
+        elif name == "GPS_RAW_INT":
+            messages = self.sysid_state[message.get_srcSystem()].messages
+            if messages["HOME"].fix_type < POSITION_FIX:
+                messages["HOME"] = message
+        else:
+            self.sysid_state[0].messages[name] = message
+            if isinstance(message, MAVLink_bad_data):
+                self.mav.total_receive_errors += 1
+
+    def _notice_heartbeat(self, message: MAVLink_message) -> None:
+        if not self.probably_vehicle_heartbeat(message):
+            return
+        state = self.sysid_state[message.get_srcSystem()]
+        state.flightmode = _modes.mode_name(message.autopilot, message.type, message.base_mode, message.custom_mode)
+        state.mav_type = message.type
+        state.mav_autopilot = message.autopilot
+        state.armed = message.base_mode & ARMED
+
+    def probably_vehicle_heartbeat(self, msg: MAVLink_message) -> bool:
+        """Whether a HEARTBEAT is that of a vehicle, by the rule of `Link.wait_heartbeat`."""
+        return bool(is_vehicle(msg.type, msg.autopilot))
+
+    # ---- state
+
+    @property
+    def target_system(self) -> int:
+        """The system that commands go to and whose messages `messages` has: the first vehicle, or what was set."""
+        return self._state.target
+
+    @target_system.setter
+    def target_system(self, value: int) -> None:
+        if not isinstance(value, int) or not 0 <= value <= 255:
+            raise UsageError(f"target_system: {value!r} is no system, 0 to 255")
+        self._state.target = value
+
+    @property
+    def sysid(self) -> int:
+        return self._state.target
+
+    @property
+    def _target(self) -> mavfile_state:
+        state: mavfile_state = self.sysid_state[self._state.target]
+        return state
+
+    @property
+    def messages(self) -> dict[str, Any]:
+        """The newest messages of the target system: "ATTITUDE", "BATTERY_STATUS[1]". "HOME" is the first position."""
+        return self._state.messages(self._state.target)
+
+    @property
+    def params(self) -> dict[str, float]:
+        """The parameters of the target that were received."""
+        component = self.target_component or 1
+        return self.param_state.setdefault((self._state.target, component), param_state()).params
+
+    @property
+    def flightmode(self) -> str:
+        return self._target.flightmode
+
+    @flightmode.setter
+    def flightmode(self, value: str) -> None:
+        self._target.flightmode = value
+
+    @property
+    def vehicle_type(self) -> str:
+        return self._target.vehicle_type
+
+    @vehicle_type.setter
+    def vehicle_type(self, value: str) -> None:
+        self._target.vehicle_type = value
+
+    @property
+    def mav_type(self) -> int:
+        return self._target.mav_type
+
+    @mav_type.setter
+    def mav_type(self, value: int) -> None:
+        self._target.mav_type = value
+
+    @property
+    def base_mode(self) -> int:
+        return self._target.base_mode
+
+    @base_mode.setter
+    def base_mode(self, value: int) -> None:
+        self._target.base_mode = value
+
+    @property
+    def mav_count(self) -> int:
+        """The number of messages that were read."""
+        return self._state.count
+
+    @property
+    def mav_loss(self) -> int:
+        """The number of messages that were lost, by sequence numbers. As in pymavlink, one duplicate counts as 255."""
+        return self._state.loss
+
+    @property
+    def last_seq(self) -> dict[tuple[int, int], int]:
+        """{(system, component): sequence number} of the last messages."""
+        return self._state.last_sequences
+
+    def packet_loss(self) -> float:
+        """The loss since the start, in percent."""
+        total = self._state.count + self._state.loss
+        return 100.0 * self._state.loss / total if total else 0
+
+    @property
+    def timestamp(self) -> float:
+        """The time of the last message."""
+        return self._state.time_ns // 1000 * 1e-6
+
+    @property
+    def uptime(self) -> float:
+        """The clock of the vehicle in seconds, from the last message that has it."""
+        return self._state.uptime_s
+
+    def time_since(self, mtype: str) -> float:
+        """The seconds since a message of this type; since the start if there was none."""
+        message = self.messages.get(mtype)
+        return time.time() - (self.start_time if message is None else message._timestamp)
+
+    def field(self, type: str, field: str, default: Any = None) -> Any:
+        """The newest value of a field; `default` if there is none."""
+        message = self.messages.get(type)
+        return default if message is None else getattr(message, field, default)
+
+    def mavlink10(self) -> bool:
+        """Whether MAVLink messages are sent at all, as opposed to those of version 0.9: True."""
+        return True
+
+    def mavlink20(self) -> bool:
+        """Whether messages are sent as MAVLink 2."""
+        return self.WIRE_PROTOCOL_VERSION == "2.0"
+
+    # ---- recording
+
+    def setup_logfile(self, logfile: str | os.PathLike[str], mode: str = "wb") -> None:
+        """Records every message that is read from now on, in the tlog format."""
+        self.logfile = open_to_write(logfile, mode)
+        self._records = True
+
+    def setup_logfile_raw(self, logfile: str | os.PathLike[str], mode: str = "wb") -> None:
+        """Records the bytes of every message that is read from now on, without times."""
+        self.logfile_raw = open_to_write(logfile, mode)
+        self._records = True
+
+    def _log(self, message: MAVLink_message) -> None:
+        frame = bytes(message.get_msgbuf())
+        if self.logfile_raw is not None:
+            self.logfile_raw.write(frame)
+        if self.logfile is not None and message.get_type() != "BAD_DATA":
+            self.logfile.write(struct.pack(">Q", int(message._timestamp * 1.0e6) & ~3) + frame)
+
+    # ---- signing
+
+    def setup_signing(self, secret_key: bytes, sign_outgoing: bool = True,
+                      allow_unsigned_callback: Callable[[Any, int], bool] | None = None,
+                      initial_timestamp: int | None = None, link_id: int | None = None) -> None:
+        """Signs what is sent, and replaces messages without a good signature by BAD_DATA.
+
+        `secret_key` has 32 bytes. `allow_unsigned_callback(mav, message_id)` returns whether a message without a good
+        signature is accepted.
+        """
+        key = as_bytes(secret_key)
+        if len(key) != 32:
+            raise UsageError(f"a signing key has 32 bytes, not {len(key)}")
+        signing = self.mav.signing
+        signing.secret_key = key
+        signing.sign_outgoing = sign_outgoing
+        signing.allow_unsigned_callback = allow_unsigned_callback
+        signing.link_id = _current.next_link_id() if link_id is None else link_id
+        if initial_timestamp is not None:
+            signing.timestamp = initial_timestamp
+
+    def disable_signing(self) -> None:
+        signing = self.mav.signing
+        signing.secret_key = None
+        signing.sign_outgoing = False
+        signing.allow_unsigned_callback = None
+        signing.link_id = 0
+        signing.timestamp = 0
+
+    # ---- of serial devices
+
+    def set_rtscts(self, enable: bool) -> None:
+        """Does nothing: the endpoint's option `flow=rtscts` turns flow control on."""
+
+    def auto_mavlink_version(self, buf: bytes) -> None:
+        """Sends MAVLink 2 from now on if `buf` begins with a frame of it."""
+        self.first_byte = self.first_byte and not buf
+        if buf[:1] == b"\xfd" and not self.mavlink20():
+            self._use(_current.change_to_version_2())
+
+
+def open_to_write(path: str | os.PathLike[str], mode: str) -> BinaryIO:
+    if mode.replace("+", "") not in ("w", "wb", "a", "ab"):
+        raise UsageError(f"mode {mode!r}: a log is opened with 'wb' or 'ab'")
+    file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
+    return file  # type: ignore[no-any-return]

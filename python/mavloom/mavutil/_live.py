@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: MIT
+"""Live connections of mavloom.mavutil, over mavloom.Link."""
+from __future__ import annotations
+
+import errno
+import os
+import select
+import sys
+from typing import Any
+
+from .._errors import ClosedError, SystemFailure, UsageError
+from .._link import Link
+from ._services import mavfile
+from ._messages import MAVLink_message, as_bytes
+from ._urls import Target, host_and_port
+
+SIGNAL = (1).to_bytes(8, sys.byteorder)  # what makes an eventfd readable
+FRAMES_APART = "mtu=0"  # each frame in a datagram of its own
+
+
+class mavlive(mavfile):
+    """A connection of a mavloom.Link, which is its attribute `link`."""
+
+    def __init__(self, url: str, address: str, source_system: int = 255, source_component: int = 0) -> None:
+        super().__init__(address, source_system, source_component)
+        self.url = url
+        self._closed = False
+        self._watched = False  # whether somebody waits on the descriptor
+        self.link = Link(url, dialect=self.mav._dialect)
+        self._reader: Any = self.link._reader
+
+    def _read(self, timeout: float) -> MAVLink_message | None:
+        message: MAVLink_message | None = self._reader.recv(timeout)
+        if message is None and self._watched:
+            message = self._arm()
+        if message is not None:
+            self._change_version()
+        return message
+
+    def _arm(self) -> MAVLink_message | None:
+        """After a read that found nothing: the descriptor becomes readable when the next message arrives.
+
+        Until then it stays readable, also for programs that read one message each time.
+        """
+        descriptor = self._reader.event_fd()
+        try:
+            os.read(descriptor, 8)
+        except BlockingIOError:
+            pass
+        message: MAVLink_message | None = self._reader.recv(0)
+        if message is not None:
+            os.write(descriptor, SIGNAL)
+        return message
+
+    def recv(self, n: int | None = None) -> bytes:
+        """Returns the bytes of the messages that are there now, about `n` of them; b"" if there are none.
+
+        Without `n`, returns those of one message.
+        """
+        data = super().recv()
+        while n is not None and 0 < len(data) < n and (more := super().recv()):
+            data += more
+        return data
+
+    def write(self, buf: bytes) -> None:
+        """Sends whole frames to every peer of the link."""
+        left = as_bytes(buf)
+        while left and not self._closed:
+            length = frame_length(left)
+            if not 0 < length <= len(left):
+                raise UsageError(f"{self.address}: a link sends whole MAVLink frames, not {left[:16]!r}; for other "
+                                 "bytes open the device or socket itself")
+            try:
+                self.link.forward(left[:length])
+            except ClosedError:
+                return
+            left = left[length:]
+
+    @property
+    def fd(self) -> int:
+        """A descriptor for select and poll. It is readable while there may be messages."""
+        descriptor: int = self._reader.event_fd()
+        if not self._watched:
+            self._watched = True
+            os.write(descriptor, SIGNAL)  # messages may have arrived before
+        return descriptor
+
+    def fileno(self) -> int:
+        return self.fd
+
+    def select(self, timeout: float) -> bool:
+        """Waits until there is a message, for at most `timeout` seconds. Returns whether there may be one."""
+        ready, _, _ = select.select([self.fd], [], [], max(0.0, timeout))
+        return bool(ready)
+
+    @property
+    def port(self) -> Port:
+        """The place of the socket, which the link's thread owns."""
+        return Port(self)
+
+    def close(self) -> None:
+        self._closed = True
+        self.link.close()
+        super().close()
+
+
+class Port:
+    """The place of a connection's socket or device: `port.getsockname()`. It neither reads nor writes."""
+
+    def __init__(self, connection: mavlive) -> None:
+        self._connection = connection
+
+    def getsockname(self) -> tuple[str, int]:
+        """The host and port that are bound; ("", 0) if there are none."""
+        host, _, _ = self._connection.link.name.partition("://")[2].rpartition(":")
+        return host, self._connection.link.port
+
+    def fileno(self) -> int:
+        return self._connection.fd
+
+    def close(self) -> None:
+        self._connection.close()
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(f"a connection's port has no {name}: the link's thread owns the socket or device; use the "
+                             "methods of the connection, or options of the endpoint")
+
+
+def frame_length(data: bytes) -> int:
+    """The length that a frame's header states; 0 if it is none."""
+    if len(data) < 8 or data[0] not in (0xfd, 0xfe):
+        return 0
+    if data[0] == 0xfe:
+        return 8 + data[1]
+    return 12 + data[1] + (13 if data[2] & 1 else 0)
+
+
+class mavudp(mavlive):
+    """A UDP socket: `input` binds and answers those that it hears; else it sends to the address."""
+
+    def __init__(self, device: str, input: bool = True, broadcast: bool = False, source_system: int = 255,
+                 source_component: int = 0, use_native: bool = False, timeout: float = 0) -> None:
+        host, port = host_and_port(device, "UDP")
+        scheme = "udpin" if input else "udpbcast" if broadcast else "udpout"
+        super().__init__(f"{scheme}://{host}:{port}?{FRAMES_APART}", device, source_system, source_component)
+
+
+class mavmcast(mavlive):
+    """A multicast group; by default that of pymavlink."""
+
+    def __init__(self, device: str = "", source_system: int = 255, source_component: int = 0,
+                 use_native: bool = False) -> None:
+        host, port = host_and_port(device or "239.255.145.50:14550", "multicast")
+        super().__init__(f"udpmcast://{host}:{port}?{FRAMES_APART}", device, source_system, source_component)
+
+
+class mavtcp(mavlive):
+    """A TCP connection to a server. It is opened again when it breaks."""
+
+    def __init__(self, device: str, autoreconnect: bool = False, source_system: int = 255, source_component: int = 0,
+                 retries: int = 3, reconnect_delay: float = 1, use_native: bool = False) -> None:
+        host, port = host_and_port(device, "TCP")
+        self.autoreconnect = autoreconnect
+        self.retries = retries
+        required = "false" if autoreconnect else "true"
+        try:
+            super().__init__(f"tcpout://{host}:{port}?required={required}", device, source_system, source_component)
+        except SystemFailure as error:
+            if error.errno == errno.ECONNREFUSED:
+                raise ConnectionRefusedError(error.errno, error.strerror) from error
+            raise
+
+
+class mavtcpin(mavlive):
+    """A TCP server. It has any number of clients."""
+
+    def __init__(self, device: str, source_system: int = 255, source_component: int = 0, retries: int = 3,
+                 use_native: bool = False) -> None:
+        host, port = host_and_port(device, "TCP")
+        super().__init__(f"tcpin://{host}:{port}", device, source_system, source_component)
+
+
+class mavserial(mavlive):
+    """A serial device. It is opened again when it was unplugged."""
+
+    def __init__(self, device: str, baud: int = 115200, autoreconnect: bool = False, source_system: int = 255,
+                 source_component: int = 0, use_native: bool = False, force_connected: bool = False) -> None:
+        self.device = device
+        self.baud = baud
+        self.autoreconnect = autoreconnect
+        required = "false" if autoreconnect or force_connected else "true"
+        super().__init__(f"serial://{device}?baud={baud}&required={required}", device, source_system, source_component)
+
+    def set_baudrate(self, baudrate: int) -> None:
+        """Refused: the link's thread owns the device."""
+        if baudrate != self.baud:
+            raise UsageError(f"{self.device}: the baud rate of an open link cannot change; close it and open it again "
+                             f"with baud={baudrate}")
+
+    def reset(self) -> None:
+        """Does nothing: a device that was unplugged is opened again by itself."""
+
+
+def open_target(target: Target, source: tuple[int, int], options: dict[str, Any]) -> mavlive:
+    """Opens what a connection string names."""
+    system, component = source
+    if target.kind == "udp":
+        return mavudp(target.rest, input=options["input"], source_system=system, source_component=component)
+    if target.kind == "udpin":
+        return mavudp(target.rest, True, source_system=system, source_component=component)
+    if target.kind in ("udpout", "udpbcast"):
+        return mavudp(target.rest, False, target.kind == "udpbcast", system, component)
+    if target.kind == "mcast":
+        return mavmcast(target.rest, system, component)
+    if target.kind == "tcp":
+        return mavtcp(target.rest, options["autoreconnect"], system, component, options["retries"],
+                      options["reconnect_delay"])
+    if target.kind == "tcpin":
+        return mavtcpin(target.rest, system, component, options["retries"])
+    if target.kind == "serial":
+        return mavserial(target.rest, target.baud or options["baud"], options["autoreconnect"], system, component,
+                         force_connected=options["force_connected"])
+    return mavlive(target.rest, target.rest, system, component)

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MIT
+"""Recordings of mavloom.mavutil."""
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from typing import Any, BinaryIO
+
+from .._core import MavutilLog
+from .._errors import UsageError
+from ._connection import Types
+from ._services import mavfile
+from ._messages import MAVLink_bad_data, MAVLink_message
+
+CHUNK_BYTES = 64 * 1024
+FOLLOW_PAUSE_S = 0.05
+
+
+class mavlogfile(mavfile):
+    """A recording that is read from the start to the end, or one that is written (`write` or `append`)."""
+
+    fd = None
+
+    def __init__(self, filename: str | os.PathLike[str], planner_format: object = None, write: bool = False,
+                 append: bool = False, robust_parsing: bool = True, notimestamps: bool = False,
+                 source_system: int = 255, source_component: int = 0, use_native: bool = False) -> None:
+        super().__init__(os.fspath(filename), source_system, source_component, notimestamps)
+        if planner_format:
+            raise UsageError("planner_format: recordings of old planners cannot be read")
+        self.filename = os.fspath(filename)
+        self.planner_format = None
+        self.writeable = write or append
+        self.robust_parsing = robust_parsing
+        self.mav.robust_parsing = robust_parsing
+        self.link = None
+        self._ended = False
+        self._log_file: MavutilLog | None = None
+        self._raw: Iterator[MAVLink_message] | None = None
+        self._out: BinaryIO | None = None
+        if self.writeable:
+            self._out = open(self.filename, "ab" if append else "wb", buffering=0)
+        elif notimestamps:
+            self._raw = self._read_raw()
+        else:
+            self._log_file = MavutilLog(self.filename, self.mav._dialect, MAVLink_bad_data)
+        self.filesize = 0 if self.writeable else os.path.getsize(self.filename)
+
+    # ---- reading
+
+    def _read(self, timeout: float) -> MAVLink_message | None:
+        if self._log_file is not None:
+            found: MAVLink_message | None = self._log_file.next()
+            self._change_version()
+        elif self._raw is not None:
+            found = next(self._raw, None)
+        else:
+            raise UsageError(f"{self.filename} is being written; open it again to read it")
+        if found is not None or not timeout or self.stop_on_EOF:
+            self._ended = found is None
+            return found
+        time.sleep(min(timeout, FOLLOW_PAUSE_S))
+        return None
+
+    def _has_ended(self) -> bool:
+        return self._ended
+
+    def _read_raw(self) -> Iterator[MAVLink_message]:
+        """The messages of a file without times. Their time is the vehicle's clock."""
+        with open(self.filename, "rb") as file:
+            while chunk := file.read(CHUNK_BYTES):
+                for found in self.mav._parser.feed(chunk, 0):
+                    if isinstance(found, tuple):
+                        found = MAVLink_bad_data(*found)
+                    message: MAVLink_message = found
+                    boot_ms = message.to_dict().get("time_boot_ms")
+                    message._timestamp = self._state.uptime_s if boot_ms is None else boot_ms * 1e-3
+                    yield message
+
+    def recv_match(self, condition: str | None = None, type: Types = None, blocking: bool = False,
+                   timeout: float | None = None) -> Any:
+        """Returns the next message of these types for which the condition is true; None at the end."""
+        mav = self.mav
+        if (self._log_file is None or self.idle_hooks or self.message_hooks or self._records
+                or mav.callback is not None or mav.signing.secret_key is not None):
+            return super().recv_match(condition, type, blocking and not self.stop_on_EOF, timeout)
+        types = None if type is None else self._types_of(type)
+        while True:
+            message: MAVLink_message | None = self._log_file.match(self._state, self, types)
+            if condition is None or message is None or self._agrees(message, condition):
+                return message
+
+    def recv_msg(self) -> Any:
+        if self._raw is None and not self.idle_hooks:
+            return self.recv_match()
+        return super().recv_msg()
+
+    def select(self, timeout: float) -> bool:
+        """A recording is always ready."""
+        return True
+
+    @property
+    def percent(self) -> float:
+        """The place of the last message in the file, in percent."""
+        return 0.0 if self._log_file is None else self._log_file.percent
+
+    def rewind(self) -> None:
+        """Starts again at the first message."""
+        if self._log_file is not None:
+            self._log_file.rewind()
+        elif self._raw is not None:
+            self._raw = self._read_raw()
+        self._ended = False
+
+    _rewind = rewind
+
+    # ---- writing
+
+    def write(self, buf: bytes) -> None:
+        """Appends bytes to the file, without a time."""
+        if self._out is None:
+            raise UsageError(f"{self.filename} is being read: nothing can be sent to a recording")
+        self._out.write(buf)
+
+    def close(self) -> None:
+        if self._log_file is not None:
+            self._log_file.close()
+        if self._out is not None:
+            self._out.close()
+        super().close()
+
+
+class mavmmaplog(mavlogfile):
+    """A recording whose types of messages are known when it is open: `name_to_id`, `flightmode_list()`."""
+
+    def __init__(self, filename: str | os.PathLike[str], progress_callback: Callable[[int], object] | None = None,
+                 source_system: int = 255, source_component: int = 0) -> None:
+        super().__init__(filename, source_system=source_system, source_component=source_component)
+        self._flightmodes: list[tuple[str, float, float]] | None = None
+        assert self._log_file is not None
+        self._counts: dict[str, int] = self._log_file.index(self._state, self)
+        self._change_version()
+        for state in self.sysid_state.values():
+            state.flightmode = "UNKNOWN"
+        self.data_len = self.filesize
+        self.name_to_id = {name: self.mav._dialect[name].id for name in self._counts}
+        self.id_to_name = {number: name for name, number in self.name_to_id.items()}
+        if progress_callback is not None:
+            progress_callback(100)
+
+    @property
+    def counts(self) -> dict[int, int]:
+        """{message id: how many there are}."""
+        return {self.name_to_id[name]: count for name, count in self._counts.items()}
+
+    def rewind(self) -> None:
+        super().rewind()
+        self.flightmode = "UNKNOWN"
+
+    _rewind = rewind
+
+    def flightmode_list(self) -> list[tuple[str, float, float]]:
+        """The flight modes of the target in order: (name, time of the first message, time of the last one)."""
+        if self._flightmodes is None:
+            self._flightmodes = flightmodes_of(self.filename, self._state.target)
+        return self._flightmodes
+
+
+def flightmodes_of(filename: str, system: int) -> list[tuple[str, float, float]]:
+    log: Any = mavlogfile(filename)
+    log.target_system = system
+    modes: list[list[Any]] = []
+    message = log.recv_match(type="HEARTBEAT")
+    while message is not None:
+        if not modes or modes[-1][0] != log.flightmode:
+            if modes:
+                modes[-1][2] = message._timestamp
+            modes.append([log.flightmode, message._timestamp, message._timestamp])
+        modes[-1][2] = message._timestamp
+        message = log.recv_match(type="HEARTBEAT")
+    log.close()
+    return [(name, begin, end) for name, begin, end in modes]

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""pymavlink's connection strings."""
+from __future__ import annotations
+
+import errno
+import os
+import re
+from dataclasses import dataclass
+
+from .._errors import NotFoundError, UsageError
+
+KINDS = ("udp", "udpin", "udpout", "udpbcast", "mcast", "tcp", "tcpin")
+REFUSED = {
+    "ws": "there is no web socket server here: use tcpin:HOST:PORT, and a web server of your own behind it",
+    "wss": "there are no web sockets here: use tcp:HOST:PORT to a bridge, such as websocat",
+    "uds": "there are no Unix stream sockets here: use tcp:HOST:PORT, or a ring, shm://NAME",
+}
+
+
+@dataclass(frozen=True)
+class Target:
+    """The place that a connection string names. `kind` is one of KINDS, "serial", "file", or "url" for an endpoint."""
+    kind: str
+    rest: str
+    baud: int | None = None
+
+
+def host_and_port(device: str, what: str) -> tuple[str, int]:
+    """Splits HOST:PORT; the host may be an IPv6 address in brackets."""
+    host, colon, port = device.rpartition(":")
+    if not colon or not host:
+        raise UsageError(f"{what} ports must be given as host:port, not {device!r}")
+    if not re.fullmatch(r"\d{1,5}", port) or int(port) > 65535:
+        raise UsageError(f"{device!r}: {port!r} is not a port, 0 to 65535")
+    return host, int(port)
+
+
+def target_of(device: str | os.PathLike[str]) -> Target:
+    """Interprets a connection string. Raises UsageError for a kind that does not exist here, and NotFoundError for a
+    name that is neither a file nor a device."""
+    text = os.fspath(device)
+    if not isinstance(text, str) or not text:
+        raise UsageError(f"a connection is given as text, for example 'udpin:0.0.0.0:14550', not {device!r}")
+    if "://" in text:
+        scheme = text.partition("://")[0]
+        if scheme == "tlog":
+            return Target("file", text.partition("://")[2])
+        if scheme in REFUSED:
+            raise UsageError(f"{text}: {REFUSED[scheme]}")
+        return Target("url", text)
+    kind, colon, rest = text.partition(":")
+    if colon and kind in KINDS:
+        return Target(kind, rest)
+    if colon and kind in REFUSED:
+        raise UsageError(f"{text}: {REFUSED[kind]}")
+    if text.lower().endswith(".elf"):
+        raise UsageError(f"{text}: programs are not started here: start it yourself and connect to its port")
+    if os.path.isfile(text) or text.lower().endswith((".tlog", ".log", ".bin", ".ulg")):
+        return Target("file", text)
+    if colon and not text.startswith("/"):
+        return Target("udp", text)
+    path, comma, baud = text.partition(",")
+    if comma and not baud.isdigit():
+        raise UsageError(f"{text}: a device is given as /dev/NAME or /dev/NAME,BAUD")
+    if not path.startswith("/"):
+        raise NotFoundError(errno.ENOENT, f"{text}: no such file; a device is given by its full path, for example "
+                                          "/dev/ttyACM0")
+    return Target("serial", path, int(baud) if comma else None)

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "link/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include "errors.hpp"
+#include "gil.hpp"
+#include "strings.hpp"
+
+namespace mavloom::python {
+
+LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::string& path)
+    : channel_(std::move(channel)), notices_(std::make_shared<std::vector<std::string>>()) {
+    auto opened = [&] {
+        const WithoutGil outside;
+        return record::Recorder::create(path, path, {}, [notices = notices_](std::string_view text) {
+            if (notices->size() < 16) notices->emplace_back(text);
+        });
+    }();
+    recorder_ = value_or_raise(std::move(opened));
+    channel_->record_with(recorder_);
+}
+
+LinkRecorder::~LinkRecorder() {
+    if (fork_.is_here() && !WithoutGil::ended()) {
+        const WithoutGil outside;
+        stop();
+        return;
+    }
+    // Neither may be destroyed in a forked child or at the interpreter's end: leak them.
+    static_cast<void>(new std::shared_ptr(std::move(channel_)));
+    static_cast<void>(new std::shared_ptr(std::move(recorder_)));
+}
+
+void LinkRecorder::stop() noexcept {
+    channel_->end_recording(recorder_);
+    recorder_->stop();
+}
+
+void LinkRecorder::close() {
+    if (!fork_.is_here()) return;
+    {
+        const WithoutGil outside;
+        const std::lock_guard lock(mutex_);
+        if (closed_) return;
+        closed_ = true;
+        stop();
+    }
+    const auto lost = recorder_->counters().queue_full.value() + recorder_->counters().write_error.value();
+    if (lost != 0)
+        raise(SetupError{SetupCode::system, 0,
+                         fmt::format("{}: {} frames were not recorded{}{}", recorder_->label(), lost,
+                                     notices_->empty() ? "" : ": ", notices_->empty() ? "" : notices_->front())});
+}
+
+void bind_link_recorder(nb::module_& module) {
+    nb::class_<LinkRecorder>(
+        module, "LinkRecorder", nb::is_final(),
+        "Records the frames that arrive on a link to a tlog, until it or the link is closed.\n\n"
+        "A thread of its own writes the file, so a slow disk delays nothing. Frames for which there\n"
+        "was no room are counted in `dropped`. Use `with`, or `close()`.")
+        .def_prop_ro("path", [](const LinkRecorder& r) { return r.recorder().label(); })
+        .def_prop_ro(
+            "renamed_to", [](const LinkRecorder& r) { return r.recorder().renamed_to().string(); },
+            "The new name of a file that existed at this path; empty if there was none.")
+        .def_prop_ro(
+            "frames", [](const LinkRecorder& r) { return r.recorder().counters().frames.value(); },
+            "Frames that are in the file.")
+        .def_prop_ro(
+            "dropped",
+            [](const LinkRecorder& r) {
+                return r.recorder().counters().queue_full.value() + r.recorder().counters().write_error.value();
+            },
+            "Frames that were not recorded, because the disk was too slow or full.")
+        .def("close", &LinkRecorder::close,
+             "Writes the queued frames, waits for the disk and closes the file. May be called again. Raises\n"
+             "SystemFailure if frames were not recorded.")
+        .def(
+            "__enter__", [](nb::object self) { return self; }, nb::sig("def __enter__(self) -> LinkRecorder"))
+        .def(
+            "__exit__", [](LinkRecorder& r, const nb::args&) { r.close(); },
+            nb::sig("def __exit__(self, *args: object) -> None"))
+        .def("__repr__", [](const LinkRecorder& r) {
+            return fmt::format("<LinkRecorder {}: {} frames>", r.recorder().label(),
+                               r.recorder().counters().frames.value());
+        });
+}
+
+}  // namespace mavloom::python

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "mavutil/state.hpp"
+
+#include <fmt/format.h>
+
+#include "bindings.hpp"
+#include "errors.hpp"
+#include "mavloom/feed/instance.hpp"
+#include "mavloom/feed/vehicle.hpp"
+#include "mavloom/message/view.hpp"
+#include "mavloom/msg/gps_raw_int.hpp"
+#include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/param_value.hpp"
+#include "strings.hpp"
+
+namespace mavloom::python {
+namespace {
+
+// The 3DR radio, which counts its own sequence.
+constexpr Source radio{SystemId{'3'}, ComponentId{'D'}};
+
+bool concerns_connection(MessageId id) noexcept {
+    return id == msg::Heartbeat::id || id == msg::ParamValue::id || id == msg::GpsRawInt::id;
+}
+
+}  // namespace
+
+nb::dict MavutilState::messages(std::uint8_t system) {
+    auto& messages = messages_[system];
+    if (!messages.is_valid()) messages = nb::object(messages_of_(system));
+    return nb::borrow<nb::dict>(messages);
+}
+
+bool MavutilState::note(const nb::object& message) {
+    const auto* given = mavutil_message(message);
+    if (given == nullptr) raise_usage("not a message of mavloom.mavutil");
+    time_ns = given->base.time_ns;
+    if (given->base.size == 0 || given->base.definition == nullptr) return true;
+    const auto frame = given->base.frame();
+    if (target == 0 && feed::is_vehicle_heartbeat(frame)) target = frame.system().value;
+    add(messages(frame.system().value), message, *given);
+    note_uptime(*given);
+    if (frame.source() != radio) note_sequence(frame);
+    return concerns_connection(frame.id());
+}
+
+void MavutilState::note_sequence(const wire::FrameView& frame) {
+    ++count;
+    if (last_ == sequences_.end() || last_->first != frame.source()) {
+        const auto [place, is_new] = sequences_.try_emplace(frame.source(), frame.sequence());
+        last_ = place;
+        if (is_new) return;
+    }
+    loss += static_cast<std::uint8_t>(frame.sequence() - last_->second - 1);
+    last_->second = frame.sequence();
+}
+
+void MavutilState::note_uptime(const MavutilMessage& message) {
+    const auto fields = message.base.definition->fields;
+    if (fields.empty()) return;
+    const auto& first = fields.front();
+    const bool is_boot = first.name == "time_boot_ms";
+    if (!is_boot && first.name != "usec") return;
+    const message::MessageView view(*message.base.definition, message.payload());
+    uptime_s = view.number(first) * (is_boot ? 1e-3 : 1e-6);
+}
+
+void MavutilState::add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of) {
+    const auto& name = of.base.origin->definitions()->names(*of.base.definition).message;
+    if (const auto* instance = feed::instance_field(*of.base.definition))
+        add_instance_of(messages, message, of, *instance);
+    if (PyDict_SetItem(messages.ptr(), name.ptr(), message.ptr()) != 0) throw nb::python_error();
+}
+
+void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
+                                   const dialect::Field& instance) {
+    const auto& name = of.base.origin->definitions()->names(*of.base.definition).message;
+    const nb::object value = nb::steal(value_of(*of.base.definition, of.payload(), instance, TextForm::ascii));
+    if (!value.is_valid()) throw nb::python_error();
+    const nb::object previous = nb::borrow(PyDict_GetItem(messages.ptr(), name.ptr()));
+    nb::object instances = previous.is_valid() ? nb::getattr(previous, "_instances", nb::none()) : nb::none();
+    if (instances.is_none()) instances = nb::dict();
+    nb::setattr(message, "_instances", instances);
+    if (nb::len(instances) >= static_cast<std::size_t>(most_messages) &&
+        PyDict_Contains(instances.ptr(), value.ptr()) != 1)
+        return;
+    nb::borrow<nb::dict>(instances)[value] = message;
+    messages[name] = message;  // before its instances, in the order of the dict
+    messages[nb::str(fmt::format("{}[{}]", nb::str(name).c_str(), escaped(nb::str(value))).c_str())] = message;
+}
+
+void MavutilState::add_to_target(const nb::object& message) {
+    const auto* given = mavutil_message(message);
+    if (given == nullptr || given->base.definition == nullptr) return;
+    add(messages(target), message, *given);
+}
+
+nb::dict MavutilState::last_sequences() const {
+    nb::dict found;
+    for (const auto& [source, sequence] : sequences_)
+        found[nb::make_tuple(source.system.value, source.component.value)] = sequence;
+    return found;
+}
+
+void bind_mavutil_state(nb::module_& module) {
+    nb::class_<MavutilState>(module, "MavutilState", nb::is_final(),
+                             "What a connection of mavloom.mavutil remembers of the messages that it has read.")
+        .def(nb::init<nb::object>(), nb::arg("messages_of"),
+             nb::sig("def __init__(self, messages_of: collections.abc.Callable[[int], dict[str, typing.Any]]) -> None"))
+        .def("note", &MavutilState::note, nb::arg("message"))
+        .def("messages", &MavutilState::messages, nb::arg("system"),
+             nb::sig("def messages(self, system: int) -> dict[str, typing.Any]"))
+        .def_prop_ro("last_sequences", &MavutilState::last_sequences,
+                     nb::sig("def last_sequences(self) -> dict[tuple[int, int], int]"))
+        .def_rw("target", &MavutilState::target)
+        .def_rw("count", &MavutilState::count)
+        .def_rw("loss", &MavutilState::loss)
+        .def_rw("time_ns", &MavutilState::time_ns)
+        .def_rw("uptime_s", &MavutilState::uptime_s);
+}
+
+}  // namespace mavloom::python

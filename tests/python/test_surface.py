@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: MIT
+"""The package as interpreters, notebooks and editors show it, and misuse that its objects refuse."""
+import inspect
+import pathlib
+import struct
+import subprocess
+import sys
+
+import pytest
+
+import mavloom
+from mavloom import mavutil
+from tlogs import frames_of
+from vehicles import DEADLINE_S, Vehicle, until
+
+SURROGATE = "a\ud800b"
+
+
+@pytest.fixture
+def link():
+    with mavloom.connect("udpin://127.0.0.1:0") as opened:
+        yield opened
+
+
+@pytest.fixture
+def vehicle(peer, link):
+    made = Vehicle(peer, link.port)
+    yield made
+    made.socket.close()
+
+
+# ---- signatures, lists of names, texts
+
+def public_callables():
+    for name in mavloom.__all__:
+        thing = getattr(mavloom, name)
+        if callable(thing):
+            yield name, thing
+        if inspect.isclass(thing):
+            yield from ((f"{name}.{key}", value) for key, value in vars(thing).items()
+                        if not key.startswith("_") and callable(value))
+    yield from ((f"mavutil.{name}", thing) for name, thing in vars(mavutil).items()
+                if callable(thing) and not name.startswith("_")
+                and getattr(thing, "__module__", "").startswith("mavloom"))
+
+
+def test_everything_public_has_a_signature():
+    found = {name: inspect.signature(thing) for name, thing in public_callables()}
+    assert len(found) > 150
+    assert list(found["Dialect.encode"].parameters) == ["self", "message", "source_system", "source_component",
+                                                        "frame_seq", "frame_version", "fields"]
+    assert str(inspect.signature(mavloom.Parser().feed)).startswith("(data")
+    assert found["read"].parameters["system"].kind is inspect.Parameter.KEYWORD_ONLY
+    assert found["RingWriter"].parameters["capacity"].default == 8 << 20
+    assert found["Parser"].parameters["dialect"].default is None
+
+
+def test_names_of_messages_are_listed(link):
+    assert {"heartbeat_send", "attitude_encode", "srcSystem"} <= set(dir(link.mav))
+    assert list(inspect.signature(link.mav.heartbeat_send).parameters) == [
+        "type", "autopilot", "base_mode", "custom_mode", "system_status", "mavlink_version"]
+    assert {"heartbeat_send", "srcSystem"} <= set(dir(mavutil.mavlink.MAVLink(None)))
+
+
+def test_newest_messages_are_completed(link, vehicle):
+    vehicle.send(vehicle.heartbeat(), vehicle.attitude(1))
+    until(lambda: link.stats.frames_in == 2)
+    assert link.messages._ipython_key_completions_() == ["HEARTBEAT", "ATTITUDE"]
+    assert repr(link.messages) == "<newest messages of system 1: HEARTBEAT, ATTITUDE>"
+
+
+def test_objects_are_shown(link, vehicle, flight, tmp_path):
+    vehicle.send(vehicle.heartbeat())
+    beat = link.recv(DEADLINE_S)
+    assert repr(link) == f"<Link {link.name}: 1 peer, 1 frames in, 0 out, vehicle 1/1>"
+    assert "<td>frames_in</td><td>1</td>" in link._repr_html_() and "<td>1/1</td>" in link._repr_html_()
+    assert "<td>MAV_TYPE_QUADROTOR</td>" in beat._repr_html_()
+    assert repr(link.mav) == f"<Sender of {link.name}: 255/193, next seq 0>"
+    assert repr(link.subscribe()) == "<Subscription: 0 missed>"
+    log = mavloom.read(flight)
+    log.recv()
+    assert repr(log).startswith(f"<Recording {flight}: ") and repr(log).endswith(" records read>")
+    log.close()
+    assert repr(log) == f"<Recording {flight}, closed>"
+    with mavloom.write(tmp_path / "x.tlog") as writer:
+        writer.write(beat)
+        assert repr(writer) == f"<RecordingWriter {tmp_path / 'x.tlog'}: 1 records>"
+    assert repr(link.vehicle(1)) == f"<Vehicle 1/1 on {link.name}: UNKNOWN, disarmed>"
+    assert repr(link.vehicle(1).mission) == "<Mission of system 1>"
+
+
+def test_no_public_object_has_the_text_of_object(link, flight):
+    things = [link, link.mav, link.stats, link.messages, link.subscribe(), link.vehicle(1), link.vehicle(1).params,
+              link.vehicle_async(1), mavloom.read(flight), mavloom.read(flight).stats, mavloom.Parser(),
+              mavloom.Dialect(), mavloom.Dialect()["HEARTBEAT"], mavloom.columns(flight, "RPM"),
+              mavutil.mavlink_connection(str(flight))]
+    assert not [repr(thing) for thing in things if " object at 0x" in repr(thing)]
+
+
+# ---- what is refused, and its text
+
+def test_unknown_attributes_cannot_be_set(link):
+    for thing in (link, link.mav):
+        with pytest.raises(AttributeError, match="no attribute 'target'"):
+            thing.target = 3
+
+
+@pytest.mark.parametrize("call", [
+    lambda link: mavloom.read(SURROGATE), lambda link: mavloom.columns(SURROGATE, "ATTITUDE"),
+    lambda link: mavloom.tables([SURROGATE]), lambda link: mavloom.write(SURROGATE),
+    lambda link: mavloom.Dialect(SURROGATE), lambda link: mavloom.connect(SURROGATE),
+    lambda link: mavloom.connect(f"udpin://{SURROGATE}:1"), lambda link: mavloom.RingReader(SURROGATE),
+    lambda link: mavloom.RingWriter(SURROGATE), lambda link: mavloom.remove_ring(SURROGATE),
+    lambda link: link.send(SURROGATE), lambda link: link.send("STATUSTEXT", text=SURROGATE),
+    lambda link: link.recv_match(type=SURROGATE), lambda link: link.latest(SURROGATE),
+    lambda link: link.record(SURROGATE), lambda link: link.vehicle(1).command(SURROGATE),
+    lambda link: mavutil.mavlink_connection(SURROGATE + ".tlog"),
+    lambda link: mavutil.evaluate_condition(SURROGATE + "(", {})])
+def test_lone_surrogates_are_usage_errors(call, link):
+    with pytest.raises((mavloom.UsageError, mavloom.NotFoundError)):
+        call(link)
+
+
+@pytest.mark.parametrize("call, text", [
+    (lambda flight: mavloom.connect(None), r'takes an endpoint such as "udpin://0.0.0.0:14550", not None'),
+    (lambda flight: mavloom.connect("udpin://127.0.0.1:0", source_component=0), "source_component: 0 is out of range"),
+    (lambda flight: mavloom.connect("udpin://127.0.0.1:0", source_system=0), "source_system: 0 is out of range"),
+    (lambda flight: mavloom.columns(None, "ATTITUDE"), "a recording is given by its path"),
+    (lambda flight: mavloom.read("a\0b"), "cannot be the path of a file")])
+def test_texts_say_what_is_wrong(call, text, flight):
+    with pytest.raises(mavloom.UsageError, match=text):
+        call(flight)
+
+
+def test_a_message_says_how_to_change_it():
+    message = mavloom.Dialect().message("ATTITUDE", roll=0.5)
+    with pytest.raises(AttributeError, match=r"make a new one: msg.dialect.message\(msg, roll=...\)"):
+        message.roll = 1
+    assert message.dialect.message(message, roll=0.25).roll == 0.25
+
+
+# ---- sending
+
+def received(vehicle, count):
+    """The next messages, however many a datagram has."""
+    messages = []
+    while len(messages) < count:
+        messages += vehicle.receive()
+    return messages
+
+
+def test_the_heartbeat_has_its_version(link, vehicle):
+    vehicle.send(vehicle.heartbeat())
+    until(lambda: link.stats.peers == 1)
+    link.send("HEARTBEAT", type=6, autopilot=8)
+    link.mav.heartbeat_send(6, 8, 0, 0, 4)
+    link.send("HEARTBEAT", type=6, mavlink_version=0)
+    assert [m.mavlink_version for m in received(vehicle, 3)] == [3, 3, 0]
+
+
+def test_the_source_of_a_link_can_be_changed(link, vehicle):
+    vehicle.send(vehicle.heartbeat())
+    until(lambda: link.stats.peers == 1)
+    link.mav.srcSystem, link.mav.srcComponent, link.mav.seq = 42, 7, 250
+    for _ in range(2):
+        link.send("HEARTBEAT")
+    sent = [(m.get_srcSystem(), m.get_srcComponent(), m.get_seq()) for m in received(vehicle, 2)]
+    assert sent == [(42, 7, 250), (42, 7, 251)]
+    assert (link.mav.srcSystem, link.mav.srcComponent, link.mav.seq) == (42, 7, 252)
+    for name, value in (("srcSystem", 0), ("srcComponent", 256), ("srcComponent", 0), ("seq", -1)):
+        with pytest.raises(mavloom.UsageError, match="out of range"):
+            setattr(link.mav, name, value)
+
+
+# ---- writing recordings
+
+def test_a_recording_is_written_and_read(flight, tmp_path):
+    with mavloom.write(tmp_path / "copy.tlog") as copy:
+        for message in mavloom.read(flight):
+            copy.write(message)
+        assert copy.records == 40087
+    assert (tmp_path / "copy.tlog").read_bytes() == flight.read_bytes()
+    with pytest.raises(mavloom.ClosedError):
+        copy.write(message)
+    with mavloom.write(tmp_path / "copy.tlog") as again:  # the other one keeps its bytes
+        again.write(message.frame, time_ns=5_000_000)
+    assert (tmp_path / "copy.tlog").read_bytes() == struct.pack(">Q", 5000) + message.frame
+    assert (tmp_path / "copy.tlog.1").read_bytes() == flight.read_bytes()
+
+
+def test_only_whole_frames_are_written(tmp_path):
+    with mavloom.write(tmp_path / "x.tlog") as log:
+        for wrong in (b"", b"abc", mavloom.Dialect().encode("HEARTBEAT")[:-1]):
+            with pytest.raises(mavloom.InputError):
+                log.write(wrong)
+        with pytest.raises(TypeError):
+            log.write("HEARTBEAT")
+    assert (tmp_path / "x.tlog").read_bytes() == b""
+
+
+def test_messages_of_mavutil_are_written(flight, tmp_path):
+    log = mavutil.mavlink_connection(str(flight))
+    with mavloom.write(tmp_path / "x.tlog") as out:
+        for _ in range(10):
+            out.write(log.recv_msg())
+        with pytest.raises(mavloom.UsageError, match="was not packed or sent yet"):
+            out.write(mavutil.mavlink.MAVLink_heartbeat_message(1, 2, 3, 4, 5, 3))
+    assert list(frames_of(tmp_path / "x.tlog")) == list(frames_of(flight))[:10]
+
+
+def test_a_link_is_recorded(link, vehicle, tmp_path):
+    with link.record(tmp_path / "x.tlog") as recorder:
+        assert repr(recorder) == f"<LinkRecorder {tmp_path / 'x.tlog'}: 0 frames>"
+        for i in range(100):
+            vehicle.send(vehicle.attitude(i))
+            until(lambda: link.stats.frames_in == i + 1)
+    assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(100))
+    vehicle.send(vehicle.attitude(100))
+    until(lambda: link.stats.frames_in == 101)
+    assert len(list(frames_of(tmp_path / "x.tlog"))) == 100
+
+
+def test_a_recording_ends_with_its_link(peer, tmp_path):
+    link = mavloom.connect("udpin://127.0.0.1:0")
+    recorder = link.record(tmp_path / "x.tlog")
+    vehicle = Vehicle(peer, link.port)
+    vehicle.send(vehicle.heartbeat(), vehicle.attitude(1))
+    until(lambda: link.stats.frames_in == 2)
+    link.close()
+    recorder.close()
+    assert [m.name for m in mavloom.read(tmp_path / "x.tlog")] == ["HEARTBEAT", "ATTITUDE"]
+    vehicle.socket.close()
+
+
+def test_an_exit_keeps_a_recording_that_is_left_open(tmp_path, child_environment):
+    code = """import mavloom, socket, sys, time
+link = mavloom.connect("udpin://127.0.0.1:0")
+recorder = link.record(sys.argv[1])
+with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
+    for i in range(300):
+        far.sendto(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i), ("127.0.0.1", link.port))
+        while link.stats.frames_in <= i:
+            time.sleep(0.001)
+"""
+    done = subprocess.run([sys.executable, "-c", code, tmp_path / "x.tlog"], capture_output=True, text=True,
+                          env=child_environment)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(300))
+
+
+# ---- files of other formats
+
+@pytest.mark.parametrize("start, text", [
+    (b"\xa3\x95\x80\x80\x59FMT", "a DataFlash log of ArduPilot"), (b"ULog\x01\x12\x35\x01", "a ULog of PX4"),
+    (b"\x1f\x8b\x08\x00", "a gzip file"), (b"\xd4\xc3\xb2\xa1\x02\x00", "a pcap capture")])
+def test_files_of_other_formats_are_refused_by_name(start, text, tmp_path):
+    path = pathlib.Path(tmp_path / "log")
+    path.write_bytes(start + bytes(1000))
+    for read in (mavloom.read, mavloom.tables, lambda path: mavloom.columns(path, "ATTITUDE")):
+        with pytest.raises(mavloom.InputError, match=f"{path} is {text}, not a tlog: "):
+            read(path)
+
+
+# ---- types
+
+def test_checkers_know_fields_and_messages(tmp_path, child_environment):
+    """Each line that ends with a comment has an error, and no other line has one."""
+    from places import PACKAGE
+    code = """import mavloom
+from mavloom import messages
+link = mavloom.connect("udpin://127.0.0.1:0")
+found = link.recv_match(type=messages.ATTITUDE)
+assert found is not None
+roll: float = found.roll
+text: str = found.roll  # error
+link.send("HEARTBEAT", type=6)
+link.send("HEARTBEAT", typo=3)  # error
+link.send("ATTITUDE", type=3)  # error
+newest = link.latest(messages.GPS_RAW_INT)
+number: str = newest.lat if newest else ""  # error
+link.target = 3  # error
+"""
+    (tmp_path / "code.py").write_text(code)
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", "code.py"],
+                          cwd=tmp_path, env={**child_environment, "MYPYPATH": str(PACKAGE)}, capture_output=True,
+                          text=True)
+    wrong = {number for number, line in enumerate(code.splitlines(), 1) if line.endswith("# error")}
+    assert {int(line.split(":")[1]) for line in done.stdout.splitlines() if ": error:" in line} == wrong, done.stdout

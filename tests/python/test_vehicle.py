@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: MIT
+"""The services of vehicles: link.vehicle() and link.vehicle_async(), against a stub of an autopilot."""
+import asyncio
+import contextlib
+import math
+import threading
+import time
+
+import pytest
+
+import mavloom
+from autopilot import ARDUPILOT_PARAMS, ARMED, PX4_PARAMS, Autopilot, Settings
+from mavloom._vehicle import _commands, _mission, _params
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Short waits, for tests of answers that never come."""
+    for module, name, seconds in ((_commands, "ANSWER_S", 0.15), (_commands, "HEARTBEATS_S", 0.4),
+                                  (_params, "ANSWER_S", 0.15), (_params, "QUIET_S", 0.15),
+                                  (_mission, "ANSWER_S", 0.15)):
+        monkeypatch.setattr(module, name, seconds)
+
+
+@contextlib.contextmanager
+def flown(peer, **settings):
+    """A link, the stub at its other end, and the Vehicle."""
+    with (mavloom.connect("udpin://127.0.0.1:0") as link,
+          Autopilot(peer, Settings(**settings), connect_to=("127.0.0.1", link.port)) as stub):
+        yield link.vehicle(timeout=30), stub
+
+
+both_autopilots = pytest.mark.parametrize("px4", [False, True], ids=["ardupilot", "px4"])
+
+
+# ---- the vehicle
+
+def test_the_first_vehicle_is_found(peer):
+    with flown(peer) as (vehicle, _):
+        assert (vehicle.system, vehicle.component, vehicle.mode, vehicle.armed) == (1, 1, "STABILIZE", False)
+        assert repr(vehicle) == f"<Vehicle 1/1 on {vehicle.link.name}: STABILIZE, disarmed>"
+        assert "GUIDED" in vehicle.modes
+
+
+def test_no_vehicle_is_a_timeout():
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        with pytest.raises(TimeoutError, match=r"no vehicle within 0\.05 s"):
+            link.vehicle(timeout=0.05)
+        with pytest.raises(mavloom.UsageError, match="system: 256 is out of range, 1 to 255"):
+            link.vehicle(256)
+        vehicle = link.vehicle(7)
+        assert (vehicle.mode, vehicle.armed, vehicle.modes) == (None, False, [])
+        assert "no heartbeat yet" in repr(vehicle)
+
+
+def test_a_home_made_board_is_a_vehicle(peer):
+    with flown(peer, autopilot=8) as (vehicle, _):
+        assert vehicle.heartbeat.autopilot == 8
+        assert vehicle.link.wait_heartbeat(timeout=30).autopilot == 8
+
+
+# ---- commands
+
+@both_autopilots
+def test_arm_and_disarm(px4, peer):
+    with flown(peer, px4=px4) as (vehicle, stub):
+        vehicle.arm()
+        assert vehicle.armed and stub.base_mode & ARMED
+        vehicle.disarm(force=True)
+        assert not vehicle.armed
+        assert [(m.command, m.param1, m.param2) for m in stub.messages] == [(400, 1, 0), (400, 0, 21196)]
+
+
+@pytest.mark.parametrize("px4, mode, params", [(False, "guided", (1, 4, 0)), (False, 6, (1, 6, 0)),
+                                               (True, "MISSION", (1, 4, 4)), (True, 6 << 16, (1, 6, 0))])
+def test_modes_by_name_and_number(px4, mode, params, peer):
+    with flown(peer, px4=px4) as (vehicle, stub):
+        vehicle.set_mode(mode)
+        assert (stub.messages[0].param1, stub.messages[0].param2, stub.messages[0].param3) == params
+        assert vehicle.mode == {"guided": "GUIDED", 6: "RTL", "MISSION": "MISSION", 6 << 16: "OFFBOARD"}[mode]
+
+
+def test_an_unknown_mode_is_an_error_that_lists_the_modes(peer):
+    with flown(peer) as (vehicle, stub):
+        with pytest.raises(mavloom.UsageError, match="unknown mode 'FLOAT': this vehicle has ACRO, ALT_HOLD, AUTO"):
+            vehicle.set_mode("FLOAT")
+        assert stub.messages == []
+
+
+def test_takeoff_and_land_of_an_ardupilot(peer):
+    with flown(peer) as (vehicle, stub):
+        vehicle.takeoff(12.5)
+        vehicle.land()
+        vehicle.return_to_launch()
+        assert [(m.command, m.param2 if m.command == 176 else m.param7) for m in stub.messages] == [
+            (176, 4), (22, 12.5), (21, 0), (20, 0)]
+
+
+def test_takeoff_of_a_px4_is_above_sea_level(peer):
+    with flown(peer, px4=True) as (vehicle, stub):
+        vehicle.takeoff(10)
+        stub.fly()
+        while vehicle.link.latest("GLOBAL_POSITION_INT") is None:
+            time.sleep(0.005)
+        vehicle.takeoff(10)
+        first, second = stub.messages
+        assert math.isnan(first.param7) and math.isnan(first.param4) and second.param7 == pytest.approx(594.5 + 10)
+
+
+def test_commands_by_number_and_name(peer):
+    with flown(peer, progress=True) as (vehicle, stub):
+        assert vehicle.command("DO_SET_SERVO", 9, 1500).result == 0
+        assert vehicle.command("MAV_CMD_DO_SET_SERVO", 9, 1600).command == 183
+        assert vehicle.command(mavloom.enums.MAV_CMD.MAV_CMD_DO_SET_RELAY).name == "COMMAND_ACK"
+        assert [(m.command, m.param2) for m in stub.messages] == [(183, 1500), (183, 1600), (181, 0)]
+        with pytest.raises(mavloom.UsageError, match="unknown command 'DANCE'"):
+            vehicle.command("DANCE")
+        with pytest.raises(mavloom.UsageError, match="at most 7 parameters, not 8"):
+            vehicle.command(183, *range(8))
+
+
+def test_a_lost_command_is_repeated(peer, quick):
+    with flown(peer, drop=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        vehicle.command("DO_SET_SERVO", 1, 1000)
+        assert [m.confirmation for m in stub.messages] == [0, 1]
+
+
+def test_a_refused_command_is_an_error_with_the_reason(peer):
+    with flown(peer, refuse={400: 4}) as (vehicle, _):
+        with pytest.raises(mavloom.CommandError, match="MAV_CMD_COMPONENT_ARM_DISARM: MAV_RESULT_FAILED") as caught:
+            vehicle.arm()
+        assert caught.value.result == 4
+
+
+def test_silence_is_a_timeout(peer, quick):
+    with flown(peer, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        with pytest.raises(TimeoutError, match="no answer to MAV_CMD_DO_SET_SERVO after 4 tries"):
+            vehicle.command("DO_SET_SERVO")
+        assert len(stub.messages) == 4
+
+
+# ---- parameters
+
+@both_autopilots
+def test_parameters_are_a_mapping(px4, peer):
+    expected = {name: value for name, (value, _) in (PX4_PARAMS if px4 else ARDUPILOT_PARAMS).items()}
+    with flown(peer, px4=px4) as (vehicle, stub):
+        assert vehicle.params.fetch() == expected == dict(vehicle.params)
+        assert list(vehicle.params) == sorted(expected) and len(vehicle.params) == len(expected)
+        name = "COM_RC_IN_MODE" if px4 else "RTL_ALT"
+        assert vehicle.params[name] == expected[name] and isinstance(vehicle.params[name], int)
+        vehicle.params[name] = -7
+        assert stub.params[name][0] == -7 and vehicle.params[name] == -7
+        assert "NO_SUCH" not in vehicle.params and vehicle.params.get("NO_SUCH", 3) == 3
+
+
+def test_px4_integers_are_sent_as_their_bytes(peer):
+    """-4200000 has the bits of a signalling NaN, 0xffbfe9c0: a conversion to double would change it."""
+    with flown(peer, px4=True) as (vehicle, stub):
+        for value in (-4200000, -1, 0, 2**31 - 1, -(2**31)):
+            vehicle.params["COM_RC_IN_MODE"] = value
+            assert stub.params["COM_RC_IN_MODE"][0] == value == vehicle.params["COM_RC_IN_MODE"]
+        with pytest.raises(mavloom.UsageError, match="does not fit its type"):
+            vehicle.params["COM_RC_IN_MODE"] = 2**31
+        with pytest.raises(mavloom.UsageError, match=r"is an integer, not 0\.5"):
+            vehicle.params["COM_RC_IN_MODE"] = 0.5
+
+
+def test_one_parameter_is_requested_alone(peer):
+    with flown(peer) as (vehicle, stub):
+        assert vehicle.params["RTL_ALT"] == 1500 and vehicle.params["RTL_ALT"] == 1500
+        assert [m.get_type() for m in stub.messages] == ["PARAM_REQUEST_READ"]
+        assert vehicle.params.type_of("RTL_ALT") == 6
+
+
+def test_missing_values_are_requested_one_by_one(peer, quick):
+    with flown(peer, lose_values=frozenset({1, 3})) as (vehicle, stub):
+        assert len(vehicle.params.fetch()) == 5
+        assert [m.param_index for m in stub.messages if m.get_type() == "PARAM_REQUEST_READ"] == [1, 3]
+
+
+def test_an_absent_parameter(peer, quick):
+    with flown(peer, px4=True) as (vehicle, _):
+        with pytest.raises(KeyError) as caught:
+            vehicle.params["NO_SUCH"]
+        assert isinstance(caught.value.__cause__, mavloom.ParameterError) and caught.value.__cause__.result == 1
+    with flown(peer) as (vehicle, _), pytest.raises(TimeoutError, match="no answer about parameter NO_SUCH"):
+        vehicle.params["NO_SUCH"]  # an ArduPilot does not report it
+
+
+def test_values_that_are_no_parameters(peer):
+    with flown(peer) as (vehicle, _):
+        for name, value in (("", 1), ("x" * 17, 1), ("ä", 1), (5, 1), ("RTL_ALT", "high"), ("RTL_ALT", True)):
+            with pytest.raises(mavloom.UsageError):
+                vehicle.params[name] = value
+
+
+def test_a_parameter_that_is_not_taken(peer, quick):
+    with flown(peer) as (vehicle, stub):
+        stub.on_param_set = lambda message: stub.send(stub.value(message.param_id))
+        with pytest.raises(mavloom.ParameterError, match="is 1500, not 1600: the vehicle did not take it"):
+            vehicle.params["RTL_ALT"] = 1600
+
+
+# ---- missions
+
+PLACES = [(47.3977, 8.5456, 20), (47.3980, 8.5460, 25.5), (-33.8, 151.2, 30)]
+
+
+@pytest.mark.parametrize("request_int", [False, True])
+def test_missions_up_and_down(request_int, peer):
+    items = [mavloom.MissionItem.at(*place, param1=float(i)) for i, place in enumerate(PLACES)]
+    with flown(peer, request_int=request_int) as (vehicle, stub):
+        vehicle.mission.upload(items)
+        assert [(m.seq, m.x, m.y, m.z, m.frame, m.param1) for m in stub.mission] == [
+            (i, round(lat * 1e7), round(lon * 1e7), alt, 6, i) for i, (lat, lon, alt) in enumerate(PLACES)]
+        assert vehicle.mission.download() == items
+        assert [(round(i.lat, 7), round(i.lon, 7), i.z) for i in vehicle.mission.download()] == PLACES
+        vehicle.mission.clear()
+        assert vehicle.mission.download() == [] == stub.mission
+        vehicle.mission.upload([])
+
+
+def test_items_as_mappings_and_messages(peer):
+    dialect = mavloom.Dialect()
+    items = [{"command": 22, "z": 10.0}, dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
+             dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3)]
+    with flown(peer) as (vehicle, stub):
+        vehicle.mission.upload(items)
+        assert [(m.command, m.x, m.y, m.z) for m in stub.mission] == [(22, 0, 0, 10), (16, 1, 2, 3),
+                                                                      (16, 475000000, 82500000, 3)]
+
+
+def test_an_item_that_cannot_be_sent_sends_nothing(peer):
+    with flown(peer) as (vehicle, stub):
+        for item, text in (({"colour": 1}, "has no 'colour'"), ({"x": 2**40}, "item 0 of the mission: .*x"),
+                           (5, "is a MissionItem"), (mavloom.Dialect().message("HEARTBEAT"), "not HEARTBEAT")):
+            with pytest.raises(mavloom.UsageError, match=text):
+                vehicle.mission.upload([item])
+        assert stub.messages == []
+
+
+def test_lost_messages_of_a_mission_are_repeated(peer, quick):
+    items = [mavloom.MissionItem.at(*place) for place in PLACES]
+    lost = frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST", "MISSION_REQUEST_INT", "MISSION_CLEAR_ALL"})
+    with flown(peer, drop=lost) as (vehicle, stub):
+        vehicle.mission.upload(items)
+        assert vehicle.mission.download() == items
+        vehicle.mission.clear()
+        assert stub.mission == []
+
+
+def test_a_refused_mission_is_an_error_with_the_reason(peer):
+    with flown(peer, refuse_mission=4) as (vehicle, _):
+        with pytest.raises(mavloom.MissionError, match="upload of the mission: MAV_MISSION_NO_SPACE") as caught:
+            vehicle.mission.upload([mavloom.MissionItem()])
+        assert caught.value.result == 4
+
+
+def test_silence_during_a_mission_is_a_timeout(peer, quick):
+    with flown(peer, silent=frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST"})) as (vehicle, _):
+        with pytest.raises(TimeoutError, match="no answer during the upload"):
+            vehicle.mission.upload([mavloom.MissionItem()])
+        with pytest.raises(TimeoutError, match="no answer to MISSION_REQUEST_LIST after 5 tries"):
+            vehicle.mission.download()
+
+
+# ---- threads and asyncio
+
+def test_threads_share_a_vehicle(peer):
+    with flown(peer) as (vehicle, stub):
+        failures = []
+
+        def work(channel):
+            try:
+                for _ in range(10):
+                    vehicle.command("DO_SET_SERVO", channel, 1500)
+                    assert vehicle.params["RTL_ALT"] == 1500
+            except Exception as error:
+                failures.append(error)
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert failures == []
+
+
+async def exchange(vehicle, stub, name):
+    """Reads and writes parameters and a mission."""
+    params = await vehicle.params.fetch()
+    assert params == {key: value for key, (value, _) in stub.params.items()}
+    await vehicle.params.set(name, 42)
+    assert await vehicle.params.get(name) == 42
+    await vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+    assert len(await vehicle.mission.download()) == 3
+    await vehicle.mission.clear()
+
+
+@both_autopilots
+def test_the_services_with_asyncio(px4, peer, quick):
+    async def fly(link, stub):
+        vehicle = link.vehicle_async(1)
+        ticks = 0
+
+        async def tick():
+            nonlocal ticks
+            while True:
+                ticks += 1
+                await asyncio.sleep(0.001)
+        ticker = asyncio.create_task(tick())
+        await vehicle.set_mode("LOITER")
+        await vehicle.arm()
+        assert vehicle.armed and vehicle.mode == "LOITER"
+        await vehicle.takeoff(5)
+        await vehicle.land()
+        await vehicle.disarm()
+        await exchange(vehicle, stub, "SYS_AUTOSTART" if px4 else "RTL_ALT")
+        stub.settings.refuse[183] = 2
+        with pytest.raises(mavloom.CommandError, match="MAV_RESULT_DENIED"):
+            await vehicle.command("DO_SET_SERVO")
+        stub.settings.silent = frozenset({"COMMAND_LONG"})
+        with pytest.raises(TimeoutError):
+            await vehicle.return_to_launch()
+        ticker.cancel()
+        return ticks
+
+    with (mavloom.connect("udpin://127.0.0.1:0") as link,
+          Autopilot(peer, Settings(px4=px4), connect_to=("127.0.0.1", link.port)) as stub):
+        assert asyncio.run(asyncio.wait_for(fly(link, stub), 60)) > 10
+
+
+def test_a_cancelled_task_leaves_the_vehicle_usable(peer):
+    async def cancel(vehicle):
+        task = asyncio.create_task(vehicle.command("DO_SET_SERVO"))
+        await asyncio.sleep(0.05)
+        task.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await task
+
+    with flown(peer, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        asyncio.run(cancel(vehicle.link.vehicle_async(1)))
+        stub.settings.silent = frozenset()
+        assert vehicle.command("DO_SET_SERVO").result == 0
