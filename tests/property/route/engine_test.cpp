@@ -18,6 +18,7 @@ using test::Bytes;
 using test::Id;
 using test::Model;
 using test::ModelPolicy;
+using test::pick;
 using test::Terms;
 
 using Step = std::array<std::uint8_t, 7>;
@@ -25,11 +26,6 @@ using Step = std::array<std::uint8_t, 7>;
 const Nanoseconds pauses[] = {0s, 1ms, 40ms, 250ms, 900ms, 2s, 3s, 7s, 10s, 31s};
 const Nanoseconds pauses_of_group[] = {1ms, 499ms, 500ms, 1s, 1999ms, 2s, 2999ms, 3s};
 const std::uint8_t systems[] = {1, 1, 2, 255, 0}, components[] = {1, 1, 154, 190};
-
-template <class T, std::size_t n>
-const T& pick(const T (&from)[n], std::uint8_t by) {
-    return from[by % n];
-}
 
 ModelPolicy policy_of(const Step& s) {
     ModelPolicy policy;

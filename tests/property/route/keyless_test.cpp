@@ -16,20 +16,16 @@ namespace {
 using namespace std::chrono_literals;
 using test::Bytes;
 using test::Id;
+using test::pick;
 
-using Step = std::array<std::uint8_t, 6>;
+using KeylessStep = std::array<std::uint8_t, 6>;
 
 constexpr LinkId vehicle_link{1}, station_link{2};
 constexpr Id vehicle{1, 1}, camera{1, 100}, station{255, 190};
 constexpr Id ids[] = {vehicle, camera, station, {1, 0}, {1, 77}, {2, 1}, {255, 77}, {0, 0}};
-const Nanoseconds pauses[] = {0s, 1ms, 40ms, 600ms, 1s, 2s, 6s, 11s};
+const Nanoseconds rests[] = {0s, 1ms, 40ms, 600ms, 1s, 2s, 6s, 11s};
 
-template <class T, std::size_t n>
-const T& pick(const T (&from)[n], std::uint8_t by) {
-    return from[by % n];
-}
-
-Bytes frame_of(const Step& s, Id source) {
+Bytes frame_of(const KeylessStep& s, Id source) {
     const Id target = pick(ids, s[3]);
     const test::Fields fields{{"target_system", target.system}, {"target_component", target.component}};
     switch (s[4] % 4) {
@@ -50,9 +46,9 @@ public:
             for (const LinkId link : {vehicle_link, station_link}) engine->add_link(link, {.is_verified = true});
     }
 
-    void step(const Step& s) {
+    void step(const KeylessStep& s) {
         switch (s[0] % 8) {
-            case 0: now_ += pick(pauses, s[1]); return;
+            case 0: now_ += pick(rests, s[1]); return;
             case 1:
             case 2:
             case 3: return honest(s);
@@ -66,7 +62,7 @@ public:
 private:
     [[nodiscard]] static LinkId adversary(std::uint8_t n) { return LinkId{3u + n % 3u}; }
 
-    void honest(const Step& s) {
+    void honest(const KeylessStep& s) {
         const bool from_vehicle = s[1] % 2 == 0;
         const Bytes bytes = frame_of(s, from_vehicle ? (s[1] % 8 == 0 ? camera : vehicle) : station);
         sent_.push_back(bytes);
@@ -80,9 +76,9 @@ private:
         (void)attacked_.route(wire::FrameView::unchecked(bytes), adversary(n), now_);
     }
     // Bytes that an honest link sent, or will send next.
-    void replay(const Step& s) {
+    void replay(const KeylessStep& s) {
         if (s[2] % 2 == 0 && !sent_.empty()) return attack(s[1], sent_[sent_.size() - 1 - s[3] % sent_.size()]);
-        Step next = s;
+        KeylessStep next = s;
         attack(s[1], frame_of(next, s[3] % 2 == 0 ? vehicle : station));
     }
     void come_and_go(std::uint8_t n) { attacked_.remove_link(adversary(n)); }
@@ -105,9 +101,9 @@ RC_GTEST_PROP(Keyless, NobodyWithoutAKeyChangesTheTrafficOfVerifiedLinks, (std::
     if (bits & 2) options.unknown_component = UnknownComponent::drop;
     if (bits & 4) options.unknown_target = UnknownTarget::flood;
     TwoRouters sut(options);
-    const auto steps = *rc::gen::scale(
-        10.0, rc::gen::container<std::vector<Step>>(rc::gen::container<Step>(rc::gen::arbitrary<std::uint8_t>())));
-    for (const Step& step : steps) sut.step(step);
+    const auto steps = *rc::gen::scale(10.0, rc::gen::container<std::vector<KeylessStep>>(
+                                                 rc::gen::container<KeylessStep>(rc::gen::arbitrary<std::uint8_t>())));
+    for (const KeylessStep& step : steps) sut.step(step);
 }
 
 }  // namespace

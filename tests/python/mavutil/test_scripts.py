@@ -12,7 +12,7 @@ import pytest
 
 import both
 from autopilot import Autopilot, Settings
-from places import ROOT
+from places import ROOT, free_port
 
 SCRIPTS = ROOT / "tests" / "python" / "scripts"
 
@@ -48,12 +48,6 @@ def test_scripts_that_read_a_recording(script, sides, flight, tmp_path, child_en
 
 
 # ---- vehicles
-
-def free_port(kind=socket.SOCK_DGRAM):
-    with socket.socket(socket.AF_INET, kind) as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
 
 def with_vehicle(sides, side, script, peer, environment, link="udpin", settings=None, words=(), meanwhile=None,
                  prepare=None):

@@ -162,7 +162,8 @@ def gaps_of(station, name, mark):
 
 @pytest.mark.parametrize("clients, vehicles", [(1000, 1), (1, 250)])
 def test_b87_heartbeats_keep_time_under_load(sim, clients, vehicles):
-    simulator = sim("--profile", "lite", "--vehicles", str(vehicles))
+    simulator = sim("--profile", "lite", "--vehicles", str(vehicles),
+                    listen=("udpin://127.0.0.1:0?max_peers=1000",))
     witness = simulator.station().ready()
     with contextlib.ExitStack() as opened:
         beat = mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3).pack(mavlink.MAVLink(None, 255, 190))

@@ -142,4 +142,10 @@ inline dialect::Rates make_rates(const std::vector<dialect::RateTerm>& terms) {
     return *rates;
 }
 
+// One of the elements, chosen by a random byte.
+template <class T, std::size_t n>
+const T& pick(const T (&from)[n], std::uint8_t by) {
+    return from[by % n];
+}
+
 }  // namespace mavloom::route::test
