@@ -219,6 +219,7 @@ bool Variables::is_of_a_section(std::string_view variable) const {
 // A misspelt variable must not be ignored silently. Other variables with this prefix may belong to other programs.
 SetupResult<void> Variables::check(std::vector<std::string>& notes) const {
     std::vector<std::string> names;
+    names.reserve(known_.size());
     for (const Name& known : known_) names.push_back(name_of(known));
     // Compare without the prefix; with it, every name would look similar.
     std::vector<std::string_view> known;

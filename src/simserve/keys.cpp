@@ -118,6 +118,7 @@ std::span<const Key<ScenarioVehicle>> vehicle_keys() noexcept { return all_vehic
 SetupResult<void> add_rate(std::vector<sim::MessageRate>& rates, std::string_view message, std::string_view hz) {
     const auto infos = sim::stream_infos();
     std::vector<std::string_view> names;
+    names.reserve(infos.size());
     for (const sim::StreamInfo& info : infos) names.push_back(info.name);
     const auto info = std::ranges::find(infos, message, &sim::StreamInfo::name);
     if (info == infos.end())

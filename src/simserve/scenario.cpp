@@ -292,8 +292,8 @@ std::uint64_t seed_of(std::uint64_t seed, SystemId system) noexcept {
 sim::Home on_grid(const sim::Home& home, std::size_t index, std::size_t count) {
     constexpr double distance_m = 5;
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
-    return sim::moved(home, distance_m * static_cast<double>(index / columns),
-                      distance_m * static_cast<double>(index % columns));
+    const std::size_t row = index / columns, column = index % columns;
+    return sim::moved(home, distance_m * static_cast<double>(row), distance_m * static_cast<double>(column));
 }
 
 }  // namespace

@@ -259,30 +259,3 @@ def test_files_of_other_formats_are_refused_by_name(start, text, tmp_path):
     for read in (mavloom.read, mavloom.tables, lambda path: mavloom.columns(path, "ATTITUDE")):
         with pytest.raises(mavloom.InputError, match=f"{path} is {text}, not a tlog: "):
             read(path)
-
-
-# ---- types
-
-def test_checkers_know_fields_and_messages(tmp_path, child_environment):
-    """Each line that ends with a comment has an error, and no other line has one."""
-    from places import PACKAGE
-    code = """import mavloom
-from mavloom import messages
-link = mavloom.connect("udpin://127.0.0.1:0")
-found = link.recv_match(type=messages.ATTITUDE)
-assert found is not None
-roll: float = found.roll
-text: str = found.roll  # error
-link.send("HEARTBEAT", type=6)
-link.send("HEARTBEAT", typo=3)  # error
-link.send("ATTITUDE", type=3)  # error
-newest = link.latest(messages.GPS_RAW_INT)
-number: str = newest.lat if newest else ""  # error
-link.target = 3  # error
-"""
-    (tmp_path / "code.py").write_text(code)
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", "code.py"],
-                          cwd=tmp_path, env={**child_environment, "MYPYPATH": str(PACKAGE)}, capture_output=True,
-                          text=True)
-    wrong = {number for number, line in enumerate(code.splitlines(), 1) if line.endswith("# error")}
-    assert {int(line.split(":")[1]) for line in done.stdout.splitlines() if ": error:" in line} == wrong, done.stdout

@@ -97,3 +97,27 @@ def test_row_25_pyright_knows_the_types_of_fields(folder):
 def test_pyright_finds_what_the_oldest_python_does_not_have(folder):
     (found,) = pyright(folder, OLDEST, "newer.py")
     assert '"UTC" is unknown import symbol' in found
+
+
+def test_checkers_know_fields_and_messages(tmp_path, child_environment):
+    """Each line that ends with a comment has an error, and no other line has one."""
+    code = """import mavloom
+from mavloom import messages
+link = mavloom.connect("udpin://127.0.0.1:0")
+found = link.recv_match(type=messages.ATTITUDE)
+assert found is not None
+roll: float = found.roll
+text: str = found.roll  # error
+link.send("HEARTBEAT", type=6)
+link.send("HEARTBEAT", typo=3)  # error
+link.send("ATTITUDE", type=3)  # error
+newest = link.latest(messages.GPS_RAW_INT)
+number: str = newest.lat if newest else ""  # error
+link.target = 3  # error
+"""
+    (tmp_path / "code.py").write_text(code)
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", tmp_path / "cache", "code.py"],
+                          cwd=tmp_path, env={**child_environment, "MYPYPATH": str(PACKAGE)}, capture_output=True,
+                          text=True)
+    wrong = {number for number, line in enumerate(code.splitlines(), 1) if line.endswith("# error")}
+    assert {int(line.split(":")[1]) for line in done.stdout.splitlines() if ": error:" in line} == wrong, done.stdout
