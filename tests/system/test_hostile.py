@@ -94,7 +94,8 @@ def test_a_forged_restart_takes_no_commands_away(spawn):
         vehicle, attacker, station = net[1], net[2], net[3]
         station.send(heartbeat(STATION))
         for boot_ms in (50_000, 50_100):
-            vehicle.send(routers.make(mavlink.MAVLink_system_time_message(0, boot_ms), VEHICLE))
+            vehicle.send(known := routers.make(mavlink.MAVLink_system_time_message(0, boot_ms), VEHICLE))
+        station.until(known)
         for boot_ms in (90_000, 1_000, 80_000, 2_000):
             attacker.send(routers.make(mavlink.MAVLink_system_time_message(0, boot_ms), VEHICLE))
         vehicle.send(last := heartbeat(VEHICLE))

@@ -808,12 +808,12 @@ TEST(RingProcess, ALockEndsWithItsOwnerThoughAChildOfHisLives) {
                   if (::fork() == 0) {
                       char byte = 'r';
                       ::close(pipe_ends[1]);
-                      static_cast<void>(::write(runs[1], &byte, 1));
-                      static_cast<void>(::read(pipe_ends[0], &byte, 1));  // until the test ends
-                      ::_exit(0);
+                      bool done = ::write(runs[1], &byte, 1) == 1;
+                      done = ::read(pipe_ends[0], &byte, 1) >= 0 && done;  // until the test ends
+                      ::_exit(done ? 0 : 1);
                   }
                   char byte;
-                  static_cast<void>(::read(runs[0], &byte, 1));  // until fork() is over on the other side too
+                  if (::read(runs[0], &byte, 1) != 1) return 1;  // until fork() is over on the other side too
                   ::kill(::getpid(), SIGKILL);
                   return 0;
               }),
