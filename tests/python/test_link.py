@@ -301,7 +301,7 @@ def test_row_5_the_bound_is_in_bytes(peer):
 
 
 def test_row_7_memory_is_flat(child_environment):
-    """Over more names of instances than are kept: the second half of them takes no more."""
+    """Over more names of instances than are kept: 64,000 further ones take under 24 bytes each."""
     code = """
 import socket, time
 dialect = mavloom.Dialect()
@@ -320,7 +320,7 @@ link = mavloom.connect("udpin://127.0.0.1:0", buffer=1 << 20)
 sock.connect(("127.0.0.1", link.port))
 send(0, 20_000)
 before = pages()
-send(20_000, 20_000)
+send(20_000, 64_000)
 print((pages() - before) * 4, link.stats.not_kept + link.stats.kernel_drop)
 """
     # The address sanitizer, where one runs, would keep what was freed.
@@ -329,7 +329,7 @@ print((pages() - before) * 4, link.stats.not_kept + link.stats.kernel_drop)
     out, talk = process.communicate(timeout=DEADLINE_S)
     assert talk == ""
     grown_kib, not_kept = map(int, out.split())
-    assert not_kept == 40_000 - 16_384 and grown_kib < 512
+    assert not_kept == 84_000 - 16_384 and grown_kib < 1500
 
 
 def test_row_4_latest_by_source_instance_and_age(link, vehicle, peer):
