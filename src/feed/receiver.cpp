@@ -104,10 +104,10 @@ void Receiver::count_loss(const link::RxFrame& rx) {
     }
     auto& loss = *last_loss_;
     ++loss.received;
-    loss.lost += static_cast<std::uint64_t>(std::int64_t{rx.sequence.lost});
-    loss.late += static_cast<std::uint64_t>(std::int64_t{rx.sequence.late});
-    loss.duplicate += static_cast<std::uint64_t>(std::int64_t{rx.sequence.duplicate});
-    loss.resync += static_cast<std::uint64_t>(std::int64_t{rx.sequence.resync});
+    loss.lost += static_cast<std::uint64_t>(std::int64_t{rx.sequence->lost});
+    loss.late += static_cast<std::uint64_t>(std::int64_t{rx.sequence->late});
+    loss.duplicate += static_cast<std::uint64_t>(std::int64_t{rx.sequence->duplicate});
+    loss.resync += static_cast<std::uint64_t>(std::int64_t{rx.sequence->resync});
 }
 
 void Receiver::on_link_up(LinkId link, link::EndpointId, std::string_view name) {

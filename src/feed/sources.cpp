@@ -173,8 +173,8 @@ std::size_t Sources::play(link::LinkHandler& handler, std::size_t most_frames) {
             continue;
         }
         const auto& record = *first->next;
-        const auto update = first->sequence.update(record.frame, record.info);
-        handler.on_frame({record.frame, record.info, first->link, first->endpoint, record.time, update});
+        const auto& update = first->sequence.update(record.frame, record.info);
+        handler.on_frame({record.frame, record.info, first->link, first->endpoint, record.time, &update});
         if (!advance(*first, handler)) return played + 1;
     }
     return played;

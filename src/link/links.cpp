@@ -182,9 +182,9 @@ std::size_t Links::send(EndpointId endpoint, const wire::FrameView& frame) {
     return found == nullptr ? 0 : found->send(frame);
 }
 
-wire::SequenceTracker::Update Links::count_loss(const RxFrame& rx) {
+const wire::SequenceTracker::Update& Links::count_loss(const RxFrame& rx) {
     Link* const found = core_->links.find(rx.link);
-    return found == nullptr ? wire::SequenceTracker::Update{} : Core::count_loss(*found, rx.frame, rx.info);
+    return found == nullptr ? wire::no_loss : Core::count_loss(*found, rx.frame, rx.info);
 }
 
 MonoTime Links::now() const noexcept { return core_->now(); }

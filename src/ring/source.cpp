@@ -151,13 +151,12 @@ void RingSource::parse(ByteView bytes, link::LinkHandler& handler) {
 }
 
 void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
-    const auto update = is_echo(verdict_) ? wire::SequenceTracker::Update{}
-                                          : last_->tracker.update(found.frame, found.info);
+    const auto& update = is_echo(verdict_) ? wire::no_loss : last_->tracker.update(found.frame, found.info);
     counters_.add(update);
     counters_.frames_in.add();
     counters_.bytes_in.add(found.frame.size());
     if (found.info == nullptr) counters_.unknown_ids.add();
-    handler.on_frame({found.frame, found.info, last_->id, id_, time_, update, verdict_});
+    handler.on_frame({found.frame, found.info, last_->id, id_, time_, &update, verdict_});
 }
 
 void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {

@@ -23,8 +23,9 @@ void Engine::set_options(const Options& options) { impl_->set_options(options); 
 void Engine::set_group_orders(std::span<const GroupOrder> orders) { impl_->set_group_orders(orders); }
 std::size_t Engine::links() const noexcept { return impl_->link_count; }
 std::uint64_t Engine::mark_of(const wire::FrameView& frame) const noexcept { return impl_->mark_of(frame); }
-Decision Engine::route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info, LinkId ingress,
-                       MonoTime now) noexcept {
+// Inlining all steps with `flatten` saves a quarter of the instructions.
+[[gnu::flatten]] Decision Engine::route(const wire::FrameView& frame, std::uint64_t mark, const wire::MessageInfo* info,
+                                        LinkId ingress, MonoTime now) noexcept {
     return impl_->route(frame, mark, info, ingress, now);
 }
 Decision Engine::route(const wire::FrameView& frame, LinkId ingress, MonoTime now) noexcept {
@@ -55,9 +56,8 @@ std::uint64_t Engine::Impl::mark_of(const wire::FrameView& frame) const noexcept
     return hash;
 }
 
-// Inlining all steps with `flatten` saves a quarter of the instructions.
-[[gnu::flatten]] Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash,
-                                              const wire::MessageInfo* info, LinkId ingress, MonoTime now) noexcept {
+Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, const wire::MessageInfo* info,
+                             LinkId ingress, MonoTime now) noexcept {
     const Slot slot = slot_of(ingress);
     if (slot == no_slot) [[unlikely]] {
         counters.unknown_link.add();

@@ -41,7 +41,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
     grown.places_ = capacity;
     grown.cells_ = ZeroedArray<std::uint64_t>(capacity * stride);
     const std::size_t kept = std::min(words, words_);
-    for (std::size_t i = 0; i < places_ && capacity != 0; ++i) {
+    for (std::size_t i = 0; i < end() && capacity != 0; i += stride_) {
         if (hash(i) == 0) continue;
         std::size_t at = 0;
         const bool found = grown.find(hash(i), at);
@@ -53,7 +53,7 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
 }
 
 void RecentFrames::forget(Slot slot) noexcept {
-    for (std::size_t i = 0; i < places_; ++i) {
+    for (std::size_t i = 0; i < end(); i += stride_) {
         if (hash(i) == 0) continue;
         erase(heard(i), slot);
         erase(sent(i), slot);

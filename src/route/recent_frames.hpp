@@ -27,7 +27,7 @@ public:
 
     // Prefetches the frame's bucket into the cache.
     void prefetch(std::uint64_t hash) const noexcept {
-        const std::uint64_t* place = &cells_[bucket(hash) * stride_];
+        const std::uint64_t* place = &cells_[bucket(hash)];
         for (std::size_t i = 0; i < ways; ++i, place += stride_) __builtin_prefetch(place, 1);
     }
 
@@ -39,7 +39,7 @@ public:
     bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept;
 
     [[nodiscard]] MonoTime time(std::size_t index) const noexcept { return MonoTime(Nanoseconds(time_ns(index))); }
-    [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index * stride_ + 2]; }
+    [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index + 2]; }
     [[nodiscard]] Words sent(std::size_t index) noexcept { return heard(index) + words_; }
 
     // Removes a link from all sets, because its slot will be reused.
@@ -49,12 +49,14 @@ private:
     static constexpr std::size_t ways = 4;
     static constexpr std::size_t most_bytes = 8u << 20;
 
+    // The index of a place is that of its first cell.
     [[nodiscard]] std::size_t bucket(std::uint64_t hash) const noexcept {
-        return static_cast<std::size_t>(hash) & (places_ - 1) & ~(ways - 1);
+        return (static_cast<std::size_t>(hash) & (places_ - 1) & ~(ways - 1)) * stride_;
     }
-    [[nodiscard]] std::uint64_t hash(std::size_t index) const noexcept { return cells_[index * stride_]; }
+    [[nodiscard]] std::size_t end() const noexcept { return places_ * stride_; }
+    [[nodiscard]] std::uint64_t hash(std::size_t index) const noexcept { return cells_[index]; }
     [[nodiscard]] std::int64_t time_ns(std::size_t index) const noexcept {
-        return static_cast<std::int64_t>(cells_[index * stride_ + 1]);
+        return static_cast<std::int64_t>(cells_[index + 1]);
     }
 
     // Each place holds the hash (0 if empty), the time, and the sets `heard` and `sent`. With up to 64 links, a bucket
@@ -65,8 +67,8 @@ private:
 };
 
 inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) const noexcept {
-    const std::size_t first = index = bucket(wanted);
-    for (std::size_t i = first; i < first + ways; ++i) {
+    std::size_t i = index = bucket(wanted);
+    for (std::size_t way = 0; way < ways; ++way, i += stride_) {
         if (hash(i) != wanted) continue;
         index = i;
         return true;
@@ -78,13 +80,13 @@ inline bool RecentFrames::put(std::uint64_t new_hash, MonoTime now, Nanoseconds 
                               std::size_t& index) noexcept {
     bool gave_way = false;
     if (!found) {
-        const std::size_t first = index;
-        for (std::size_t i = first + 1; i < first + ways; ++i)
-            if (time_ns(i) < time_ns(index)) index = i;
+        std::size_t i = index;
+        for (std::size_t way = 1; way < ways; ++way)
+            if (i += stride_; time_ns(i) < time_ns(index)) index = i;
         gave_way = hash(index) != 0 && now - time(index) < window;
     }
-    cells_[index * stride_] = new_hash;
-    cells_[index * stride_ + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
+    cells_[index] = new_hash;
+    cells_[index + 1] = static_cast<std::uint64_t>(now.time_since_epoch().count());
     each_word(words_, [&](std::size_t w) { heard(index)[w] = sent(index)[w] = 0; });
     return gave_way;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mavloom/base/bytes.hpp"
+
 namespace mavloom::wire {
 
 namespace {
@@ -20,6 +22,8 @@ constexpr ComponentId autopilot{1};  // MAV_COMP_ID_AUTOPILOT1
 
 // A MAVLink 2 sender may have cut off trailing zeros of the payload, so missing bytes read as 0.
 std::uint32_t boot_ms_in(ByteView payload, std::size_t offset) noexcept {
+    if (offset + 4 <= payload.size()) [[likely]]
+        return load_le<std::uint32_t>(payload.data() + offset);
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4 && offset + i < payload.size(); ++i)
         value |= std::uint32_t{payload[offset + i]} << (8 * i);
@@ -52,25 +56,36 @@ std::size_t SequenceTracker::find_or_add(Source source) {
     return index;
 }
 
+const SequenceTracker::Update& SequenceTracker::changed(const Update& update) noexcept { return changed_ = update; }
+
 // Inlining all calls makes this a quarter faster.
-[[gnu::flatten]] SequenceTracker::Update SequenceTracker::update(const FrameView& frame, const MessageInfo* info) {
+[[gnu::flatten]] const SequenceTracker::Update& SequenceTracker::update(const FrameView& frame, const MessageInfo* info) {
     const std::size_t index = find_or_add(frame.source());
     if (index == 0) {
         ++untracked_;
-        return {.verdict = Verdict::untracked};
+        return changed({.verdict = Verdict::untracked});
     }
     auto& stats = stats_[index - 1];
     auto& state = states_[index - 1];
-    Update result = judge(stats, state, frame);
+    const Update* result = &no_loss;
+    if (!state.fresh && frame.sequence() == state.expected) [[likely]] {
+        ++state.expected;
+        state.repeats = 0;
+        stats.no_sequence = false;
+    } else {
+        result = &changed(judge(stats, state, frame));
+        add(state.since_clock_ran, *result);
+    }
     ++stats.received;
     state.recent[frame.sequence() % window] = fingerprint(frame);
-    if (result.verdict != Verdict::good) [[unlikely]]
-        add(state.since_clock_ran, result);
-    if (info != nullptr && info->boot_time_offset != MessageInfo::no_boot_time)
-        watch_clock(stats, state, frame, *info, result);
-    return result;
+    if (info == nullptr || info->boot_time_offset == MessageInfo::no_boot_time) return *result;
+    const auto clock = watch_clock(state, frame, *info);
+    if (clock == ClockVerdict::restarted) result = &changed(restarted(stats, state, frame, *result));
+    if (clock != ClockVerdict::says_nothing) state.since_clock_ran = {};
+    return *result;
 }
 
+// Judges a frame that is not the expected one.
 SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept {
     const std::uint8_t sequence = frame.sequence();
     const auto advance = [&] { state.expected = static_cast<std::uint8_t>(sequence + 1); };
@@ -80,12 +95,6 @@ SequenceTracker::Update SequenceTracker::judge(SequenceStats& stats, State& stat
         return {.verdict = Verdict::first};
     }
     const auto d = static_cast<std::int8_t>(sequence - state.expected);
-    if (d == 0) {
-        state.repeats = 0;
-        stats.no_sequence = false;
-        advance();
-        return {};
-    }
     if (d == -1) {
         if (note_repeat(stats, state)) return {.verdict = Verdict::no_sequence};
     } else {
@@ -127,34 +136,19 @@ SequenceTracker::Update SequenceTracker::count_late(SequenceStats& stats) noexce
     return {.verdict = Verdict::late, .lost = taken_back, .late = 1};
 }
 
-// Handles the boot clock of a frame. Sequence numbers restarted somewhere between the last frame of the old clock and
-// this one. That was one jump, so a restart replaces whatever was counted in between by a single resync.
-void SequenceTracker::watch_clock(SequenceStats& stats, State& state, const FrameView& frame, const MessageInfo& info,
-                                  Update& update) noexcept {
-    if (info.id != system_time && frame.component() != autopilot) return;
-    const auto verdict = read_clock(state, info.id, boot_ms_in(frame.payload(), info.boot_time_offset));
-    if (verdict == ClockVerdict::says_nothing) return;
-    Update& since = state.since_clock_ran;
-    if (verdict == ClockVerdict::restarted) {
-        since.resync -= 1;  // keep one resync for the jump
-        stats.lost -= static_cast<std::uint64_t>(since.lost);
-        stats.late -= static_cast<std::uint64_t>(since.late);
-        stats.duplicate -= std::min(stats.duplicate, static_cast<std::uint64_t>(since.duplicate));
-        stats.resync -= static_cast<std::uint64_t>(since.resync);
-        update = {Verdict::reboot, update.lost - since.lost, update.late - since.late,
-                  update.duplicate - since.duplicate, update.resync - since.resync};
-        state.expected = static_cast<std::uint8_t>(frame.sequence() + 1);
-        state.repeats = 0;
-    }
-    since = {};
+SequenceTracker::ClockVerdict SequenceTracker::watch_clock(State& state, const FrameView& frame,
+                                                           const MessageInfo& info) noexcept {
+    if (info.id != system_time && frame.component() != autopilot) return ClockVerdict::says_nothing;
+    return read_clock(state, info.id, boot_ms_in(frame.payload(), info.boot_time_offset));
 }
 
 SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept {
     if (boot_ms == 0) return ClockVerdict::says_nothing;
-    const auto end = state.clocks.begin() + state.clock_count;
-    const auto clock = std::find_if(state.clocks.begin(), end, [&](const Clock& c) { return c.id == id.value; });
+    Clock* clock = state.clocks.data();
+    Clock* const end = clock + state.clock_count;
+    while (clock != end && clock->id != id.value) ++clock;
     if (clock == end) {
-        if (end == state.clocks.end()) return ClockVerdict::says_nothing;
+        if (state.clock_count == state.clocks.size()) return ClockVerdict::says_nothing;
         *end = {id.value, boot_ms, false};
         ++state.clock_count;
         return ClockVerdict::says_nothing;
@@ -169,6 +163,22 @@ SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageI
     state.clocks[0] = {id.value, boot_ms, false};  // the other clocks are from before the restart
     state.clock_count = 1;
     return ClockVerdict::restarted;
+}
+
+// Sequence numbers restarted somewhere between the last frame of the old clock and this one. That was one jump, so a
+// restart replaces whatever was counted in between by a single resync.
+SequenceTracker::Update SequenceTracker::restarted(SequenceStats& stats, State& state, const FrameView& frame,
+                                                   const Update& update) noexcept {
+    Update& since = state.since_clock_ran;
+    since.resync -= 1;  // keep one resync for the jump
+    stats.lost -= static_cast<std::uint64_t>(since.lost);
+    stats.late -= static_cast<std::uint64_t>(since.late);
+    stats.duplicate -= std::min(stats.duplicate, static_cast<std::uint64_t>(since.duplicate));
+    stats.resync -= static_cast<std::uint64_t>(since.resync);
+    state.expected = static_cast<std::uint8_t>(frame.sequence() + 1);
+    state.repeats = 0;
+    return {Verdict::reboot, update.lost - since.lost, update.late - since.late, update.duplicate - since.duplicate,
+            update.resync - since.resync};
 }
 
 void SequenceTracker::restart() noexcept {

@@ -45,8 +45,9 @@ struct RxFrame {
     EndpointId endpoint;
     // The kernel's receive time. For tlog sources: the time in the recording.
     WallTime time{};
-    // How this frame changed the link's loss counters. Empty if the owner counts loss (`count_loss`).
-    wire::SequenceTracker::Update sequence{};
+    // How this frame changed the link's loss counters; valid during the call, never null. Empty if the owner counts
+    // loss (`count_loss`).
+    const wire::SequenceTracker::Update* sequence = &wire::no_loss;
     // From a ring: the verdict that its writer recorded for the frame (ring/frames.hpp).
     std::uint8_t ring_verdict = 0;
 };
@@ -107,7 +108,8 @@ public:
     // although their endpoint has `sign=`.
     virtual std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
     // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
-    virtual wire::SequenceTracker::Update count_loss(const RxFrame& rx) = 0;
+    // The result is valid until the next call.
+    virtual const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) = 0;
     // The clock reading that the current turn uses.
     [[nodiscard]] virtual MonoTime now() const noexcept = 0;
     // A link's counters in constant time; null if the link is gone.
@@ -181,7 +183,7 @@ public:
     std::size_t send(LinkId link, const wire::FrameView& frame);
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
     std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override;
-    wire::SequenceTracker::Update count_loss(const RxFrame& rx) override;
+    const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) override;
     [[nodiscard]] MonoTime now() const noexcept override;
     // True while a queued frame has not been handed to the kernel.
     [[nodiscard]] bool pending() const;

@@ -56,8 +56,8 @@ public:
 
     SequenceTracker();
 
-    // `info` is null for an id without definition.
-    Update update(const FrameView& frame, const MessageInfo* info = nullptr);
+    // `info` is null for an id without definition. The result is valid until the next call.
+    const Update& update(const FrameView& frame, const MessageInfo* info = nullptr);
     // Forgets the expected sequence numbers: the next frame of each source is treated as its first. The totals stay.
     void restart() noexcept;
 
@@ -74,9 +74,9 @@ private:
     static constexpr std::uint8_t constant_after = 8;
 
     struct Clock {  // time_boot_ms of one message
-        std::uint32_t id;
-        std::uint32_t newest_ms;
-        bool fell;  // the last frame's value was lower than newest_ms
+        std::uint32_t id = 0;
+        std::uint32_t newest_ms = 0;
+        bool fell = false;  // the last frame's value was lower than newest_ms
     };
     enum class ClockVerdict : std::uint8_t { says_nothing, runs, restarted };
 
@@ -93,13 +93,16 @@ private:
     };
 
     [[nodiscard]] std::size_t find_or_add(Source source);
+    [[nodiscard]] const Update& changed(const Update& update) noexcept;
     [[nodiscard]] static Update judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept;
     [[nodiscard]] static bool note_repeat(SequenceStats& stats, State& state) noexcept;
     [[nodiscard]] static Update count_duplicate(SequenceStats& stats) noexcept;
     [[nodiscard]] static Update count_late(SequenceStats& stats) noexcept;
-    static void watch_clock(SequenceStats& stats, State& state, const FrameView& frame, const MessageInfo& info,
-                            Update& update) noexcept;
+    [[nodiscard]] static ClockVerdict watch_clock(State& state, const FrameView& frame,
+                                                  const MessageInfo& info) noexcept;
     [[nodiscard]] static ClockVerdict read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept;
+    [[nodiscard]] static Update restarted(SequenceStats& stats, State& state, const FrameView& frame,
+                                          const Update& update) noexcept;
 
     // Index into stats_ plus one, or 0 for an unheard source. One page of 256 components per system that was heard.
     std::vector<std::uint16_t> index_of_;
@@ -107,6 +110,10 @@ private:
     std::vector<SequenceStats> stats_;
     std::vector<State> states_;
     std::uint64_t untracked_ = 0;
+    Update changed_;  // what `update` returned last, unless the frame was good
 };
+
+// Most frames change no total.
+inline constexpr SequenceTracker::Update no_loss{};
 
 }  // namespace mavloom::wire

@@ -77,7 +77,7 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
     counters.bytes_in.add(event.frame.size());
     if (event.info == nullptr) [[unlikely]]
         counters.unknown_ids.add();
-    const auto update = owner_counts_loss_ ? wire::SequenceTracker::Update{} : count_loss(link, event.frame, event.info);
+    const auto* const update = owner_counts_loss_ ? &wire::no_loss : &count_loss(link, event.frame, event.info);
     ++frames_this_turn_;
     news.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
 }

@@ -82,9 +82,9 @@ public:
 
     // From now on the owner counts loss, with `count_loss`.
     void leave_loss_to_owner() noexcept { owner_counts_loss_ = true; }
-    static wire::SequenceTracker::Update count_loss(Link& link, const wire::FrameView& frame,
-                                                    const wire::MessageInfo* info) {
-        const auto update = link.tracker.update(frame, info);
+    static const wire::SequenceTracker::Update& count_loss(Link& link, const wire::FrameView& frame,
+                                                           const wire::MessageInfo* info) {
+        const auto& update = link.tracker.update(frame, info);
         if (update.verdict != wire::SequenceTracker::Verdict::good) [[unlikely]]
             link.counters.add(update);
         return update;

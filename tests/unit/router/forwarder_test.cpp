@@ -43,9 +43,9 @@ public:
         return static_cast<std::size_t>(
             std::ranges::count_if(links, [&](LinkId link) { return signing.contains(link.value); }));
     }
-    wire::SequenceTracker::Update count_loss(const link::RxFrame& rx) override {
+    const wire::SequenceTracker::Update& count_loss(const link::RxFrame& rx) override {
         counted.push_back(rx.link.value);
-        return {.verdict = loss_verdict};
+        return loss;
     }
     [[nodiscard]] MonoTime now() const noexcept override { return time; }
     [[nodiscard]] const link::LinkCounters* counters(LinkId link) const noexcept override {
@@ -60,7 +60,7 @@ public:
     Bytes last;
     std::set<std::uint32_t> signing;
     std::vector<std::uint32_t> counted;
-    Restart loss_verdict = Restart::good;
+    wire::SequenceTracker::Update loss;
     MonoTime time{1000s};
     std::map<std::uint32_t, link::LinkCounters> there;
     std::array<std::string_view, 4> names{"four", "one", "two", "three"};
@@ -179,7 +179,7 @@ bool restart_forgets_routes(std::string_view url, const route::Filter& in = {}) 
     router.endpoint(url).policy.in = in;
     router.links.there.try_emplace(++router.last);
     EXPECT_TRUE(router.sut.add_link(LinkId{1}, *router.endpoints[0]));
-    router.links.loss_verdict = Restart::reboot;
+    router.links.loss.verdict = Restart::reboot;
     router.hears(1, attitude());
     return router.sut.engine().counters().reboots.value() == 1;
 }
