@@ -12,7 +12,7 @@ class Stage::Impl {
 public:
     Impl(const dialect::Dialect& dialect, const Options& options, Plan plan)
         : dialect_(&dialect), plan_(std::move(plan)), version_(options.as_version), resequences_(options.resequence) {
-        if (options.sign_key) signer_.emplace(*options.sign_key, options.sign_link_id);
+        if (options.sign_key) signer_.emplace(*options.sign_key, options.sign_link_id, options.sign_after);
     }
 
     Outcome forward(const wire::FrameView& frame, WallTime received, WallTime now) noexcept {
@@ -45,6 +45,9 @@ public:
     }
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    [[nodiscard]] wire::SigningTime last_signed() const noexcept {
+        return signer_ ? signer_->last() : wire::SigningTime{};
+    }
     [[nodiscard]] std::span<const std::string> warnings() const noexcept { return plan_.warnings; }
 
 private:
@@ -101,6 +104,7 @@ Outcome Stage::forward(const wire::FrameView& frame, WallTime received, WallTime
 }
 Outcome Stage::backward(const wire::FrameView& frame) noexcept { return impl_->backward(frame); }
 const Counters& Stage::counters() const noexcept { return impl_->counters(); }
+wire::SigningTime Stage::last_signed() const noexcept { return impl_->last_signed(); }
 std::span<const std::string> Stage::warnings() const noexcept { return impl_->warnings(); }
 
 }  // namespace mavloom::edit

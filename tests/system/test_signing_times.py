@@ -138,6 +138,25 @@ def test_a_clock_that_was_set_back_does_not_bring_old_times_again(border, udp_so
     assert ahead < used[0] < used[1]
 
 
+@pytest.mark.parametrize("sig", [signal.SIGTERM, signal.SIGKILL])
+def test_a_relay_goes_on_where_the_last_one_stopped(spawn, udp_port, udp_socket, key, sig):
+    ahead = ticks() + 3600 * 100_000
+    (key.parent / "link.key.state").write_text(f"mavloom signing times 1\nsigned {ahead}\n")
+    port, far, vehicle, used = udp_port(), udp_socket(), udp_socket(), []
+    for _ in range(2):
+        relay = spawn("relay", f"udpin://127.0.0.1:{port}", "--to", f"udpout://127.0.0.1:{far.getsockname()[1]}",
+                      "--sign", key)
+        relay.wait_output("listening")
+        vehicle.sendto(next(frames.heartbeats(1)), ("127.0.0.1", port))
+        used.append(time_of(far.recv(1000)))
+        assert re.search("s ahead of the clock", relay.stderr)
+        relay.send(sig)
+        relay.wait()
+        assert int(re.search(r"^signed (\d+)$", state_of(key), re.MULTILINE)[1]) >= used[-1]
+
+    assert ahead < used[0] < used[1]
+
+
 def test_the_file_is_for_its_owner_only(border, key):
     first, _ = border()
     first.router.stop()

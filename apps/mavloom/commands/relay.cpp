@@ -6,11 +6,13 @@
 #include <array>
 #include <climits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command.hpp"
 #include "counted.hpp"
 #include "mavloom/edit/stage.hpp"
 #include "mavloom/feed/relay.hpp"
+#include "mavloom/link/signing_times.hpp"
 #include "mavloom/net/interfaces.hpp"
 #include "output.hpp"
 #include "receiving.hpp"
@@ -31,13 +33,38 @@ struct RelayOptions {
     bool json = false;
 };
 
+// Keeps the times of --sign, so that the next run, or a router with the same key, signs later ones.
+class KeptTimes {
+public:
+    KeptTimes(const Common& common, const edit::Stage& stage, std::optional<link::SigningTimes>& times)
+        : common_(common), stage_(stage), times_(times) {}
+    ~KeptTimes() { keep(); }
+    KeptTimes(const KeptTimes&) = delete;
+    KeptTimes& operator=(const KeptTimes&) = delete;
+
+    void keep() {
+        if (!times_) return;
+        std::vector<std::string> notices;
+        times_->keep(stage_.last_signed(), mono_now(), notices);
+        for (const auto& notice : notices) say(common_, notice);
+    }
+
+private:
+    const Common& common_;
+    const edit::Stage& stage_;
+    std::optional<link::SigningTimes>& times_;
+};
+
 // Logs the events of the relay. A signal ends it.
 class Events final : public feed::RelayHandler {
 public:
-    explicit Events(const Common& common) : common_(common) {}
+    Events(const Common& common, KeptTimes& times) : common_(common), times_(times) {}
 
 private:
-    bool should_stop() override { return Signals::received(); }
+    bool should_stop() override {
+        times_.keep();
+        return Signals::received();
+    }
     void on_waiting() override { say(common_, "waiting until every destination has a peer"); }
     void on_started() override { say(common_, "every destination has a peer: starting"); }
     void on_link_up(std::string_view name) override {
@@ -49,6 +76,7 @@ private:
     void on_notice(std::string_view text) override { say(common_, text); }
 
     const Common& common_;
+    KeptTimes& times_;
 };
 
 // Prints the relay's results: as log lines, and as one JSON object.
@@ -100,15 +128,24 @@ Exit status_of(const feed::RelayOutcome& outcome, Exit printed) {
 SetupResult<void> check_words(RelayOptions& options) {
     if (options.as_v1) options.edit.as_version = wire::Version::v1;
     if (options.as_v2) options.edit.as_version = wire::Version::v2;
-    if (!options.sign_file.empty()) {
-        auto key = wire::SigningKey::load(options.sign_file);
-        if (!key) return tl::unexpected(std::move(key.error()).within("--sign"));
-        options.edit.sign_key = *key;
-    }
     if (!options.duration.empty())
         if (auto time = endpoint::parse_duration(options.duration); !time)
             return tl::unexpected(std::move(time.error()).within("--for"));
     return {};
+}
+
+// Loads the key of --sign, and the last time that was signed with it. Empty without --sign.
+SetupResult<std::optional<link::SigningTimes>> open_key(const Common& common, RelayOptions& options) {
+    if (options.sign_file.empty()) return std::nullopt;
+    auto key = wire::SigningKey::load(options.sign_file);
+    if (!key) return tl::unexpected(std::move(key.error()).within("--sign"));
+    std::vector<std::string> notices;
+    auto times = link::SigningTimes::open(options.sign_file, *key, notices);
+    for (const auto& notice : notices) say(common, notice);
+    if (!times) return tl::unexpected(std::move(times.error()).within("--sign"));
+    options.edit.sign_key = *key;
+    options.edit.sign_after = times->last();
+    return std::move(*times);
 }
 
 bool is_sent_to(const endpoint::Endpoint& ring, const std::vector<std::string>& to) {
@@ -181,6 +218,8 @@ Exit relay(const Common& common, RelayOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto checked = check_words(options); !checked) return fail(checked.error());
+    auto times = open_key(common, options);
+    if (!times) return fail(times.error());
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
     for (const auto& warning : (*stage)->warnings()) say(common, warning);
@@ -194,7 +233,8 @@ Exit relay(const Common& common, RelayOptions& options) {
     if (!destinations) return Signals::received() ? Signals::status(Exit::failed) : fail(destinations.error());
     const auto end = options.duration.empty() ? MonoTime::max()
                                               : mono_now() + *endpoint::parse_duration(options.duration);
-    Events events(common);
+    KeptTimes kept(common, **stage, *times);
+    Events events(common, kept);
     using Signing = feed::Relay::Signing;
     feed::Relay relaying(*sources, *destinations, **stage, events, options.edit.sign_key ? Signing::on : Signing::off);
     const auto outcome = relaying.run(end);

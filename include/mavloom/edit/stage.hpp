@@ -34,6 +34,7 @@ struct Options {
     std::optional<wire::Version> as_version{};
     std::optional<wire::SigningKey> sign_key{};
     std::uint8_t sign_link_id = 0;
+    wire::SigningTime sign_after{};  // signatures are later than this
     bool resequence = false;
 };
 
@@ -80,6 +81,8 @@ public:
     [[nodiscard]] Outcome backward(const wire::FrameView& frame) noexcept;
 
     [[nodiscard]] const Counters& counters() const noexcept;
+    // The time of the last signature; `sign_after` before the first one, and 0 without a key.
+    [[nodiscard]] wire::SigningTime last_signed() const noexcept;
     // Warnings about harmful options, one line each: for example, a rate for a message that a protocol waits for.
     [[nodiscard]] std::span<const std::string> warnings() const noexcept;
 

@@ -24,12 +24,7 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
         auto opened = signature->open(options.sign_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
         const auto& [path, key, times] = signature->sign_with_.emplace(std::move(*opened));
-        if (times->state.last_signed.ticks + KeyStates::reserve_ticks >= wire::SigningTime::limit)
-            return setup_error(SetupCode::bad_input,
-                               fmt::format("{}: the signing times of this key are used up; create a new key for both "
-                                           "sides with mavloom key new",
-                                           times->path().string()));
-        KeyStates::begin_signing(*times);
+        if (auto begun = KeyStates::begin_signing(*times); !begun) return tl::unexpected(std::move(begun).error());
         signature->signer_.emplace(key, signs_as, times->state.last_signed);
     }
     return signature;

@@ -230,9 +230,14 @@ std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
     return judge;
 }
 
-void KeyStates::begin_signing(KeyFile& file) {
+SetupResult<void> KeyStates::begin_signing(KeyFile& file) {
+    if (file.state.last_signed.ticks + reserve_ticks >= time_limit)
+        return setup_error(SetupCode::bad_input, fmt::format("{}: the signing times of this key are used up; create a "
+                                                             "new key for both sides with mavloom key new",
+                                                             file.path().string()));
     file.state.last_signed = std::max(file.state.last_signed, wire::SigningTime::from(wall_now()));
     (void)file.write(with_reserve(file.state));  // `open` has already reported any error
+    return {};
 }
 
 void KeyStates::save(MonoTime now, std::vector<std::string>& notices) {

@@ -93,8 +93,8 @@ public:
                                                 std::vector<std::string>& notices);
     // The shared verification state of a key.
     [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
-    // Call it before signing the first frame with the key.
-    static void begin_signing(KeyFile& file);
+    // Call it before signing the first frame with the key. An error if the key's times are used up.
+    [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Keeps the last time that was signed with a key in KEYFILE.state, for a program that signs outside of an endpoint's
+// `sign=`. The file is the one that endpoints with this key use. Source: MAVLink guide, "Message Signing": the timestamp
+// must be stored and must never go back.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/base/result.hpp"
+#include "mavloom/wire/signing.hpp"
+
+namespace mavloom::link {
+
+// One owner thread. A thread of its own writes the file.
+class SigningTimes {
+public:
+    // `notices` receives problems that a person should know about, such as an unreadable file. Error `bad_input`: the
+    // times of this key are used up.
+    [[nodiscard]] static SetupResult<SigningTimes> open(const std::filesystem::path& key_file,
+                                                        const wire::SigningKey& key,
+                                                        std::vector<std::string>& notices);
+    SigningTimes(SigningTimes&&) noexcept;
+    SigningTimes& operator=(SigningTimes&&) noexcept;
+    // Saves the final time.
+    ~SigningTimes();
+
+    // Sign later than this.
+    [[nodiscard]] wire::SigningTime last() const noexcept;
+    // Notes the last time that was signed. Call it often: it saves every 2 s, and a program that is killed then signs
+    // no time again after its restart. `notices` receives errors of earlier writes.
+    void keep(wire::SigningTime last, MonoTime now, std::vector<std::string>& notices);
+
+private:
+    struct Impl;
+    explicit SigningTimes(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mavloom::link
