@@ -46,7 +46,7 @@ RelayOutcome Relay::finish() {
     if (auto closed = destinations_.close(); !closed) outcome.write_error = std::move(closed.error());
     if (const auto* error = sources_.error()) outcome.read_error = *error;
     outcome.unheard_answers = unheard_answers_;
-    outcome.is_incomplete = sources_.finished() && destinations_.lost_any();
+    outcome.is_incomplete = sources_.are_recordings() && destinations_.lost_any();
     const bool had_any = destinations_.given() != 0 || (has_waited_ && !has_started_);
     outcome.reached_nobody = had_any && destinations_.reached_nobody();
     return outcome;

@@ -261,7 +261,9 @@ void Sources::add_to(Totals& totals) {
     for (const auto& recording : recordings_) totals.add(recording->reader.counters());
 }
 
-bool Sources::finished() const noexcept { return live_.empty() && rings_->empty() && finished_recordings(); }
+bool Sources::are_recordings() const noexcept { return live_.empty() && rings_->empty(); }
+
+bool Sources::finished() const noexcept { return are_recordings() && finished_recordings(); }
 
 bool Sources::finished_recordings() const noexcept {
     return std::ranges::all_of(recordings_, [](const auto& r) { return r->ended; });

@@ -91,6 +91,7 @@ public:
     // counts. Call it once, at the end.
     void add_to(Totals& totals);
 
+    [[nodiscard]] bool are_recordings() const noexcept;
     // Whether all sources are recordings, and all of them have ended.
     [[nodiscard]] bool finished() const noexcept;
     [[nodiscard]] bool finished_recordings() const noexcept;

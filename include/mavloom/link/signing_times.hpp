@@ -21,8 +21,7 @@ public:
     // `notices` receives problems that a person should know about, such as an unreadable file. Error `bad_input`: the
     // times of this key are used up.
     [[nodiscard]] static SetupResult<SigningTimes> open(const std::filesystem::path& key_file,
-                                                        const wire::SigningKey& key,
-                                                        std::vector<std::string>& notices);
+                                                        const wire::SigningKey& key, std::vector<std::string>& notices);
     SigningTimes(SigningTimes&&) noexcept;
     SigningTimes& operator=(SigningTimes&&) noexcept;
     // Saves the final time.

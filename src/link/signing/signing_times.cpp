@@ -21,7 +21,8 @@ SetupResult<SigningTimes> SigningTimes::open(const std::filesystem::path& key_fi
                                              std::vector<std::string>& notices) {
     auto impl = std::make_unique<Impl>();
     impl->file = impl->states.open(key_file, key, notices);
-    if (auto begun = detail::KeyStates::begin_signing(*impl->file); !begun) return tl::unexpected(std::move(begun).error());
+    if (auto begun = detail::KeyStates::begin_signing(*impl->file); !begun)
+        return tl::unexpected(std::move(begun).error());
     return SigningTimes(std::move(impl));
 }
 

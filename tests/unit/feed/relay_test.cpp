@@ -126,6 +126,20 @@ TEST(Relay, ARecordingWaitsForAPeer) {
     EXPECT_TRUE(heard == frames_of(session));
 }
 
+TEST(Relay, ARecordingThatIsStoppedAfterALossIsIncomplete) {
+    Bench bench;
+    bench.add_source("tlog://" + flight.string());
+    bench.send_to({"tcpin://127.0.0.1:0"});
+    std::optional<PlainSocket> peer(PlainSocket::connected_tcp(last_port(bench.sources.links())));
+    bench.handler.before_turn = [&] {
+        if (bench.destinations->given() != 0) peer.reset();
+        return bench.destinations->deliveries().at(0).nobody_there != 0;
+    };
+    const auto outcome = bench.run();
+    EXPECT_LT(bench.destinations->given(), 40'087u);
+    EXPECT_TRUE(outcome.is_incomplete);
+}
+
 TEST(Relay, ARecordingForWhichNobodyComesReachesNobody) {
     Bench bench;
     bench.add_source("tlog://" + session.string());
