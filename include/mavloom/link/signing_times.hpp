@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Keeps the last time that was signed with a key in KEYFILE.state, for a program that signs outside of an endpoint's
-// `sign=`. The file is the one that endpoints with this key use. Source: MAVLink guide, "Message Signing": the timestamp
-// must be stored and must never go back.
+// `sign=`. Endpoints with this key use the same file. Source: MAVLink guide, "Message Signing": the timestamp must be
+// stored and must never go back.
 #pragma once
 
 #include <filesystem>
