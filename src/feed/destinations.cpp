@@ -57,6 +57,18 @@ bool Destinations::send(const wire::FrameView& frame, WallTime time) {
     return takers != 0;
 }
 
+void Destinations::look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice) {
+    constexpr std::chrono::milliseconds interval{500};
+    if (now < files_due_) return;
+    files_due_ = now + interval;
+    for (auto& file : files_) {
+        keep(file.flush());
+        auto removed = file.renew_if_removed(now);
+        if (removed && !removed->empty()) on_notice(record::removal_notice(*removed));
+        if (!removed) keep(tl::unexpected(std::move(removed.error())));
+    }
+}
+
 void Destinations::keep(SetupResult<void> result) {
     if (!result && !failure_) failure_ = std::move(result.error());
 }

@@ -13,7 +13,7 @@ constexpr std::size_t most_names = 65'536;        // bounds memory if very many 
 constexpr std::size_t most_sources = 65'536;      // bounds memory if system and component ids are forged
 constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 bytes of header and the longest frame, rounded up
 constexpr std::size_t frames_a_turn = 4096;       // from recordings and rings, so that live links get their turn
-constexpr auto drops_every = 1s;                  // how often to ask the kernel for its drop counts
+constexpr auto look_every = 1s;                   // how often to ask the kernel for its drop counts
 
 }  // namespace
 
@@ -65,12 +65,13 @@ std::size_t Receiver::frames_that_fit() const noexcept {
 }
 
 void Receiver::run() {
-    auto ask_kernel = mono_now() + drops_every;
+    auto ask_kernel = mono_now() + look_every;
     for (auto now = mono_now(); !stopping_.load(std::memory_order_relaxed) && now < end_ && !sources_.finished();
          now = mono_now()) {
         if (now >= ask_kernel) {
             sources_.links().refresh_kernel_drops();
-            ask_kernel = now + drops_every;
+            queue_->wake();
+            ask_kernel = now + look_every;
         }
         const std::size_t room = frames_that_fit();
         sources_.turn(*this, room == 0 ? now + 1ms : std::min(ask_kernel, end_), Room(room));

@@ -20,6 +20,7 @@ void Relay::turn(MonoTime end) {
     const std::size_t of_recordings = has_started_ ? room() : 0;
     const Nanoseconds longest = of_recordings == 0 ? Nanoseconds{look_for_room} : Nanoseconds{longest_turn};
     sources_.turn(*this, std::min(end, mono_now() + longest), {of_recordings, room(), frames_a_turn});
+    destinations_.look_after_files(mono_now(), [this](std::string_view text) { handler_.on_notice(text); });
 }
 
 void Relay::wait_for_peers() {

@@ -53,17 +53,11 @@ void Recorder::run() {
     finished_.store(true, std::memory_order_release);
 }
 
-// Looks at most once in `look_interval`, because frames may arrive one at a time.
 SetupResult<void> Recorder::look_at_file() {
-    constexpr std::chrono::milliseconds look_interval{500};
-    const MonoTime now = mono_now();
-    if (now < look_due_) return {};
-    look_due_ = now + look_interval;
-    if (!writer_.is_removed()) return {};
-    const auto file = writer_.segment_path();
-    auto anew = writer_.begin_anew();
-    if (anew) notice_(fmt::format("{}: {} was removed or replaced; a new file begins", label_, file.string()));
-    return anew;
+    auto removed = writer_.renew_if_removed(mono_now());
+    if (!removed) return tl::unexpected(std::move(removed.error()));
+    if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed)));
+    return {};
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {

@@ -91,6 +91,16 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
     return closed;
 }
 
+SetupResult<fs::path> RotatingWriter::renew_if_removed(MonoTime now) {
+    constexpr std::chrono::milliseconds look_interval{500};
+    if (now < look_due_) return {};
+    look_due_ = now + look_interval;
+    if (!writer_ || !writer_->is_file() || writer_->is_named()) return {};
+    auto removed = segment_path();
+    if (auto anew = begin_anew(); !anew) return tl::unexpected(std::move(anew.error()));
+    return removed;
+}
+
 SetupResult<void> RotatingWriter::begin_anew() {
     if (rotation_.rotates()) return end_segment();
     auto next = TlogWriter::create(path_);
@@ -155,6 +165,10 @@ std::uint64_t RotatingWriter::lost_records() const noexcept {
 
 std::uint64_t RotatingWriter::written_bytes() const noexcept {
     return before_.bytes + (writer_ ? writer_->written_bytes() : 0);
+}
+
+std::string removal_notice(const fs::path& removed) {
+    return fmt::format("{} was removed or replaced; a new file begins", removed.string());
 }
 
 }  // namespace mavloom::record

@@ -218,6 +218,28 @@ def test_a_recording_waits_for_room_on_a_full_disk(spawn, udp_socket, tmp_path, 
         assert done.stderr.count("waiting for room") == 1
 
 
+@pytest.mark.parametrize("command", ["record udpin://127.0.0.1:0 -o", "relay udpin://127.0.0.1:0 --to"])
+@pytest.mark.parametrize("how", ["deleted", "replaced", "rotated"])
+def test_a_file_that_goes_is_told_and_a_new_one_begins(spawn, udp_socket, tmp_path, wait_for, command, how):
+    options = "?rotate_every=1h" if how == "rotated" else ""
+    process = spawn(*command.split(), f"tlog://{tmp_path / 'x.tlog'}{options}")
+    address = ("127.0.0.1", int(process.wait_output(r"listening on port (\d+)", stream="err")[1]))
+    sender = udp_socket()
+
+    def recorded(frame):
+        sender.sendto(frame, address)
+        return lambda: any(frame in path.read_bytes() for path in tmp_path.glob("x*.tlog"))
+    wait_for(recorded(frames.attitude(1)), what="the first frame")
+    first, = tmp_path.glob("x*.tlog")
+    first.unlink()
+    if how == "replaced":
+        first.write_bytes(b"")
+    process.wait_output(f"{first} was removed or replaced; a new file begins", stream="err")
+    wait_for(recorded(frames.attitude(2)), what="the second frame in a new file")
+    assert (tmp_path / "x.tlog.1").exists() == (how == "replaced")
+    assert process.stop().status == 130
+
+
 def test_a_recording_on_a_disk_that_stays_full_ends_when_it_is_asked_to(spawn, tmp_path):
     disk = SmallDisk(tmp_path)
     with contextlib.closing(disk):

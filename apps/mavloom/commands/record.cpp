@@ -36,6 +36,7 @@ public:
     // Runs until the end. Flushes records to the system whenever idle, so that a kill loses little.
     SetupResult<void> run() {
         while (receiver_.wait()) {
+            if (auto looked = look_at_file(); !looked) return looked;
             while (const auto entry = receiver_.next()) {
                 if (!options_.selection.takes(entry->frame)) continue;
                 if (auto written = write(*entry); !written) return written;
@@ -47,6 +48,14 @@ public:
     }
 
 private:
+    SetupResult<void> look_at_file() {
+        auto removed = writer_.renew_if_removed(mono_now());
+        if (!removed && writer_.is_full_disk(removed.error())) return {};  // the next write waits for room
+        if (!removed) return tl::unexpected(std::move(removed.error()));
+        if (!removed->empty()) say(common_, record::removal_notice(*removed));
+        return {};
+    }
+
     SetupResult<void> write(const record::FrameQueue::Entry& entry) {
         auto room = writer_.make_room(entry.frame);
         if (!room) room = flush();
@@ -63,6 +72,7 @@ private:
                                  flushed.error().text));
         while (!flushed && writer_.is_full_disk(flushed.error()) && goes_on()) {
             ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends the wait
+            if (auto looked = look_at_file(); !looked) return looked;
             flushed = writer_.flush();
         }
         if (flushed) say(common_, fmt::format("{}: records are written again", writer_.path().string()));

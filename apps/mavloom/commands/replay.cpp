@@ -46,6 +46,7 @@ public:
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
+            destinations_.look_after_files(mono_now(), [this](std::string_view text) { say(common_, text); });
             show_progress();
         }
         link::flush(sources_.links(), *this, longest_flush);

@@ -56,6 +56,8 @@ public:
     void join();
 
     [[nodiscard]] std::optional<record::FrameQueue::Entry> next() noexcept { return queue_->next(); }
+    // Waits for a frame, for about a second at most, so that the consumer can look after its file. Returns false at the
+    // end.
     [[nodiscard]] bool wait() noexcept { return queue_->wait(); }
     // The name of a link, valid as long as the receiver exists. Consumer thread only.
     [[nodiscard]] std::string_view link_name(LinkId link);

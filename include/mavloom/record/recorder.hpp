@@ -77,7 +77,6 @@ private:
     Notice notice_;
     RecorderCounters counters_;
     bool failing_ = false;
-    MonoTime look_due_{};
     std::atomic<bool> finished_{false};
     std::thread thread_;
 };

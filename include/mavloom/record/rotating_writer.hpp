@@ -12,7 +12,9 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 
+#include "mavloom/base/clock.hpp"
 #include "mavloom/record/tlog_writer.hpp"
 
 namespace mavloom::record {
@@ -43,11 +45,10 @@ public:
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
-    // Returns true if another program removed, renamed or replaced the file that is written to.
-    [[nodiscard]] bool is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
-    // Closes the file, and begins a new one: at once, or, with rotation, with the next frame. After an error, the old
-    // file stays open.
-    [[nodiscard]] SetupResult<void> begin_anew();
+    // If another program removed, renamed or replaced the file that is written to, begins a new one: at once, or, with
+    // rotation, with the next frame. Looks at most twice a second, so call it for each batch of frames and once a
+    // second. Returns the path of the old file; empty if it is still there. After an error, the old file stays open.
+    [[nodiscard]] SetupResult<std::filesystem::path> renew_if_removed(MonoTime now);
     [[nodiscard]] SetupResult<void> close();
 
     // The path given to `create`.
@@ -70,6 +71,7 @@ private:
     // Flushes; returns true if the disk has no room for the buffered records.
     [[nodiscard]] bool is_disk_full();
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
+    [[nodiscard]] SetupResult<void> begin_anew();
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
@@ -77,6 +79,7 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
+    MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;
     struct Sums {
@@ -85,5 +88,8 @@ private:
     std::uint64_t refused_ = 0;
     bool closed_ = false;  // records that the last segment still buffers are lost
 };
+
+// What to tell a person after `renew_if_removed`.
+[[nodiscard]] std::string removal_notice(const std::filesystem::path& removed);
 
 }  // namespace mavloom::record
