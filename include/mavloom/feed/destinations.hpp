@@ -69,7 +69,7 @@ public:
     [[nodiscard]] bool reached_nobody() const;
 
     // Twice a second, writes what the files still buffer, and begins a new file for each one that another program
-    // removed or replaced, of which `on_notice` is told. Call it at least once a second.
+    // removed or replaced, which it reports to `on_notice`. Call it at least once a second.
     void look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice);
     // Whether a file could not be written. The command must then end.
     [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }

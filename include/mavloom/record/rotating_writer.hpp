@@ -89,7 +89,7 @@ private:
     bool closed_ = false;  // records that the last segment still buffers are lost
 };
 
-// What to tell a person after `renew_if_removed`.
+// The line that reports a removal to a person.
 [[nodiscard]] std::string removal_notice(const std::filesystem::path& removed);
 
 }  // namespace mavloom::record
