@@ -97,8 +97,8 @@ SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, M
     const double speed = endpoint.options.speed.value_or(default_speed);
     record::Pacer pacer(speed, now);
     const MonoTime due = pacer.waits() ? now : MonoTime{};
-    recordings_.push_back(std::make_unique<Recording>(
-        Recording{LinkId{id}, link::EndpointId{id}, endpoint.label(), std::move(*reader), pacer, {}, {}, due}));
+    recordings_.push_back(std::unique_ptr<Recording>(
+        new Recording{LinkId{id}, link::EndpointId{id}, endpoint.label(), std::move(*reader), pacer, {}, {}, due}));
     return link::EndpointId{id};
 }
 

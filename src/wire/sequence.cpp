@@ -41,6 +41,17 @@ void add(SequenceTracker::Update& sum, const SequenceTracker::Update& one) noexc
 
 SequenceTracker::SequenceTracker() : index_of_(256) { page_of_.fill(0); }
 
+SequenceTracker::~SequenceTracker() {
+    if (budget_ != nullptr && stats_.size() > own_sources) budget_->left_ += stats_.size() - own_sources;
+}
+
+bool SequenceTracker::has_room() noexcept {
+    if (stats_.size() < own_sources || budget_ == nullptr) return stats_.size() < max_sources;
+    if (stats_.size() == max_sources || budget_->left_ == 0) return false;
+    --budget_->left_;
+    return true;
+}
+
 std::size_t SequenceTracker::find_or_add(Source source) {
     auto& page = page_of_[source.system.value];
     if (page == 0) {
@@ -48,7 +59,7 @@ std::size_t SequenceTracker::find_or_add(Source source) {
         index_of_.resize(index_of_.size() + 256);
     }
     auto& index = index_of_[std::size_t{page} * 256 + source.component.value];
-    if (index == 0 && stats_.size() < max_sources) {
+    if (index == 0 && has_room()) {
         stats_.push_back({source});
         states_.emplace_back();
         index = static_cast<std::uint16_t>(stats_.size());

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
 units."""
+import contextlib
+import pathlib
+import re
 import subprocess
 import time
 import urllib.request
@@ -133,6 +136,22 @@ def test_silent_clients_turn_nobody_away(spawn):
     for client in silent:
         client.close()
     assert router.stats("endpoint")[0]["peers_evicted"] == 1
+
+
+def test_invented_ids_on_many_clients_take_bounded_memory(spawn):
+    """256 clients with 4,000 ids each took 230 MB, and `stat` 1 GB."""
+    port, clients, ids = routers.tcp_port(), 100, [(1 + i // 250, 1 + i % 250) for i in range(1500)]
+    router = Router(spawn, f"tcpin://127.0.0.1:{port}?queue_bytes=4k")
+    with contextlib.ExitStack() as open_clients:
+        for n in range(clients):
+            client = open_clients.enter_context(routers.tcp_client(port))
+            client.send(b"".join(attitude(source) for source in ids))
+            harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == (n + 1) * len(ids),
+                             what="all frames")
+        assert router.stats("source")
+        status = pathlib.Path(f"/proc/{router.process.pid}/status").read_text()
+
+    assert int(re.search(r"RssAnon:\s+(\d+) kB", status)[1]) < 40_000
 
 
 def test_invented_ids_do_not_grow_the_metrics(spawn):

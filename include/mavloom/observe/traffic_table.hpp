@@ -42,7 +42,7 @@ struct TrafficRow {
 
 class TrafficTable {
 public:
-    static constexpr std::size_t max_rows = 65'536;
+    static constexpr std::size_t max_rows = 32'768;
 
     void add(LinkId link, const wire::FrameView& frame, WallTime time);
     // Removes the rows of all links for which `is_there(LinkId)` returns false.

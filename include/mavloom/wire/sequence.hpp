@@ -40,9 +40,21 @@ struct SequenceStats {
     bool no_sequence = false;  // the sender repeats the same sequence number in every frame
 };
 
+// How many sources several trackers may have together, beyond the first few of each. So a sender that invents ids on
+// many links takes a bounded amount of memory, and leaves room for the sources of other links.
+class SourceBudget {
+public:
+    explicit SourceBudget(std::size_t sources) noexcept : left_(sources) {}
+
+private:
+    friend class SequenceTracker;
+    std::size_t left_;
+};
+
 class SequenceTracker {
 public:
     static constexpr std::size_t max_sources = 4096;
+    static constexpr std::size_t own_sources = 16;  // that no budget limits
 
     enum class Verdict : std::uint8_t { first, good, gap, late, duplicate, resync, reboot, no_sequence, untracked };
     // How one frame changed the totals. A gap raises `lost`, and a late frame lowers it by one. A reboot reverts the
@@ -55,7 +67,12 @@ public:
     static constexpr std::uint32_t boot_tolerance_ms = 1000;
 
     SequenceTracker();
+    SequenceTracker(const SequenceTracker&) = delete;
+    SequenceTracker& operator=(const SequenceTracker&) = delete;
+    ~SequenceTracker();
 
+    // Takes sources beyond `own_sources` from `budget`, which must outlive the tracker. Call it before `update`.
+    void limit_by(SourceBudget& budget) noexcept { budget_ = &budget; }
     // `info` is null for an id without definition. The result is valid until the next call.
     const Update& update(const FrameView& frame, const MessageInfo* info = nullptr);
     // Forgets the expected sequence numbers: the next frame of each source is treated as its first. The totals stay.
@@ -64,7 +81,7 @@ public:
     // All sources, in the order in which they were first heard. `lost` is never negative.
     [[nodiscard]] std::span<const SequenceStats> sources() const noexcept { return stats_; }
     [[nodiscard]] SequenceStats total() const noexcept;
-    // The number of frames from sources beyond `max_sources`.
+    // The number of frames from sources beyond `max_sources` or the budget.
     [[nodiscard]] std::uint64_t untracked() const noexcept { return untracked_; }
 
 private:
@@ -93,6 +110,7 @@ private:
     };
 
     [[nodiscard]] std::size_t find_or_add(Source source);
+    [[nodiscard]] bool has_room() noexcept;
     [[nodiscard]] const Update& changed(const Update& update) noexcept;
     [[nodiscard]] static Update judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept;
     [[nodiscard]] static bool note_repeat(SequenceStats& stats, State& state) noexcept;
@@ -110,6 +128,7 @@ private:
     std::vector<SequenceStats> stats_;
     std::vector<State> states_;
     std::uint64_t untracked_ = 0;
+    SourceBudget* budget_ = nullptr;
     Update changed_;  // what `update` returned last, unless the frame was good
 };
 

@@ -59,6 +59,7 @@ void Core::run_tickers() {
 
 void Core::add_link(Link& link) {
     link.language = &languages.of(link.endpoint);
+    link.tracker.limit_by(source_budget);
     links.add(link);
 }
 

@@ -136,6 +136,31 @@ TEST(SequenceTracker, BoundsItsMemory) {
     EXPECT_EQ(sut.untracked(), 65536u - SequenceTracker::max_sources);
 }
 
+void hear_sources(SequenceTracker& sut, unsigned count) {
+    for (unsigned source = 0; source < count; ++source) {
+        TestFrame frame(0, static_cast<std::uint8_t>(source >> 8));
+        frame.bytes[6] = static_cast<std::uint8_t>(source);
+        sut.update(frame);
+    }
+}
+
+TEST(SequenceTracker, SharesABudgetButKeepsAFewSourcesOfItsOwn) {
+    SourceBudget budget(100);
+    SequenceTracker honest;
+    honest.limit_by(budget);
+    {
+        SequenceTracker greedy;
+        greedy.limit_by(budget);
+        hear_sources(greedy, 1000);
+        EXPECT_EQ(greedy.sources().size(), 100 + SequenceTracker::own_sources);
+        EXPECT_EQ(greedy.untracked(), 1000 - greedy.sources().size());
+        hear_sources(honest, 20);
+        EXPECT_EQ(honest.sources().size(), SequenceTracker::own_sources);
+    }
+    hear_sources(honest, 30);  // the other one has given back what it took
+    EXPECT_EQ(honest.sources().size(), 30u);
+}
+
 // ---- restarts. Rules: docs/guide/routing.md. Offsets are common.xml's: ATTITUDE and GLOBAL_POSITION_INT begin with
 // time_boot_ms, in SYSTEM_TIME it stands behind eight bytes.
 
