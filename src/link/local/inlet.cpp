@@ -99,6 +99,11 @@ private:
 // ---- the socket -----------------------------------------------------------------------------------------------------
 
 SetupResult<void> take_over(const std::filesystem::path& path) {
+    struct stat status {};
+    const bool is_there = ::lstat(path.c_str(), &status) == 0;
+    if (is_there && status.st_uid != ::geteuid())
+        return setup_error(SetupCode::permission,
+                           fmt::format("{} belongs to another user (id {}); remove it", path.string(), status.st_uid));
     const auto probe = net::LocalSender::connect(path);
     if (probe) {
         const auto process = net::process_serving(path);
@@ -106,10 +111,8 @@ SetupResult<void> take_over(const std::filesystem::path& path) {
                            fmt::format("{} is already served by {}; end it, or use another ring", path.string(),
                                        process ? fmt::format("process {}", *process) : "another process"));
     }
-    struct stat status {};
-    if (::lstat(path.c_str(), &status) != 0) return {};
-    if (!S_ISSOCK(status.st_mode))
-        return setup_error(SetupCode::in_use, fmt::format("{} exists and is not a socket; remove it", path.string()));
+    if (is_there && !S_ISSOCK(status.st_mode))
+        return setup_error(SetupCode::bad_input, fmt::format("{} exists and is not a socket; remove it", path.string()));
     if (probe.error().sys_errno == ECONNREFUSED) ::unlink(path.c_str());
     return {};
 }
