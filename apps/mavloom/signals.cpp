@@ -67,7 +67,7 @@ void Signals::survive_lost_rings() noexcept {
     struct sigaction action {};
     action.sa_sigaction = on_bus_error;
     action.sa_flags = SA_SIGINFO;
-    ::sigaction(SIGBUS, &action, nullptr);
+    if (::sigaction(SIGBUS, &action, nullptr) == 0) shm::survives_lost_mappings();
 }
 
 Signals::~Signals() { stop_function = nullptr; }

@@ -202,6 +202,7 @@ constexpr std::array options_table{
     Option{"flow", serial, "none", set_flow},
     Option{"from", shm, "newest", set_from},
     Option{"lossless", shm, "", [](O& o, std::string_view t) { return put(parse_bool(t), o.lossless); }},
+    Option{"foreign", shm, "false", set_flag<&O::foreign>},
     Option{"speed", tlog, "", set_speed},
     Option{"rotate_bytes", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_bytes(t), o.rotate_bytes); }},
     Option{"rotate_every", tlog, "", [](O& o, std::string_view t) { return put(parse_rotate_every(t), o.rotate_every); }},

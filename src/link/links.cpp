@@ -36,6 +36,8 @@ SetupResult<std::filesystem::path> Links::inlet_path(std::string_view ring) {
     return net::run_path(ring, inlet_suffix, "inlet");
 }
 
+std::optional<uid_t> Links::owner_of_inlets() { return net::run_folder_owner(); }
+
 Links::Links(std::unique_ptr<Core> core, endpoint::RoutingOptions routing) noexcept
     : core_(std::move(core)), routing_(routing) {}
 Links::~Links() = default;

@@ -63,6 +63,14 @@ SetupResult<std::filesystem::path> run_path(std::string_view name, std::string_v
         fmt::format("no folder for the {}: /run/mavloom cannot be created, and XDG_RUNTIME_DIR is not set", what));
 }
 
+std::optional<uid_t> run_folder_owner() {
+    for (const auto& folder : run_folders()) {
+        struct stat status {};
+        if (::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) return status.st_uid;
+    }
+    return std::nullopt;
+}
+
 SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix) {
     if (auto checked = check_name(name); !checked) return tl::unexpected(std::move(checked.error()));
     std::string looked_at;

@@ -24,7 +24,10 @@ constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
 
 shm::ReaderOptions reader_options(const endpoint::EndpointOptions& options) {
     using From = shm::ReaderOptions::From;
-    return {.lossless = options.lossless.value_or(false), .from = options.from_oldest ? From::oldest : From::newest};
+    return {.lossless = options.lossless.value_or(false),
+            .from = options.from_oldest ? From::oldest : From::newest,
+            .foreign = options.foreign,
+            .trusted_user = link::Links::owner_of_inlets()};
 }
 
 bool is_echo(std::uint8_t ring_verdict) noexcept { return verdict_of(ring_verdict) == route::Verdict::echo; }

@@ -46,6 +46,10 @@ static bool replace(Mapping& mapping, std::uint8_t* begin) noexcept {
     return true;
 }
 
+static std::atomic<bool> survives_loss{false};
+void survives_lost_mappings() noexcept { survives_loss.store(true, std::memory_order_relaxed); }
+bool has_lost_mapping_handler() noexcept { return survives_loss.load(std::memory_order_relaxed); }
+
 bool replace_lost_mapping(void* address) noexcept {
     const auto* const at = static_cast<const std::uint8_t*>(address);
     for (Mapping& mapping : mappings) {

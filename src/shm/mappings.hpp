@@ -21,5 +21,7 @@ struct Mapping {
 [[nodiscard]] Mapping* add_mapping(std::uint8_t* begin, std::size_t size) noexcept;
 // Call before the memory is unmapped. Accepts null.
 void remove_mapping(Mapping* mapping) noexcept;
+// Whether the program called survives_lost_mappings().
+[[nodiscard]] bool has_lost_mapping_handler() noexcept;
 
 }  // namespace mavloom::shm

@@ -56,6 +56,9 @@ SetupResult<RingReader> RingReader::open(std::string_view name, const ReaderOpti
     if (!segment && segment.error().code == SetupCode::permission && !options.lossless && !options.read_only)
         if (auto readable = open_ring(name, Access::read_only)) segment = std::move(readable);
     if (!segment) return tl::unexpected(std::move(segment.error()));
+    if (!options.foreign)
+        if (auto good = check_trusted(*segment, name, options.trusted_user); !good)
+            return tl::unexpected(std::move(good.error()));
     RingReader reader(std::string(name), options, std::make_shared<Segment>(std::move(*segment)));
     if (auto begun = reader.begin(); !begun) return tl::unexpected(std::move(begun.error()));
     return reader;

@@ -83,6 +83,20 @@ SetupResult<void> check_owner(const Segment& segment) {
                                                           segment.path(), user_name(owner)));
 }
 
+SetupResult<void> check_trusted(const Segment& segment, std::string_view ring, std::optional<uid_t> trusted_user) {
+    constexpr unsigned others_write = 0022;
+    const auto [owner, mode] = segment.status();
+    if (owner != 0 && owner != ::geteuid() && owner != trusted_user)
+        return setup_error(SetupCode::permission,
+                           fmt::format("ring {} belongs to {}, so anything may be in it; foreign=true reads it", ring,
+                                       user_name(owner)));
+    if ((mode & others_write) == 0 || has_lost_mapping_handler()) return {};
+    return setup_error(SetupCode::permission,
+                       fmt::format("others than its owner may write ring {} (mode {:04o}), and could end this program "
+                                   "by shortening it; foreign=true reads it",
+                                   ring, mode));
+}
+
 bool rename_aside(const std::string& path) { return ::rename(path.c_str(), (path + ".aside").c_str()) == 0; }
 
 std::string user_name(uid_t user) {

@@ -94,6 +94,10 @@ private:
 // Returns an error if the file belongs to another user than this one and root. Its owner can shorten it at any time.
 [[nodiscard]] SetupResult<void> check_owner(const Segment& segment);
 
+// Returns an error if a reader must not trust the file of this ring: see ReaderOptions::foreign.
+[[nodiscard]] SetupResult<void> check_trusted(const Segment& segment, std::string_view ring,
+                                              std::optional<uid_t> trusted_user);
+
 // Renames the file to PATH.aside, over an earlier one. Returns false if that is not allowed.
 [[nodiscard]] bool rename_aside(const std::string& path);
 

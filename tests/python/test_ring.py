@@ -827,7 +827,11 @@ for call in (mavloom.remove_ring, lambda name: mavloom.RingWriter(name, capacity
         sys.exit("allowed")
 """, ring)
     assert ended(process) == (0, "", "") and path_of(ring).exists()
-    with mavloom.RingReader(ring, start="oldest") as reader:
+    with pytest.raises(mavloom.PermissionDeniedError, match="others than its owner may write .*mode 0666.*foreign"):
+        mavloom.RingReader(ring, start="oldest")
+    with mavloom.connect(f"shm://{ring}?from=oldest") as link:
+        assert link.recv(timeout=0.1) is None and link.stats.bad_records == 0  # it did not read that record
+    with mavloom.RingReader(ring, start="oldest", foreign=True) as reader:
         assert reader.read(0).data == b"of another user"
 
 

@@ -779,6 +779,31 @@ def test_a_readers_lock_does_not_keep_the_next_writer_out(tapped):
         assert frame in [r.data for r in again.sent_by(again.vehicle, heartbeat(), frame)]
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@pytest.mark.parametrize("trusted", [False, True])
+def test_a_ring_of_another_user_is_read_only_on_request(run, ring, trusted):
+    """Unless that user owns the folder of the sockets, as the user of the service does."""
+    written = subprocess.run([harness.program_path(), "shm", "write", ring, "--mode", "0644"], input="record\n",
+                             capture_output=True, text=True, timeout=60)
+    assert written.returncode == 0, written
+    os.chown(shared(ring), 12344, 12344)
+    folder = harness.RUN / f"{ring}.run"
+    folder.mkdir()
+    if trusted:
+        os.chown(folder, 12344, 12344)
+    environment = harness.environment({"MAVLOOM_RUN": str(folder)})
+    args = ("shm", "read", ring, "--from", "oldest", "--data", "--drain")
+    plain, foreign = run(*args, env=environment), run(*args, "--foreign", env=environment)
+    listened = run("listen", f"shm://{ring}?required=true", "--for", "100ms", env=environment)
+    folder.rmdir()
+
+    refused = f"ring {ring} belongs to user 12344, so anything may be in it; foreign=true reads it"
+    assert foreign.stdout == "record\n"
+    assert (plain.stdout == "record\n") == trusted
+    for done in (plain, listened):
+        assert (refused in done.stderr) != trusted
+
+
 @pytest.mark.parametrize("what", ["", ".stat"])
 def test_a_damaged_file_under_its_name_keeps_no_router_down(tapped, ring, what):
     shared(ring, what).write_bytes(b"squatted" * 10_000)

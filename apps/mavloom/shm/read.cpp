@@ -6,6 +6,7 @@
 
 #include "counted.hpp"
 #include "mavloom/endpoint/endpoint.hpp"
+#include "mavloom/link/links.hpp"
 #include "mavloom/shm/ring_follower.hpp"
 #include "output.hpp"
 #include "parts.hpp"
@@ -19,7 +20,7 @@ struct ReadOptions {
     std::string name;
     bool json = false;
     std::string from = "newest";
-    bool lossless = false;
+    bool lossless = false, foreign = false;
     bool data = false;
     bool drain = false;
     int count = 0;
@@ -69,7 +70,9 @@ public:
           end_(end),
           follower_(options.name, {.lossless = options.lossless,
                                    .from = options.from == "oldest" ? shm::ReaderOptions::From::oldest
-                                                                    : shm::ReaderOptions::From::newest}) {
+                                                                    : shm::ReaderOptions::From::newest,
+                                   .foreign = options.foreign,
+                                   .trusted_user = link::Links::owner_of_inlets()}) {
         output_.end_at(end);
     }
 
@@ -153,6 +156,9 @@ Run declare_read(Arguments part, const Common& common) {
         .type_name("WHERE");
     part.add_flag("--lossless", options->lossless,
                   "miss no record; if this reader is slow, the writer waits for it, or evicts it");
+    part.add_flag("--foreign", options->foreign,
+                  "read a ring of any user; without it, only rings of this user, of root, and of the owner of the "
+                  "folder of the sockets (MAVLOOM_RUN)");
     part.add_flag("--data", options->data, "print each record as its bytes and a newline, without tags");
     part.add_flag("--drain", options->drain, "end when everything is read and no process writes the ring");
     part.add_option("--count", options->count, "end after this many records").range(1, 2147483647).type_name("N");

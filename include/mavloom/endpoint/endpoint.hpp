@@ -83,6 +83,7 @@ struct EndpointOptions {
     std::string flow = "none";
     bool from_oldest = false;      // shm: oldest records first
     std::optional<bool> lossless;  // shm; empty: the command decides
+    bool foreign = false;          // shm source: also rings of users who are not trusted
     friend bool operator==(const EndpointOptions&, const EndpointOptions&) = default;
 };
 

@@ -10,6 +10,8 @@
 // allocate, lock or log. Queues: docs/guide/queues.md. Loss: docs/guide/routing.md.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -151,6 +153,8 @@ public:
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
+    // The owner of the folder of inlets, whose rings readers trust. Empty if there is no folder yet.
+    [[nodiscard]] static std::optional<uid_t> owner_of_inlets();
     // Opens the inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` with permissions
     // `mode`.
     // Each bound sender of a valid frame becomes a link; all unbound senders share one. Frames sent to these links are

@@ -5,7 +5,10 @@
 // $XDG_RUNTIME_DIR/mavloom. Any thread may call these functions, as long as no thread changes the environment.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "mavloom/base/result.hpp"
@@ -24,5 +27,8 @@ inline constexpr const char* run_variable = "MAVLOOM_RUN";
 // Connects to the first socket NAME.SUFFIX in these folders that a program of any user serves. If none is served,
 // returns the reason why an existing socket cannot be used, or `not_found` if there is no socket. Creates nothing.
 [[nodiscard]] SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix);
+
+// The owner of the first of these folders that exists. Programs trust the rings of this user. Creates nothing.
+[[nodiscard]] std::optional<uid_t> run_folder_owner();
 
 }  // namespace mavloom::net

@@ -13,4 +13,8 @@ namespace mavloom::shm {
 // and if the kernel has no memory.
 [[nodiscard]] bool replace_lost_mapping(void* address) noexcept;
 
+// Call it once a handler for SIGBUS that calls `replace_lost_mapping` is installed. Before that, readers refuse rings
+// that others than their owner may write (ReaderOptions::foreign).
+void survives_lost_mappings() noexcept;
+
 }  // namespace mavloom::shm

@@ -12,6 +12,7 @@
 
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "mavloom/link/links.hpp"
 #include "ring/reader.hpp"
 #include "strings.hpp"
 #include "waiting.hpp"
@@ -197,19 +198,22 @@ private:
 
 // ---- class RingReader
 
-shm::ReaderOptions options_of(bool lossless, const std::string& start) {
+shm::ReaderOptions options_of(bool lossless, const std::string& start, bool foreign) {
     using From = shm::ReaderOptions::From;
     if (start != "newest" && start != "oldest")
         raise_usage(fmt::format("start='{}': expected newest or oldest", start));
-    return {.lossless = lossless, .from = start == "oldest" ? From::oldest : From::newest};
+    return {.lossless = lossless,
+            .from = start == "oldest" ? From::oldest : From::newest,
+            .foreign = foreign,
+            .trusted_user = link::Links::owner_of_inlets()};
 }
 
 class PyRingReader {
     using State = RingSource::State;
 
 public:
-    PyRingReader(const std::string& name, bool lossless, const std::string& start) {
-        auto opened = [&, options = options_of(lossless, start)] {
+    PyRingReader(const std::string& name, bool lossless, const std::string& start, bool foreign) {
+        auto opened = [&, options = options_of(lossless, start, foreign)] {
             const WithoutGil outside;
             return shm::RingReader::open(name, options);
         }();
@@ -464,13 +468,16 @@ void bind_ring_reader(nb::module_& module) {
         "ends when everything is read and no process writes the ring.\n\n"
         "Safe from any thread. Threads that share a reader take turns, and each record goes to one of\n"
         "them. A read by one thread does not end records that another thread has read.")
-        .def(nb::init<const std::string&, bool, const std::string&>(), "name"_a, nb::kw_only(), "lossless"_a = false,
-             "start"_a = "newest",
+        .def(nb::init<const std::string&, bool, const std::string&, bool>(), "name"_a, nb::kw_only(),
+             "lossless"_a = false, "start"_a = "newest", "foreign"_a = false,
              nb::sig(
                  "def __init__(self, name: str, *, lossless: bool = False, start: typing.Literal['newest', 'oldest'] = "
-                 "'newest') -> None"),
+                 "'newest', foreign: bool = False) -> None"),
              "NotFoundError lists the existing rings. Raises InputError if the file is not a ring of this\n"
-             "version, and SystemFailure for a 65th lossless reader.")
+             "version, and SystemFailure for a 65th lossless reader. Without `foreign`, PermissionDeniedError for\n"
+             "a ring that others than its owner may write, because they could end this process by shortening\n"
+             "it, and for a ring whose owner is neither this user, nor root, nor the owner of the folder of\n"
+             "the sockets (MAVLOOM_RUN, /run/mavloom).")
         .def(
             "read", [](PyRingReader& reader, const nb::object& timeout) { return reader.read(deadline_after(timeout)); },
             "timeout"_a = nb::none(), nb::sig("def read(self, timeout: float | None = None) -> Record | None"),

@@ -428,7 +428,7 @@ TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(35));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(36));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }

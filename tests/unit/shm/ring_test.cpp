@@ -605,7 +605,26 @@ TEST(Ring, AWriterRefusesAFileOfAnotherUser) {
     ASSERT_FALSE(writer);
     EXPECT_EQ(writer.error().code, SetupCode::permission);
     EXPECT_THAT(writer.error().text, HasSubstr("; remove it or choose another name"));
-    EXPECT_TRUE(RingReader::open(name.text()));
+}
+
+TEST(Ring, AReaderRefusesRingsThatItMustNotTrust) {
+    if (::geteuid() != 0) GTEST_SKIP() << "giving files away needs root";
+    const RingName name;
+    open_writer(name);
+    ASSERT_EQ(::chown(name.path().c_str(), 65534, 65534), 0);
+    const auto of_another = RingReader::open(name.text());
+    ASSERT_FALSE(of_another);
+    EXPECT_EQ(of_another.error().code, SetupCode::permission);
+    EXPECT_THAT(of_another.error().text, HasSubstr("foreign=true reads it"));
+    EXPECT_TRUE(RingReader::open(name.text(), {.foreign = true}));
+    EXPECT_TRUE(RingReader::open(name.text(), {.trusted_user = 65534}));
+    EXPECT_FALSE(RingReader::open(name.text(), {.trusted_user = 65533}));
+
+    ASSERT_EQ(::chmod(name.path().c_str(), 0660), 0);
+    const auto shared = RingReader::open(name.text(), {.trusted_user = 65534});
+    ASSERT_FALSE(shared);
+    EXPECT_THAT(shared.error().text, HasSubstr("others than its owner may write"));
+    EXPECT_TRUE(RingReader::open(name.text(), {.foreign = true}));
 }
 
 TEST(Ring, ClosingSparesTheCounterPageOfWhoHasTheNameNow) {
