@@ -13,7 +13,7 @@ constexpr std::size_t most_names = 65'536;        // bounds memory if very many 
 constexpr std::size_t most_sources = 65'536;      // bounds memory if system and component ids are forged
 constexpr std::size_t largest_entry_bytes = 304;  // in the queue: 16 bytes of header and the longest frame, rounded up
 constexpr std::size_t frames_a_turn = 4096;       // from recordings and rings, so that live links get their turn
-constexpr auto look_every = 1s;                   // how often to ask the kernel for its drop counts
+constexpr auto look_every = 1s;                   // how often to ask for drop counts, and to wake the consumer
 
 }  // namespace
 

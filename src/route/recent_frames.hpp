@@ -49,7 +49,7 @@ private:
     static constexpr std::size_t ways = 4;
     static constexpr std::size_t most_bytes = 8u << 20;
 
-    // The index of a place is that of its first cell.
+    // A place's index is the index of its first cell.
     [[nodiscard]] std::size_t bucket(std::uint64_t hash) const noexcept {
         return (static_cast<std::size_t>(hash) & (places_ - 1) & ~(ways - 1)) * stride_;
     }

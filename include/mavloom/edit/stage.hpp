@@ -81,7 +81,7 @@ public:
     [[nodiscard]] Outcome backward(const wire::FrameView& frame) noexcept;
 
     [[nodiscard]] const Counters& counters() const noexcept;
-    // The time of the last signature; `sign_after` before the first one, and 0 without a key.
+    // The time of the last signature. Before the first one it is `sign_after`; without a key it is 0.
     [[nodiscard]] wire::SigningTime last_signed() const noexcept;
     // Warnings about harmful options, one line each: for example, a rate for a message that a protocol waits for.
     [[nodiscard]] std::span<const std::string> warnings() const noexcept;

@@ -110,7 +110,7 @@ public:
     // although their endpoint has `sign=`.
     virtual std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
     // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
-    // The result is valid until the next call.
+    // Returns a reference that is valid until the next call.
     virtual const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) = 0;
     // The clock reading that the current turn uses.
     [[nodiscard]] virtual MonoTime now() const noexcept = 0;
@@ -153,7 +153,7 @@ public:
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
-    // The owner of the folder of inlets, whose rings readers trust. Empty if there is no folder yet.
+    // The user who owns the folder of the inlets. Readers trust the rings of this user. Empty if there is no folder.
     [[nodiscard]] static std::optional<uid_t> owner_of_inlets();
     // Opens the inlet of the ring `ring` (docs/formats/ring.md): a Unix datagram socket at `socket` with permissions
     // `mode`.

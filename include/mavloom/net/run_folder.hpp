@@ -28,7 +28,7 @@ inline constexpr const char* run_variable = "MAVLOOM_RUN";
 // returns the reason why an existing socket cannot be used, or `not_found` if there is no socket. Creates nothing.
 [[nodiscard]] SetupResult<LocalSender> connect_in_run_folder(std::string_view name, std::string_view suffix);
 
-// The owner of the first of these folders that exists. Programs trust the rings of this user. Creates nothing.
+// Returns the user who owns the first of these folders that exists. Empty if none exists; creates nothing.
 [[nodiscard]] std::optional<uid_t> run_folder_owner();
 
 }  // namespace mavloom::net

@@ -89,7 +89,7 @@ private:
     bool closed_ = false;  // records that the last segment still buffers are lost
 };
 
-// The line that reports a removal to a person.
+// Returns the text that reports a removed file to a user.
 [[nodiscard]] std::string removal_notice(const std::filesystem::path& removed);
 
 }  // namespace mavloom::record

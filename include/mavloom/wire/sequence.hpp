@@ -73,7 +73,7 @@ public:
 
     // Takes sources beyond `own_sources` from `budget`, which must outlive the tracker. Call it before `update`.
     void limit_by(SourceBudget& budget) noexcept { budget_ = &budget; }
-    // `info` is null for an id without definition. The result is valid until the next call.
+    // `info` is null for an id without definition. Returns a reference that is valid until the next call.
     const Update& update(const FrameView& frame, const MessageInfo* info = nullptr);
     // Forgets the expected sequence numbers: the next frame of each source is treated as its first. The totals stay.
     void restart() noexcept;
@@ -81,7 +81,7 @@ public:
     // All sources, in the order in which they were first heard. `lost` is never negative.
     [[nodiscard]] std::span<const SequenceStats> sources() const noexcept { return stats_; }
     [[nodiscard]] SequenceStats total() const noexcept;
-    // The number of frames from sources beyond `max_sources` or the budget.
+    // The number of frames from sources for which there was no room.
     [[nodiscard]] std::uint64_t untracked() const noexcept { return untracked_; }
 
 private:
