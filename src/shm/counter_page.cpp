@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -36,10 +37,11 @@ LinkSlot* links_in(const Segment& segment, std::uint32_t counters) noexcept {
     return reinterpret_cast<LinkSlot*>(segment.data() + page_header_bytes + sizeof(CounterSlot) * counters);
 }
 
-// Returns a checked copy of the page's header.
+// Returns a checked copy of the page's header. Reads the file and not the mapping, like open_ring().
 SetupResult<PageHeader> header_of(const Segment& segment) {
     PageHeader header;
-    if (segment.size() >= sizeof header) std::memcpy(&header, segment.data(), sizeof header);
+    std::array<std::uint8_t, sizeof header> bytes{};
+    if (segment.read_begin(bytes) == bytes.size()) std::memcpy(&header, bytes.data(), sizeof header);
     const auto wrong = [&](std::string_view what) {
         return setup_error(SetupCode::bad_input, fmt::format("{}: {}", segment.path(), what));
     };
@@ -153,10 +155,8 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
         auto created = create_page(path, options);
         if (created) return CounterPage(std::make_unique<Segment>(std::move(*created)), options);
         if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));
-        auto present = Segment::open(path, Segment::Access::read_write, 0);
+        auto present = Segment::open(path, Segment::Access::read_write, 0, check_owner);
         if (!present && present.error().code == SetupCode::not_found) continue;
-        if (present)
-            if (auto trusted = check_owner(*present); !trusted) present = tl::unexpected(std::move(trusted.error()));
         if (!present && options.sets_aside && rename_aside(path)) continue;
         if (!present) return tl::unexpected(std::move(present.error()));
         if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) {
@@ -243,15 +243,18 @@ void CounterPage::forget_link(LinkId link) {
 }
 
 void remove_left_page(std::string_view ring) {
-    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0);
+    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0, check_owner);
     if (page && page->try_lock(owner_byte)) static_cast<void>(page->unlink());
 }
 
 bool CounterPage::is_removed() const noexcept { return !segment_->is_named(); }
 
-SetupResult<CounterSnapshot> read_counters(std::string_view name) {
+SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& trust) {
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
-    const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes);
+    const auto check = [&](const Segment& file) {
+        return check_trusted(file, fmt::format("the counter page of {}", name), trust);
+    };
+    const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes, check);
     if (!segment) return tl::unexpected(segment.error());
     const auto header = header_of(*segment);
     if (!header) return tl::unexpected(header.error());

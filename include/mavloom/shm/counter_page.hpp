@@ -19,6 +19,7 @@
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/base/result.hpp"
+#include "mavloom/shm/trust.hpp"
 
 namespace mavloom::shm {
 
@@ -88,8 +89,8 @@ struct CounterSnapshot {
     std::map<LinkId, std::string> links;
 };
 
-// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `permission`,
-// `bad_input`.
-[[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name);
+// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `bad_input`,
+// `permission`, also for a page that is not trusted.
+[[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& trust = {});
 
 }  // namespace mavloom::shm
