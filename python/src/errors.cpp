@@ -57,6 +57,10 @@ void raise_buffer(const std::string& text) {
     throw nb::python_error();
 }
 
+void warn(const std::string& text) {
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw nb::python_error();
+}
+
 std::string path_of(nb::handle path) {
     try {
         const auto bytes = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));

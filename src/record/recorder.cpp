@@ -54,7 +54,7 @@ void Recorder::run() {
 }
 
 SetupResult<void> Recorder::look_at_file() {
-    auto removed = writer_.renew_if_removed(mono_now());
+    auto removed = writer_.look_after(mono_now());
     if (!removed) return tl::unexpected(std::move(removed.error()));
     if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed)));
     return {};

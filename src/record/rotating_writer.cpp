@@ -91,20 +91,31 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
     return closed;
 }
 
-SetupResult<fs::path> RotatingWriter::renew_if_removed(MonoTime now) {
+SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
     constexpr std::chrono::milliseconds look_interval{500};
     if (now < look_due_) return {};
     look_due_ = now + look_interval;
-    if (!writer_ || !writer_->is_file() || writer_->is_named()) return {};
-    auto removed = segment_path();
-    if (auto anew = begin_anew(); !anew) return tl::unexpected(std::move(anew.error()));
+    auto removed = is_removed() ? segment_path() : fs::path{};
+    if (removed.empty()) no_file_.reset();
+    auto done = removed.empty() ? flush() : begin_anew();
+    if (!done) return tl::unexpected(std::move(done.error()));
     return removed;
 }
 
+bool RotatingWriter::is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
+
 SetupResult<void> RotatingWriter::begin_anew() {
-    if (rotation_.rotates()) return end_segment();
-    auto next = TlogWriter::create(path_);
-    if (!next) return tl::unexpected(std::move(next.error()));
+    const bool is_empty = writer_->buffered_bytes() == 0;
+    if (rotation_.rotates() && is_empty) return end_segment();
+    const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
+    auto next = TlogWriter::create(rotation_.rotates() ? free_name(begin) : path_);
+    if (!next) {
+        if (!writer_->is_linked()) no_file_ = next.error();
+        return tl::unexpected(std::move(next.error()));
+    }
+    no_file_.reset();
+    begin_ = begin;
+    next->take_buffered(*writer_);
     return go_on_in(std::move(*next));
 }
 
@@ -112,7 +123,7 @@ SetupResult<void> RotatingWriter::begin_anew() {
 // stays. The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
-    if (is_due(time, time_length + frame.size()) && !is_disk_full()) {
+    if (!no_file_ && is_due(time, time_length + frame.size()) && !is_disk_full()) {
         auto next = TlogWriter::create(free_name(time));
         if (!next) {
             ++refused_;
@@ -121,13 +132,15 @@ SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& fr
         closed = go_on_in(std::move(*next));
         begin_ = time;
     }
-    auto taken = writer_->write(time, frame);
+    auto taken = make_room(frame);
+    if (taken) taken = writer_->write(time, frame);
     if (taken) return closed;
     ++refused_;
     return taken;
 }
 
 SetupResult<void> RotatingWriter::make_room(const wire::FrameView& frame) {
+    if (no_file_ && !writer_->has_room(frame)) return tl::unexpected(*no_file_);
     return writer_ ? writer_->make_room(frame) : SetupResult<void>{};
 }
 
@@ -140,10 +153,15 @@ bool RotatingWriter::is_disk_full() {
     return !flushed && is_full_disk(flushed.error());
 }
 
-SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }
+SetupResult<void> RotatingWriter::flush() {
+    if (no_file_) return tl::unexpected(*no_file_);
+    return writer_ ? writer_->flush() : SetupResult<void>{};
+}
 
 SetupResult<void> RotatingWriter::close() {
     closed_ = true;
+    if (is_removed() && writer_->buffered_bytes() != 0)
+        if (auto anew = begin_anew(); !anew && no_file_) return anew;
     return writer_ ? writer_->close() : SetupResult<void>{};
 }
 

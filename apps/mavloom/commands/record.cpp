@@ -49,7 +49,7 @@ public:
 
 private:
     SetupResult<void> look_at_file() {
-        auto removed = writer_.renew_if_removed(mono_now());
+        auto removed = writer_.look_after(mono_now());
         if (!removed && writer_.is_full_disk(removed.error())) return {};  // the next write waits for room
         if (!removed) return tl::unexpected(std::move(removed.error()));
         if (!removed->empty()) say(common_, record::removal_notice(*removed));

@@ -45,10 +45,13 @@ public:
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
-    // If another program removed, renamed or replaced the file that is written to, begins a new one: at once, or, with
-    // rotation, with the next frame. Looks at most twice a second, so call it for each batch of frames and once a
-    // second. Returns the path of the old file; empty if it is still there. After an error, the old file stays open.
-    [[nodiscard]] SetupResult<std::filesystem::path> renew_if_removed(MonoTime now);
+    // Twice a second, writes what is buffered. If another program removed, renamed or replaced the file that is written
+    // to, begins a new one instead, and what is buffered goes there: at once, or, with rotation and an empty buffer,
+    // with the next frame. Call it for each batch of frames and once a second. Returns the path of the old file; empty
+    // if it is still there. While no new file can be created, each call tries again. Meanwhile writes to the old file
+    // if it was renamed, and to none if it was deleted.
+    [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
+    // Begins a new file for what is buffered if the file was removed.
     [[nodiscard]] SetupResult<void> close();
 
     // The path given to `create`.
@@ -71,6 +74,7 @@ private:
     // Flushes; returns true if the disk has no room for the buffered records.
     [[nodiscard]] bool is_disk_full();
     [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
+    [[nodiscard]] bool is_removed() const noexcept;
     [[nodiscard]] SetupResult<void> begin_anew();
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
@@ -79,6 +83,7 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
+    std::optional<SetupError> no_file_;  // why the file, which was deleted, has no successor yet
     MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;
