@@ -134,6 +134,12 @@ SetupResult<void> check_options(const CounterPageOptions& options) {
     return {};
 }
 
+tl::unexpected<SetupError> has_owner(const Segment& segment) {
+    const auto header = header_of(segment);
+    return setup_error(held_code(segment), fmt::format("{} belongs to process {}, which is alive", segment.path(),
+                                                       header ? header->pid : 0));
+}
+
 SetupResult<Segment> create_page(const std::string& path, const CounterPageOptions& options) {
     PageHeader header;
     header.counters = options.counters;
@@ -151,19 +157,23 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     const std::string path = path_of(name, suffix);
+    std::string set_aside;
     for (int attempt = 0; attempt < most_reads; ++attempt) {
         auto created = create_page(path, options);
-        if (created) return CounterPage(std::make_unique<Segment>(std::move(*created)), options);
+        if (created) {
+            CounterPage page(std::make_unique<Segment>(std::move(*created)), options);
+            page.set_aside_ = std::move(set_aside);
+            return page;
+        }
         if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));
         auto present = Segment::open(path, Segment::Access::read_write, 0, check_owner);
         if (!present && present.error().code == SetupCode::not_found) continue;
-        if (!present && options.sets_aside && rename_aside(path)) continue;
-        if (!present) return tl::unexpected(std::move(present.error()));
-        if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) {
-            const auto header = header_of(*present);
-            return setup_error(SetupCode::in_use,
-                               fmt::format("{} belongs to process {}, which is alive", path, header ? header->pid : 0));
+        if (!present && options.sets_aside && rename_aside(path)) {
+            set_aside = std::move(present.error().text);
+            continue;
         }
+        if (!present) return tl::unexpected(std::move(present.error()));
+        if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) return has_owner(*present);
         if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
     }
     return setup_error(SetupCode::in_use, fmt::format("{} keeps being created and removed by other processes", path));
@@ -182,6 +192,7 @@ CounterPage& CounterPage::operator=(CounterPage&& other) noexcept {
     if (this == &other) return *this;
     end();
     segment_ = std::move(other.segment_);
+    set_aside_ = std::move(other.set_aside_);
     slots_ = other.slots_;
     free_counters_ = std::move(other.free_counters_);
     free_links_ = std::move(other.free_links_);

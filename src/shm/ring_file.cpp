@@ -92,7 +92,7 @@ SetupResult<Segment> create_ring(const std::string& path, const RingOptions& opt
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
     const auto pid = memory_of(segment).control->writer_pid.load(std::memory_order_relaxed);
     const auto who = pid == 0 ? std::string("which is just starting or ending") : fmt::format("process {}", pid);
-    return setup_error(SetupCode::in_use, fmt::format("ring {} already has a writer, {}", name, who));
+    return setup_error(held_code(segment), fmt::format("ring {} already has a writer, {}", name, who));
 }
 
 }  // namespace

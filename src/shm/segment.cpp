@@ -23,6 +23,8 @@ namespace mavloom::shm {
 
 namespace {
 
+constexpr unsigned others_write = 0022;  // mode bits
+
 // Opening this path opens the same file again, with an open file description of its own.
 std::string path_of_descriptor(int fd) { return fmt::format("/proc/self/fd/{}", fd); }
 
@@ -84,7 +86,6 @@ SetupResult<void> check_owner(const Segment& segment) {
 }
 
 SetupResult<void> check_trusted(const Segment& segment, std::string_view what, const Trust& trust) {
-    constexpr unsigned others_write = 0022;
     if (trust.foreign) return {};
     const auto [owner, mode] = segment.status();
     if (owner != 0 && owner != ::geteuid() && owner != trust.user)
@@ -96,6 +97,10 @@ SetupResult<void> check_trusted(const Segment& segment, std::string_view what, c
                        fmt::format("others than its owner may write {} (mode {:04o}), and could end this program by "
                                    "shortening it; foreign=true reads it",
                                    what, mode));
+}
+
+SetupCode held_code(const Segment& segment) noexcept {
+    return (segment.status().mode & others_write) == 0 ? SetupCode::in_use : SetupCode::permission;
 }
 
 SetupResult<void> check_survivable(const Segment& segment) {

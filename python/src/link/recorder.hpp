@@ -29,7 +29,7 @@ public:
     void close();
 
     [[nodiscard]] const record::Recorder& recorder() const noexcept { return *recorder_; }
-    // What was reported about the file so far.
+    // Returns the reports about the file so far.
     [[nodiscard]] std::vector<std::string> notices() const;
 
 private:
