@@ -55,11 +55,11 @@ SetupResult<RotatingWriter> RotatingWriter::create(const fs::path& path, Rotatio
     return all;
 }
 
-bool RotatingWriter::is_due(WallTime time, std::size_t record_bytes) const noexcept {
+bool RotatingWriter::begins_segment(WallTime time, const wire::FrameView& frame) const noexcept {
     if (!rotation_.rotates()) return false;
     if (!writer_) return true;
-    if (rotation_.bytes != 0 && writer_->records() != 0 && writer_->size() + record_bytes > rotation_.bytes)
-        return true;
+    const std::uint64_t size = writer_->size() + time_length + frame.size();
+    if (rotation_.bytes != 0 && writer_->records() != 0 && size > rotation_.bytes) return true;
     return rotation_.every != Nanoseconds{} && time > begin_ && time - begin_ >= rotation_.every;
 }
 
@@ -114,43 +114,40 @@ SetupResult<void> RotatingWriter::begin_anew() {
         return tl::unexpected(std::move(next.error()));
     }
     no_file_.reset();
-    begin_ = begin;
     next->take_buffered(*writer_);
-    return go_on_in(std::move(*next));
+    return begin_segment(std::move(*next), begin);
 }
 
-// If the disk has no room for the buffered records of the open segment, a new segment would not help: the open segment
-// stays. The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
+// The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
-    if (!no_file_ && is_due(time, time_length + frame.size()) && !is_disk_full()) {
-        auto next = TlogWriter::create(free_name(time));
-        if (!next) {
-            ++refused_;
-            return tl::unexpected(std::move(next.error()));
-        }
-        closed = go_on_in(std::move(*next));
-        begin_ = time;
+    auto taken = make_room(time, frame);
+    if (taken && !no_file_ && begins_segment(time, frame)) {
+        if (auto next = TlogWriter::create(free_name(time)); next) closed = begin_segment(std::move(*next), time);
+        else taken = tl::unexpected(std::move(next.error()));
     }
-    auto taken = make_room(frame);
     if (taken) taken = writer_->write(time, frame);
     if (taken) return closed;
     ++refused_;
     return taken;
 }
 
-SetupResult<void> RotatingWriter::make_room(const wire::FrameView& frame) {
-    if (no_file_ && !writer_->has_room(frame)) return tl::unexpected(*no_file_);
-    return writer_ ? writer_->make_room(frame) : SetupResult<void>{};
+SetupResult<void> RotatingWriter::begin_segment(TlogWriter next, WallTime time) {
+    begin_ = time;
+    return go_on_in(std::move(next));
+}
+
+SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView& frame) {
+    if (!writer_) return {};
+    if (no_file_) return writer_->has_room(frame) ? SetupResult<void>{} : tl::unexpected(*no_file_);
+    if (!begins_segment(time, frame)) return writer_->make_room(frame);
+    auto flushed = flush();
+    if (!flushed && is_full_disk(flushed.error())) return flushed;
+    return {};  // after any other error, a new segment may help
 }
 
 bool RotatingWriter::is_full_disk(const SetupError& error) const noexcept {
     return (error.sys_errno == ENOSPC || error.sys_errno == EDQUOT) && writer_ && writer_->is_file();
-}
-
-bool RotatingWriter::is_disk_full() {
-    const auto flushed = flush();
-    return !flushed && is_full_disk(flushed.error());
 }
 
 SetupResult<void> RotatingWriter::flush() {

@@ -108,7 +108,7 @@ private:
 // `what` names it in the error text.
 [[nodiscard]] SetupResult<void> check_trusted(const Segment& segment, std::string_view what, const Trust& trust);
 // Returns the code of the error that another process holds the lock of this file: `in_use`, or `permission` if others
-// than the owner may write the file. They can hold the lock, too, without being what the file says.
+// than the owner may write the file. Then the holder of the lock may be any of them.
 [[nodiscard]] SetupCode held_code(const Segment& segment) noexcept;
 // Returns an error if this program could not survive that the owner of the file shortens it.
 [[nodiscard]] SetupResult<void> check_survivable(const Segment& segment);

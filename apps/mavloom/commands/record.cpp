@@ -57,7 +57,7 @@ private:
     }
 
     SetupResult<void> write(const record::FrameQueue::Entry& entry) {
-        auto room = writer_.make_room(entry.frame);
+        auto room = writer_.make_room(entry.time, entry.frame);
         if (!room) room = flush();
         if (room) return writer_.write(entry.time, entry.frame);
         writer_.give_up();
