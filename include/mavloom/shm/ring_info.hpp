@@ -61,7 +61,8 @@ struct RingStatus {
 
 // Removes the names of a ring and of its counter page. Processes that have the ring mapped keep their mapping. Its
 // readers then get `retired`, its writer `removed`. Never waits. A file under that name which is not a ring is removed
-// too. So is a ring that ring_status() refuses; its users are not notified. Errors: `not_found` if neither file exists; `permission` names the owner.
+// too. So is a ring that ring_status() refuses; its users are not notified. Errors: `not_found` if neither file exists;
+// `permission` names the owner.
 [[nodiscard]] SetupResult<void> remove_ring(std::string_view name);
 // Removes only the counter page. Succeeds if there is none.
 [[nodiscard]] SetupResult<void> remove_counter_page(std::string_view name);
