@@ -30,6 +30,7 @@ void LinkCounters::add(const wire::SequenceTracker::Update& update) noexcept {
     change(late, update.late);
     change(duplicate, update.duplicate);
     change(resync, update.resync);
+    if (update.verdict == wire::SequenceTracker::Verdict::untracked) untracked.add();
 }
 
 SetupResult<std::filesystem::path> Links::inlet_path(std::string_view ring) {

@@ -148,10 +148,13 @@ def test_invented_ids_on_many_clients_take_bounded_memory(spawn):
             client.send(b"".join(attitude(source) for source in ids))
             harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == (n + 1) * len(ids),
                              what="all frames")
-        assert router.stats("source")
+        known = sum(source["frames"] for source in router.stats("source"))
+        untracked = [link["untracked"] for link in router.links()]
         status = pathlib.Path(f"/proc/{router.process.pid}/status").read_text()
 
     assert int(re.search(r"RssAnon:\s+(\d+) kB", status)[1]) < 40_000
+    assert untracked[0] == 0  # the first client came while there was room
+    assert 0 < sum(untracked) == clients * len(ids) - known  # nobody's loss is left out silently
 
 
 def test_invented_ids_do_not_grow_the_metrics(spawn):
