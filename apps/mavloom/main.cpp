@@ -203,8 +203,8 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
     return all;
 }
 
-// Fixes malloc's thresholds at their first values, in bytes. Otherwise malloc raises them when large areas are freed, and
-// keeps what a link's queue or a report needed once.
+// Fixes malloc's thresholds at their first values, in bytes. Otherwise malloc raises them when large areas are freed,
+// and keeps what a link's queue or a report needed once.
 static void return_freed_memory() noexcept {
 #ifdef __GLIBC__
     constexpr int threshold = 128 * 1024;

@@ -164,8 +164,8 @@ std::uint32_t BlockQueue::clear() noexcept {
     return dropped;
 }
 
-// Garbage is what dropped and sent blocks left. Returns how much of it is worth closing the gaps. Large queues then move
-// eight times what was pushed since the last time, small ones as much.
+// Blocks that were dropped or sent leave gaps. Returns how much of them makes closing them worthwhile, if `used` bytes
+// or blocks must move. Large queues move eight times what they gain, small ones as much.
 static std::size_t worth_moving(std::size_t used, std::size_t large) noexcept {
     return std::max<std::size_t>(used < large ? used : used / 8, 1);
 }

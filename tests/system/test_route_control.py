@@ -516,7 +516,8 @@ def metrics_of(text):
 def test_metrics_are_what_prometheus_reads(net, tmp_path):
     port, third = routers.tcp_port(), UdpEnd()
     sut = net(("udpout", "tcpin"), extra=["--metrics", f"127.0.0.1:{port}", "--metrics-detail",
-                                          f"tlog://{tmp_path}/x.tlog", f"udpout://127.0.0.1:{third.port}?name=a%22b%5Cc%20d"])
+                                          f"tlog://{tmp_path}/x.tlog",
+                                          f"udpout://127.0.0.1:{third.port}?name=a%22b%5Cc%20d"])
     sut.hears(1, VEHICLE)
     sut.send(1, unknown())
     sut.command(1, VEHICLE, (66, 6))

@@ -12,8 +12,9 @@
 // - A block that the kernel has taken in part is never dropped at a bound.
 //
 // Blocks lie back to back in one buffer, so that one system call can send many of them. The buffer grows with the
-// queue: to twice the bytes that are queued, and in large queues to nine eighths of the bound. Each block takes 24 bytes
-// more. The queue frees its memory when a backlog has been sent. It allocates nothing in steady state. Not thread-safe.
+// queue: to twice the bytes that are queued, and in large queues to nine eighths of the bound. Each block takes 24
+// bytes more. The queue frees its memory when a backlog has been sent. It allocates nothing in steady state. Not
+// thread-safe.
 #pragma once
 
 #include <sys/uio.h>
@@ -53,8 +54,8 @@ public:
 
     explicit BlockQueue(const Limits& limits) noexcept : limits_(limits) {}
 
-    // Queues a copy of `block`, which has less than 16 MiB. Set `key` only if a newer block with the same key makes this one worthless; otherwise
-    // pass 0.
+    // Queues a copy of `block`, which has less than 16 MiB. Set `key` only if a newer block with the same key makes
+    // this one worthless; otherwise pass 0.
     Pushed push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
     // Drops blocks that are older than their class allows. Returns how many.
     std::uint32_t expire(MonoTime now) noexcept;
@@ -64,7 +65,7 @@ public:
     [[nodiscard]] bool empty() const noexcept { return blocks_ == 0; }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
-    // What the queue has allocated, some of which it may not have touched yet.
+    // The memory that the queue has allocated, some of which it may not have touched yet.
     [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
     // For datagrams. `gather` collects whole blocks, starting at `from`, into as few pieces as possible. It takes at
@@ -134,7 +135,7 @@ private:
     // Start of the search for the oldest block of each class: no droppable block of that class lies before it.
     std::array<std::size_t, classes> oldest_{};
 
-    bool has_backlog_ = false;  // the outlet was blocked, or the queue was jammed
+    bool has_backlog_ = false;     // the outlet was blocked, or the queue was jammed
     std::uint8_t small_uses_ = 0;  // how often in a row the queue became empty and had needed little
 
     // Used only while the queue is jammed: from the moment it reaches the byte bound until it is empty or rewound.

@@ -2,9 +2,10 @@
 // Status reports of a router: JSON, one object a line, for `mavloom ctl` and `mavloom stat`, and Prometheus text.
 // docs/guide/route.md documents the keys.
 //
-// Call these functions and Report::copy_more on the router's thread, between two turns. Each call copies at most a piece
-// (docs/design/turn.md). Report::next_text makes the text, which takes about a hundred times as long. Reports may share
-// the copy, so call it for all of them on one thread, as long as the router's dialect exists. Both steps allocate.
+// Call these functions and Report::copy_more on the router's thread, between two turns. Each call copies at most a
+// piece (docs/design/turn.md). Report::next_text makes the text, which takes about a hundred times as long. Reports may
+// share the copy, so call it for all of them on one thread, as long as the router's dialect exists. Both steps
+// allocate.
 #pragma once
 
 #include <functional>

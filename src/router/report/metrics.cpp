@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The metrics of a router. Their size is bounded, because senders choose their ids and addresses: the busiest series are
-// listed, and the rest are summed under the label "other".
+// The metrics of a router. Their size is bounded, because senders choose their ids and addresses: the busiest series
+// are listed, and the rest are summed under the label "other".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -145,8 +145,8 @@ private:
         std::vector<Series> rows;
         for (const auto& link : s_.links)
             for (const auto& s : link.sources)
-                rows.push_back({listed(&link), s.source.system.value, s.source.component.value, 0,
-                                {s.received, s.lost, s.late}});
+                rows.push_back(
+                    {listed(&link), s.source.system.value, s.source.component.value, 0, {s.received, s.lost, s.late}});
         for (auto& row : rows)
             if (row.link == nullptr) make_other(row);
         if (has_components_)
@@ -157,10 +157,9 @@ private:
     }
 
     void add_source(std::string_view kind, const Series& row, const std::string& labels) {
-        metrics_.add(kind,
-                     std::vector<NamedCount>{
-                         {"frames", row.counts[0]}, {"lost", row.counts[1]}, {"late", row.counts[2]}},
-                     labels);
+        metrics_.add(
+            kind, std::vector<NamedCount>{{"frames", row.counts[0]}, {"lost", row.counts[1]}, {"late", row.counts[2]}},
+            labels);
     }
 
     void add_messages() {
@@ -168,15 +167,15 @@ private:
         for (const auto& row : s_.messages) {
             const auto* const link = s_.link(row.link);
             if (link == nullptr) continue;
-            rows.push_back({listed(link), row.source.system.value,
+            rows.push_back({listed(link),
+                            row.source.system.value,
                             has_components_ ? std::int32_t{row.source.component.value} : 0,
                             static_cast<std::int32_t>(row.id.value),
                             {row.count, row.bytes, 0}});
             if (rows.back().link == nullptr) make_other(rows.back());
         }
         for (const auto& row : busiest(std::move(rows), has_components_ ? most_messages_with_detail : most_messages))
-            metrics_.add("message",
-                         std::vector<NamedCount>{{"frames", row.counts[0]}, {"bytes", row.counts[1]}},
+            metrics_.add("message", std::vector<NamedCount>{{"frames", row.counts[0]}, {"bytes", row.counts[1]}},
                          fmt::format("{},{}", has_components_ ? component_labels(row) : system_labels(row),
                                      MetricsText::label("message", message_name(row.message))));
     }

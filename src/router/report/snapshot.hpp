@@ -61,7 +61,7 @@ private:
         std::shared_ptr<Snapshot> to;
         bool has_begun = false;
         std::vector<LinkId> links{};
-        // What to copy next.
+        // The next of each kind to copy.
         std::size_t link = 0, message = 0, target_system = 0;
         std::size_t copied = 0;  // rows of this piece
     };
