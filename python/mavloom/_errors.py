@@ -8,9 +8,8 @@ from __future__ import annotations
 
 class Error(Exception):
     """Base class of all errors of this package."""
-
-    def __init__(self, *args: object) -> None:
-        super().__init__(*args)
+    # No __init__ in Python: the compiled module raises these errors. Python ends daemon threads at its exit where they
+    # run Python code, which would end the process if C++ had called that code.
 
 
 class UsageError(Error, ValueError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _core
+from . import _core, _errors
 
 if TYPE_CHECKING:
     import inspect
@@ -48,25 +48,27 @@ def without_self(signature: inspect.Signature) -> inspect.Signature:
 
 
 class OfClass:
-    """`__signature__` of a compiled class. A class that is not made by a call has no parameters."""
+    """`__signature__` of a compiled class or an error. A class that is not made by a call has no parameters."""
 
     def __get__(self, instance: object, owner: type[Any]) -> inspect.Signature:
         function: Any = owner.__init__
         if instance is not None or hasattr(function, "__code__"):  # a subclass in Python has a signature of its own
             raise AttributeError("__signature__")
         import inspect
+        if issubclass(owner, BaseException):
+            return parsed("def f(*args: object)")
         if not hasattr(function, "__nb_signature__"):
             return inspect.Signature()
         return without_self(signature_of(function)).replace(return_annotation=inspect.Signature.empty)
 
 
 def install() -> None:
-    """Lets inspect.signature read every function and class of the compiled module."""
+    """Lets inspect.signature read every function and class of the compiled module, and its errors."""
     method = _core.Dialect.encode
     for kind in (type(_core.version), type(method)):
         _core.set_signature(kind, property(signature_of))
     _core.set_signature(type(_core.Dialect().encode),
                         property(lambda bound: without_self(signature_of(bound.__func__))))
-    for value in list(vars(_core).values()):
+    for value in [*vars(_core).values(), _errors.Error]:
         if isinstance(value, type):
             setattr(value, "__signature__", OfClass())

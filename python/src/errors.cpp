@@ -58,13 +58,13 @@ void raise_buffer(const std::string& text) {
 }
 
 std::string path_of(nb::handle path) {
-    try {
-        const auto bytes = nb::cast<nb::bytes>(nb::module_::import_("os").attr("fsencode")(path));
-        std::string made(bytes.c_str(), bytes.size());
-        if (made.find('\0') == std::string::npos) return made;
-    } catch (const nb::python_error& error) {
-        if (!error.matches(PyExc_UnicodeEncodeError)) throw;
+    PyObject* encoded = nullptr;
+    if (PyUnicode_FSConverter(path.ptr(), &encoded) != 0) {
+        const auto bytes = nb::steal<nb::bytes>(encoded);
+        return {bytes.c_str(), bytes.size()};
     }
+    nb::python_error error;
+    if (!error.matches(PyExc_ValueError)) throw error;  // else a NUL or what the file system's encoding lacks
     const nb::object shown = nb::repr(path);
     raise_usage(escaped(shown) + " cannot be the path of a file");
 }

@@ -4,6 +4,7 @@ import asyncio
 import gc
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -953,6 +954,14 @@ def test_threads_that_send_on_a_closed_link_do_not_end_the_process_at_its_exit(c
         process = child(code, child_environment)
         _, talk = process.communicate(timeout=DEADLINE_S)
         assert (process.returncode, talk) == (0, "")
+
+
+def test_errors_that_the_compiled_module_raises_run_no_python_code():
+    """Code that C++ calls must not be where Python ends a daemon thread: the thread would take the process with it."""
+    sources = pathlib.Path(__file__).parents[2] / "python" / "src"
+    raised = set(re.findall(r'"(\w+(?:Error|Failure))"', (sources / "errors.cpp").read_text()))
+    assert {"ClosedError", "SystemFailure", "UsageError"} <= raised
+    assert [name for name in raised if hasattr(getattr(mavloom, name).__init__, "__code__")] == []
 
 
 def test_nothing_takes_the_gil_back_but_at_the_end_of_without_gil():
