@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -202,12 +203,23 @@ SetupResult<dialect::Dialect> load_dialect(const Common& common) {
     return all;
 }
 
+// Fixes malloc's thresholds at their first values, in bytes. Otherwise malloc raises them when large areas are freed,
+// and keeps what a link's queue or a report needed once.
+static void return_freed_memory() noexcept {
+#ifdef __GLIBC__
+    constexpr int threshold = 128 * 1024;
+    ::mallopt(M_MMAP_THRESHOLD, threshold);
+    ::mallopt(M_TRIM_THRESHOLD, threshold);
+#endif
+}
+
 }  // namespace mavloom::app
 
 int main(int argc, char** argv) {
     // A closed pipe and a file at its size limit are errors of write(), which each caller handles.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    mavloom::app::return_freed_memory();
     mavloom::app::Signals::watch();
     mavloom::app::Signals::survive_lost_rings();
     mavloom::app::keep_standard_descriptors();

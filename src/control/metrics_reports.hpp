@@ -20,19 +20,19 @@ namespace mavloom::control {
 class MetricsReports {
 public:
     using Text = std::shared_ptr<const std::string>;
-    using Then = std::function<void(const Text&)>;
+    using Take = std::function<void(const Text&)>;
     static constexpr std::chrono::seconds fresh_for{1};
 
     explicit MetricsReports(Served& served) : served_(served) {}
 
-    // Calls `then` with the text, at once or later, on `back`, the executor of the control thread.
-    void get(const asio::any_io_executor& back, Then then) {
-        if (text_ != nullptr && std::chrono::steady_clock::now() - made_ < fresh_for) return then(text_);
-        waiting_.push_back(std::move(then));
+    // Calls `take` with the text, at once or later, on `back`, the executor of the control thread.
+    void get(const asio::any_io_executor& back, Take take) {
+        if (text_ != nullptr && std::chrono::steady_clock::now() - made_ < fresh_for) return take(text_);
+        waiting_.push_back(std::move(take));
         if (waiting_.size() > 1) return;  // the report is on its way
         ask_served(
             served_, back, [](Served& served) { return served.metrics(); },
-            [this](const Later<std::string>& report) { answer(report()); });
+            [this](const Report& report) { answer(whole(report)); });
     }
 
     // Clients must then name this machine in the Host header: web pages that a browser shows may not read the metrics.
@@ -40,16 +40,21 @@ public:
     [[nodiscard]] bool requires_local_host() const noexcept { return requires_local_host_; }
 
 private:
+    static std::string whole(const Report& report) {
+        std::string all;
+        for (auto piece = report.next_text(); !piece.empty(); piece = report.next_text()) all += piece;
+        return all;
+    }
     void answer(std::string report) {
         text_ = std::make_shared<const std::string>(std::move(report));
         made_ = std::chrono::steady_clock::now();
-        for (const auto& then : std::exchange(waiting_, {})) then(text_);
+        for (const auto& take : std::exchange(waiting_, {})) take(text_);
     }
 
     Served& served_;
     Text text_;
     std::chrono::steady_clock::time_point made_;
-    std::vector<Then> waiting_;
+    std::vector<Take> waiting_;
     bool requires_local_host_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <istream>
+#include <utility>
 
 namespace mavloom::control {
 
@@ -36,15 +37,22 @@ void ControlSession::ask() {
     patience_.wait_for_served();
     ask_served(
         served_, socket_.get_executor(), [line](Served& served) { return served.answer(line); },
-        [self = shared_from_this()](const Later<Lines>& answer) { self->write(answer()); });
+        [self = shared_from_this()](Report report) {
+            self->report_ = std::move(report);
+            self->write();
+        });
 }
 
-void ControlSession::write(const Lines& lines) {
+// Formats the next piece only when the client has taken the last one.
+void ControlSession::write() {
     patience_.wait_for_client();
-    output_.clear();
-    for (const auto& line : lines) output_.append(line).push_back('\n');
+    output_ = report_.next_text();
+    if (output_.empty()) {
+        report_ = {};
+        return read();
+    }
     asio::async_write(socket_, asio::buffer(output_), [self = shared_from_this()](error_code error, std::size_t) {
-        if (!error) self->read();
+        if (!error) self->write();
     });
 }
 

@@ -55,13 +55,14 @@ public:
 
 private:
     void ask();
-    void write(const Lines& lines);
+    void write();
 
     Local::socket socket_;
     Served& served_;
     Patience patience_;
     asio::streambuf input_{longest_request};
-    std::string output_;
+    Report report_;       // the answer that is being sent
+    std::string output_;  // a piece of it
 };
 
 // One HTTP client. It has 5 s (http_patience) to send its request, and 5 s more to read the answer.

@@ -30,6 +30,7 @@ void LinkCounters::add(const wire::SequenceTracker::Update& update) noexcept {
     change(late, update.late);
     change(duplicate, update.duplicate);
     change(resync, update.resync);
+    if (update.verdict == wire::SequenceTracker::Verdict::untracked) untracked.add();
 }
 
 SetupResult<std::filesystem::path> Links::inlet_path(std::string_view ring) {
@@ -209,11 +210,22 @@ void Links::refresh_kernel_drops() {
     core_->endpoints.each([](OpenEndpoint& endpoint) { endpoint.refresh_kernel_drops(); });
 }
 
-std::vector<LinkInfo> Links::links() const {
+std::vector<LinkInfo> Links::links() const { return links(link_ids()); }
+
+std::vector<LinkId> Links::link_ids() const {
+    std::vector<LinkId> ids;
+    ids.reserve(core_->links.size());
+    core_->links.each([&](const Link& link) { ids.push_back(link.id); });
+    std::ranges::sort(ids);
+    return ids;
+}
+
+std::vector<LinkInfo> Links::links(std::span<const LinkId> ids) const {
     core_->endpoints.each([](OpenEndpoint& endpoint) { endpoint.settle_sent(); });
     std::vector<LinkInfo> infos;
-    core_->links.each([&](const Link& l) { infos.push_back({l.id, l.endpoint, l.name, l.up, &l.counters}); });
-    std::ranges::sort(infos, {}, &LinkInfo::id);
+    for (const LinkId id : ids)
+        if (const Link* const l = core_->links.find(id))
+            infos.push_back({l->id, l->endpoint, l->name, l->up, &l->counters});
     return infos;
 }
 

@@ -39,12 +39,14 @@ std::string_view Snapshot::endpoint_label(EndpointId id) const {
     return at != endpoints.end() ? std::string_view(at->label) : std::string_view{};
 }
 
-Snapshot snapshot_of(const Links& links) {
-    Snapshot snapshot;
+void add_endpoints(Snapshot& snapshot, const Links& links) {
     for (const auto& info : links.endpoints())
         snapshot.endpoints.push_back({info.id, info.label(), info.endpoint.scheme, info.rcvbuf_bytes,
                                       counts_of(*info.counters), gone_of(*info.counters)});
-    for (auto& link : links.links()) {
+}
+
+void add_links(Snapshot& snapshot, const Links& links, std::span<const LinkId> ids) {
+    for (auto& link : links.links(ids)) {
         const auto sources = links.sources(link.id);
         snapshot.links.push_back({link.id,
                                   link.endpoint,
@@ -53,6 +55,12 @@ Snapshot snapshot_of(const Links& links) {
                                   counts_of(*link.counters),
                                   {sources.begin(), sources.end()}});
     }
+}
+
+Snapshot snapshot_of(const Links& links) {
+    Snapshot snapshot;
+    add_endpoints(snapshot, links);
+    add_links(snapshot, links, links.link_ids());
     return snapshot;
 }
 

@@ -9,7 +9,7 @@
 namespace mavloom::net {
 
 BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
-    assert(block_class < classes && !block.empty());
+    assert(block_class < classes && !block.empty() && block.size() < 1u << 24);
     if (block_class != classes - 1) key = 0;
     if (bytes_ + block.size() > limits_.max_bytes) [[unlikely]]
         return push_when_full(block, block_class, key, now);
@@ -30,7 +30,7 @@ void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t 
     if (tail_ + block.size() > capacity_ || entries_.size() == entries_.capacity()) reserve(block.size());
     std::memcpy(memory_.get() + tail_, block.data(), block.size());
     entries_.push_back(
-        {key, now, static_cast<std::uint32_t>(tail_), static_cast<std::uint32_t>(block.size()), block_class, true});
+        {key, now, static_cast<std::uint32_t>(tail_), static_cast<std::uint32_t>(block.size()), block_class, 1});
     tail_ += block.size();
     bytes_ += block.size();
     class_bytes_[block_class] += block.size();
@@ -43,12 +43,12 @@ void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t 
 bool BlockQueue::make_room(std::size_t size, std::uint8_t block_class, std::uint64_t key, std::uint32_t& dropped) {
     if (bytes_ - droppable(block_class) + size > limits_.max_bytes) return false;
     if (!jammed_) {
-        jammed_ = true;
+        jammed_ = has_backlog_ = true;
         index_keys();
     }
     if (key != 0) {
-        const Newest& newest = slot_of(key);
-        if (newest.key == key) superseded_.push_back(newest.index);
+        const std::uint32_t place = slot_of(key);
+        if (place != 0) superseded_.push_back(place - 1);
     }
     while (bytes_ + size > limits_.max_bytes) {
         if (!drop_one(block_class)) return false;
@@ -96,7 +96,7 @@ bool BlockQueue::oldest(std::uint8_t block_class) noexcept {
 
 void BlockQueue::drop(std::size_t index) noexcept {
     Entry& entry = entries_[index];
-    entry.live = false;
+    entry.live = 0;
     bytes_ -= entry.size;
     class_bytes_[entry.block_class] -= entry.size;
     --blocks_;
@@ -112,22 +112,38 @@ void BlockQueue::drop_from_head() noexcept {
 }
 
 void BlockQueue::reset() noexcept {
+    const bool is_large = capacity_ > kept_capacity || entries_.capacity() > kept_entries;
+    if (has_backlog_ || is_large) [[unlikely]]
+        end_backlog();
     entries_.clear();
     head_ = tail_ = begun_ = bytes_ = blocks_ = 0;
     class_bytes_.fill(0);
     oldest_.fill(0);
-    if (newest_.empty()) return;
-    jammed_ = false;
-    newest_ = {};
-    superseded_ = {};
+}
+
+// `= {}` would keep it.
+template <class T>
+static void free_memory(std::vector<T>& all) noexcept {
+    std::vector<T>().swap(all);
+}
+
+// Traffic that fills much memory in each turn keeps it.
+void BlockQueue::end_backlog() noexcept {
+    const bool is_small = tail_ <= kept_capacity && entries_.size() <= kept_entries;
+    small_uses_ = is_small ? static_cast<std::uint8_t>(std::min(small_uses_ + 1, int{rests_after})) : 0;
+    if (!has_backlog_ && small_uses_ < rests_after) return;
+    has_backlog_ = jammed_ = false;
+    free_memory(newest_);
+    free_memory(superseded_);
     keys_ = next_superseded_ = 0;
+    if (entries_.capacity() > kept_entries) free_memory(entries_);
     if (capacity_ <= kept_capacity) return;
     memory_.reset();
     capacity_ = 0;
-    entries_ = {};
 }
 
 std::uint32_t BlockQueue::expire(MonoTime now) noexcept {
+    has_backlog_ = blocks_ != 0;
     std::uint32_t dropped = 0;
     for (std::uint8_t c = 0; c < classes; ++c) {
         while (oldest(c) && now - entries_[oldest_[c]].queued > limits_.max_age[c]) {
@@ -138,49 +154,72 @@ std::uint32_t BlockQueue::expire(MonoTime now) noexcept {
     return dropped;
 }
 
+std::size_t BlockQueue::memory_bytes() const noexcept {
+    return capacity_ + entries_.capacity() * sizeof(Entry) + (newest_.capacity() + superseded_.capacity()) * 4;
+}
+
 std::uint32_t BlockQueue::clear() noexcept {
     const auto dropped = static_cast<std::uint32_t>(blocks_);
     reset();
     return dropped;
 }
 
-void BlockQueue::reserve(std::size_t size) {
-    if (tail_ + size > capacity_) {
-        std::size_t capacity = std::max(capacity_, first_capacity);
-        while (capacity / 2 < bytes_ + size) capacity *= 2;
-        compact(capacity);
-    } else if (entries_.size() > 2 * blocks_ && !entries_.empty()) {
-        compact(capacity_);
-    }
-    if (entries_.size() == entries_.capacity()) entries_.reserve(std::max<std::size_t>(64, entries_.size() * 2));
+// Blocks that were dropped or sent leave gaps. Returns how much of them makes closing them worthwhile, if `used` bytes
+// or blocks must move. Large queues move eight times what they gain, small ones as much.
+static std::size_t worth_moving(std::size_t used, std::size_t large) noexcept {
+    return std::max<std::size_t>(used < large ? used : used / 8, 1);
 }
 
-// Closes the gaps that dropped and sent blocks left. Moves to a new buffer if `capacity` (bytes) differs from the old
-// one.
-void BlockQueue::compact(std::size_t capacity) {
-    std::unique_ptr<std::uint8_t[]> larger;
-    if (capacity != capacity_) larger = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
-    std::uint8_t* const to = larger ? larger.get() : memory_.get();
-    std::size_t tail = 0, kept = 0;
+void BlockQueue::reserve(std::size_t size) {
+    if (entries_.size() == entries_.capacity()) reserve_entry();
+    if (tail_ + size > capacity_) reserve_bytes(size);
+}
+
+void BlockQueue::reserve_entry() {
+    if (entries_.size() - blocks_ >= worth_moving(blocks_, large_blocks)) return remove_dead_entries();
+    const std::size_t added = blocks_ < large_blocks ? entries_.size() : blocks_ / 4;
+    entries_.reserve(entries_.size() + std::max<std::size_t>(64, added));
+}
+
+void BlockQueue::reserve_bytes(std::size_t size) {
+    const std::size_t needed = bytes_ + size;
+    if (tail_ - bytes_ >= std::max(worth_moving(bytes_, large_bytes), size)) return move_blocks(capacity_);
+    std::size_t capacity = std::max(capacity_, first_capacity);
+    while (capacity < 2 * needed && capacity < 2 * large_bytes) capacity *= 2;
+    if (capacity < 2 * needed)
+        capacity = std::max(needed, std::min(needed + needed / 4, limits_.max_bytes + limits_.max_bytes / 8));
+    move_blocks(capacity);
+}
+
+// Closes the gaps between blocks. Moves to a new buffer if `capacity` (bytes) differs from the old one.
+void BlockQueue::move_blocks(std::size_t capacity) {
+    std::unique_ptr<std::uint8_t[]> other;
+    if (capacity != capacity_) other = std::make_unique_for_overwrite<std::uint8_t[]>(capacity);
+    std::uint8_t* const to = other ? other.get() : memory_.get();
+    std::size_t tail = 0;
     for (std::size_t i = head_; i < entries_.size(); ++i) {
-        if (!entries_[i].live) continue;
-        Entry entry = entries_[i];
+        Entry& entry = entries_[i];
+        if (!entry.live) continue;
         std::memmove(to + tail, memory_.get() + entry.offset, entry.size);
         entry.offset = static_cast<std::uint32_t>(tail);
         tail += entry.size;
-        entries_[kept++] = entry;
     }
-    entries_.resize(kept);
-    if (larger) memory_ = std::move(larger);
+    if (other) memory_ = std::move(other);
     capacity_ = capacity;
     tail_ = tail;
+}
+
+void BlockQueue::remove_dead_entries() {
+    const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(head_);
+    const auto end = std::copy_if(first, entries_.end(), entries_.begin(), [](const Entry& e) { return e.live != 0; });
+    entries_.erase(end, entries_.end());
     head_ = 0;
     oldest_.fill(0);
     if (jammed_) index_keys();
 }
 
 void BlockQueue::index_keys() {
-    newest_.assign(std::bit_ceil(std::max<std::size_t>(64, 2 * entries_.size())), Newest{});
+    newest_.assign(std::bit_ceil(std::max<std::size_t>(64, 2 * keys_)), 0);
     keys_ = 0;
     superseded_.clear();
     next_superseded_ = 0;
@@ -190,21 +229,25 @@ void BlockQueue::index_keys() {
 }
 
 void BlockQueue::note_key(std::uint64_t key, std::size_t index) {
-    Newest& newest = slot_of(key);
-    if (newest.key == key) {
-        superseded_.push_back(newest.index);
-        newest.index = static_cast<std::uint32_t>(index);
-        return;
-    }
-    newest = {key, static_cast<std::uint32_t>(index)};
-    if (++keys_ * 2 > newest_.size()) index_keys();
+    std::uint32_t& place = slot_of(key);
+    if (place != 0) superseded_.push_back(place - 1);
+    else ++keys_;
+    place = static_cast<std::uint32_t>(index + 1);
+    if (keys_ * 2 > newest_.size()) grow_index();
 }
 
-// Open addressing. The table is never more than half full.
-BlockQueue::Newest& BlockQueue::slot_of(std::uint64_t key) noexcept {
+void BlockQueue::grow_index() {
+    std::vector<std::uint32_t> old(newest_.size() * 2);
+    old.swap(newest_);
+    for (const std::uint32_t place : old)
+        if (place != 0) slot_of(entries_[place - 1].key) = place;
+}
+
+// Open addressing. The table is never more than half full. Returns the key's place, which is 0 if it has none yet.
+std::uint32_t& BlockQueue::slot_of(std::uint64_t key) noexcept {
     const std::size_t mask = newest_.size() - 1;
     std::size_t i = (key * 0x9e3779b97f4a7c15u >> 32) & mask;
-    while (newest_[i].key != 0 && newest_[i].key != key) i = (i + 1) & mask;
+    while (newest_[i] != 0 && entries_[newest_[i] - 1].key != key) i = (i + 1) & mask;
     return newest_[i];
 }
 

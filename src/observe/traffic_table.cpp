@@ -37,19 +37,31 @@ static void move_marks(TrafficRow& row, TrafficRow::Mark now) noexcept {
     row.newer = now;
 }
 
+TrafficTable::Key TrafficTable::key_of(LinkId link, Source source, MessageId id) noexcept {
+    return {link.value,
+            std::uint64_t{id.value} << 16 | std::uint64_t{source.system.value} << 8 | source.component.value};
+}
+
+TrafficTable::Rows::iterator TrafficTable::add_row(const Key& key, const TrafficRow& row) {
+    const auto added = rows_.emplace(key, row).first;
+    while (refill_from_ < places_.size() && places_[refill_from_] != nullptr) ++refill_from_;
+    if (refill_from_ == places_.size()) places_.push_back(nullptr);
+    places_[refill_from_] = &added->second;
+    return added;
+}
+
 void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time) {
-    const auto source = frame.source();
-    const Key key{link.value, std::uint64_t{frame.id().value} << 16 | std::uint64_t{source.system.value} << 8 |
-                                  source.component.value};
+    const Key key = key_of(link, frame.source(), frame.id());
     auto it = rows_.find(key);
-    if (it == rows_.end()) {
+    if (it == rows_.end()) [[unlikely]] {
         if (rows_.size() == max_rows) {
             ++unlisted_;
             return;
         }
-        it = rows_.emplace(key, TrafficRow{link, source, frame.id()}).first;
-        it->second.first = time;
-        it->second.older = it->second.newer = {time, 1};
+        const TrafficRow::Mark mark{time, 1};
+        it = add_row(
+            key,
+            {.link = link, .source = frame.source(), .id = frame.id(), .first = time, .older = mark, .newer = mark});
     } else {
         auto& row = it->second;
         const auto gap = time - row.last;
@@ -68,8 +80,15 @@ void TrafficTable::add(LinkId link, const wire::FrameView& frame, WallTime time)
 std::vector<TrafficRow> TrafficTable::rows() const {
     std::vector<TrafficRow> rows;
     rows.reserve(rows_.size());
-    for (const auto& [key, row] : rows_) rows.push_back(row);
+    (void)copy_rows(0, places_.size(), rows);
     return rows;
+}
+
+std::size_t TrafficTable::copy_rows(std::size_t from, std::size_t most, std::vector<TrafficRow>& to) const {
+    const std::size_t until = from + std::min(most, places_.size() - std::min(from, places_.size()));
+    for (; from < until; ++from)
+        if (places_[from] != nullptr) to.push_back(*places_[from]);
+    return until < places_.size() ? until : end;
 }
 
 std::vector<TrafficRow> TrafficTable::sorted(std::vector<TrafficRow> rows) {

@@ -40,9 +40,13 @@ void Engine::note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) 
 }
 void Engine::note_reboot(LinkId link, Source source, MonoTime now) noexcept { impl_->note_reboot(link, source, now); }
 std::vector<RouteInfo> Engine::routes(MonoTime now) const { return impl_->routes(now); }
+std::vector<RouteInfo> Engine::routes(LinkId link, MonoTime now) const { return impl_->routes(link, now); }
 std::span<const DuplicateId> Engine::duplicate_ids() const noexcept { return impl_->duplicates; }
 std::span<const RouteConflict> Engine::route_conflicts() const noexcept { return impl_->conflicts; }
-std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(); }
+std::vector<UnknownTargetInfo> Engine::unknown_targets() const { return impl_->unknown_targets(0, RouteTable::pairs); }
+std::vector<UnknownTargetInfo> Engine::unknown_targets(SystemId system) const {
+    return impl_->unknown_targets(std::size_t{system.value} << 8, (std::size_t{system.value} + 1) << 8);
+}
 const EngineCounters& Engine::counters() const noexcept { return impl_->counters; }
 const LinkCounters* Engine::counters(LinkId link) const noexcept {
     const Slot slot = impl_->slot_of(link);

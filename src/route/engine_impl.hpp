@@ -31,7 +31,8 @@ public:
     void note_reboot(LinkId link, Source source, MonoTime now) noexcept;
     void note_sent(const wire::FrameView& frame, LinkId link, MonoTime now) noexcept;
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
-    [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;
+    [[nodiscard]] std::vector<RouteInfo> routes(LinkId link, MonoTime now) const;
+    [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets(std::size_t first, std::size_t last) const;
 
     [[nodiscard]] Slot slot_of(LinkId id) const noexcept;
 

@@ -195,23 +195,31 @@ void Engine::Impl::order_groups() {
     }
 }
 
+static void add_route(std::vector<RouteInfo>& list, LinkId link, const Route& route, MonoTime now, Nanoseconds timeout) {
+    const Nanoseconds age{now.time_since_epoch().count() - route.heard_ns};
+    if (age < timeout) list.push_back({link, source_of(route.pair), std::max(age, Nanoseconds{}), route.frames});
+}
+
 std::vector<RouteInfo> Engine::Impl::routes(MonoTime now) const {
     std::vector<RouteInfo> list;
-    routes_.each_known([&](const Route& route) {
-        const std::int64_t age_ns = now.time_since_epoch().count() - route.heard_ns;
-        if (age_ns < options.route_timeout.count())
-            list.push_back({ids_[route.slot], source_of(route.pair), Nanoseconds{std::max<std::int64_t>(age_ns, 0)},
-                            route.frames});
-    });
+    routes_.each_known([&](const Route& route) { add_route(list, ids_[route.slot], route, now, options.route_timeout); });
     std::sort(list.begin(), list.end(), [](const RouteInfo& a, const RouteInfo& b) {
         return std::pair{a.source, a.link} < std::pair{b.source, b.link};
     });
     return list;
 }
 
-std::vector<UnknownTargetInfo> Engine::Impl::unknown_targets() const {
+std::vector<RouteInfo> Engine::Impl::routes(LinkId link, MonoTime now) const {
+    std::vector<RouteInfo> list;
+    const Slot slot = slot_of(link);
+    if (slot == no_slot) return list;
+    routes_.each_known(slot, [&](const Route& route) { add_route(list, link, route, now, options.route_timeout); });
+    return list;
+}
+
+std::vector<UnknownTargetInfo> Engine::Impl::unknown_targets(std::size_t first, std::size_t last) const {
     std::vector<UnknownTargetInfo> list;
-    for (std::size_t pair = 0; pair < unknown_.size(); ++pair)
+    for (std::size_t pair = first; pair < std::min(last, unknown_.size()); ++pair)
         if (unknown_[pair] != 0) list.push_back({source_of(static_cast<Pair>(pair)), unknown_[pair]});
     return list;
 }

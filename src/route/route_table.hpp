@@ -71,9 +71,13 @@ public:
     // Calls f(const Route&) for every known route, link by link.
     template <class F>
     void each_known(F&& f) const {
-        for (const Link& link : links_)
-            for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
-                if (routes_[i].known) f(routes_[i]);
+        for (std::size_t slot = 0; slot < links_.size(); ++slot) each_known(static_cast<Slot>(slot), f);
+    }
+    // The same for one link.
+    template <class F>
+    void each_known(Slot slot, F&& f) const {
+        for (std::uint32_t i = links_[slot].oldest; i != none; i = routes_[i].newer)
+            if (routes_[i].known) f(routes_[i]);
     }
 
 private:

@@ -13,6 +13,7 @@
 #include "router/endpoints.hpp"
 #include "router/forwarder.hpp"
 #include "router/recordings.hpp"
+#include "router/report/snapshot.hpp"
 #include "router/silence_watch.hpp"
 
 namespace mavloom::router {
@@ -31,9 +32,13 @@ Router::Router(const dialect::Dialect& dialect, const config::RouterConfig& conf
       forwarder_(std::make_unique<Forwarder>(dialect, config, *links_)),
       silence_(std::make_unique<SilenceWatch>()),
       posted_(std::make_unique<control::PostBox>()),
-      recordings_(std::make_unique<Recordings>(notice_, [this](std::string text) {
-          post([this, line = std::move(text)] { notice_(config::LogLevel::warning, line); });
-      })) {}
+      recordings_(std::make_unique<Recordings>(notice_,
+                                               [this](std::string text) {
+                                                   post([this, line = std::move(text)] {
+                                                       notice_(config::LogLevel::warning, line);
+                                                   });
+                                               })),
+      snapshots_(std::make_unique<Snapshots>()) {}
 
 Router::~Router() {
     // Stops the threads that may call post().

@@ -190,8 +190,10 @@ Later<Lines> answer_request(Simulator& simulator, std::string_view request) {
     return failed(fmt::format("a simulator has no command {}; there are {}", in_quotes(name), fmt::join(names, ", ")));
 }
 
-Later<Lines> Simulator::answer(std::string_view request) { return answer_request(*this, request); }
+control::Report Simulator::answer(std::string_view request) {
+    return control::report_of(answer_request(*this, request));
+}
 
-Later<std::string> Simulator::metrics() { return report_metrics(*this); }
+control::Report Simulator::metrics() { return control::report_of(report_metrics(*this)); }
 
 }  // namespace mavloom::simserve

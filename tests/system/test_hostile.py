@@ -148,17 +148,32 @@ def test_invented_ids_on_many_clients_take_bounded_memory(spawn):
             client.send(b"".join(attitude(source) for source in ids))
             harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == (n + 1) * len(ids),
                              what="all frames")
-        assert router.stats("source")
+        known = sum(source["frames"] for source in router.stats("source"))
+        untracked = [link["untracked"] for link in router.links()]
         status = pathlib.Path(f"/proc/{router.process.pid}/status").read_text()
 
     assert int(re.search(r"RssAnon:\s+(\d+) kB", status)[1]) < 40_000
+    assert untracked[0] == 0  # the first client came while there was room
+    assert 0 < sum(untracked) == clients * len(ids) - known  # nobody's loss is left out silently
 
 
-def test_invented_ids_do_not_grow_the_metrics(spawn):
-    """One scrape after invented ids was 216 MB."""
+def metrics_of(port):
+    """The samples of one scrape, by name; and the size of its text."""
     from prometheus_client.parser import text_string_to_metric_families
+    text = urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics").read().decode()
+    samples = {}
+    for family in text_string_to_metric_families(text):
+        for sample in family.samples:
+            samples.setdefault(sample.name, []).append(sample)
+    return samples, len(text)
+
+
+@pytest.mark.parametrize("detail", [False, True])
+def test_invented_ids_do_not_grow_the_metrics(spawn, detail):
+    """One scrape after invented ids was 216 MB."""
     port, metrics = routers.udp_port(), routers.tcp_port()
-    router = Router(spawn, f"udpin://127.0.0.1:{port}", "--metrics", f"127.0.0.1:{metrics}")
+    router = Router(spawn, f"udpin://127.0.0.1:{port}", "--metrics", f"127.0.0.1:{metrics}",
+                    *["--metrics-detail"] * detail)
     with UdpEnd(("127.0.0.1", port)) as attacker, UdpEnd(("127.0.0.1", port)) as vehicle:
         ids = [(system, component) for system in range(2, 26) for component in range(1, 101)]
         for begin in range(0, len(ids), 40):
@@ -166,13 +181,36 @@ def test_invented_ids_do_not_grow_the_metrics(spawn):
         for _ in range(3):
             vehicle.send(heartbeat(VEHICLE))
         harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == len(ids) + 3, what="all frames")
-        text = urllib.request.urlopen(f"http://127.0.0.1:{metrics}/metrics").read().decode()
-    samples = [sample for family in text_string_to_metric_families(text) for sample in family.samples]
-    by_source = [s for s in samples if s.name == "mavloom_source_frames_total"]
-    by_message = [s for s in samples if s.name == "mavloom_message_frames_total"]
+        samples, size = metrics_of(metrics)
+    bounds = {"system": 256, "source": 256, "message": 1024} if detail else {"system": 256, "message": 256}
 
-    assert len(by_source) <= 256 + 2 and len(by_message) <= 1024 + 2  # and what is left of each link
-    for all_of in (by_source, by_message):
-        assert sum(s.value for s in all_of) == len(ids) + 3
-        assert [s.value for s in all_of if s.labels["sys"] == "1"] == [3]  # the busiest is listed
-    assert any(s.labels["message"] == "other" for s in by_message)
+    assert size < 300_000
+    for kind, most in bounds.items():
+        series = samples[f"mavloom_{kind}_frames_total"]
+        assert len(series) <= most + 2  # and what is left of each link
+        assert sum(s.value for s in series) == len(ids) + 3
+        assert [s.value for s in series if s.labels["sys"] == "1"] == [3]  # the busiest is listed
+        assert all(("comp" in s.labels) == (kind != "system" and detail) for s in series)
+    assert any(s.labels["message"] == "other" for s in samples["mavloom_message_frames_total"]) == detail
+    assert ("mavloom_source_frames_total" in samples) == detail
+
+
+def test_many_messages_and_links_do_not_grow_the_metrics(spawn):
+    """1,100 clients, of which 1,024 may be listed; and more messages than 256."""
+    port, metrics = routers.tcp_port(), routers.tcp_port()
+    router = Router(spawn, f"tcpin://127.0.0.1:{port}?max_peers=2000&queue_bytes=4k", "--metrics",
+                    f"127.0.0.1:{metrics}")
+    clients = 1100
+    with contextlib.ExitStack() as open_clients:
+        for n in range(clients):
+            client = open_clients.enter_context(routers.tcp_client(port))
+            client.send(heartbeat((1 + n % 250, 1)) * (2 if n < 100 else 1))
+        harness.wait_for(lambda: sum(link["frames_in"] for link in router.links()) == clients + 100, what="all frames")
+        samples, size = metrics_of(metrics)
+
+    assert size < 5_000_000
+    for kind, most in {"link": 1024, "system": 256, "message": 256}.items():
+        name = "mavloom_link_frames_in_total" if kind == "link" else f"mavloom_{kind}_frames_total"
+        assert sum(s.labels.get("sys", "1") != "other" and s.labels["link"] != "other" for s in samples[name]) <= most
+        assert sum(s.value for s in samples[name]) == clients + 100
+        assert any(s.labels["link"] == "other" for s in samples[name])

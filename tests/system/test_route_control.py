@@ -515,7 +515,8 @@ def metrics_of(text):
 
 def test_metrics_are_what_prometheus_reads(net, tmp_path):
     port, third = routers.tcp_port(), UdpEnd()
-    sut = net(("udpout", "tcpin"), extra=["--metrics", f"127.0.0.1:{port}", f"tlog://{tmp_path}/x.tlog",
+    sut = net(("udpout", "tcpin"), extra=["--metrics", f"127.0.0.1:{port}", "--metrics-detail",
+                                          f"tlog://{tmp_path}/x.tlog",
                                           f"udpout://127.0.0.1:{third.port}?name=a%22b%5Cc%20d"])
     sut.hears(1, VEHICLE)
     sut.send(1, unknown())
@@ -537,7 +538,10 @@ def test_metrics_are_what_prometheus_reads(net, tmp_path):
             if isinstance(value, int) and (name, labels) in read:
                 expected[name, labels] = value
     assert {key: read[key] for key in expected} == expected
-    assert set(read) - set(expected) == {key for key in read if key[0].startswith("mavloom_message_")}
+    others = set(read) - set(expected)
+    assert others == {key for key in read if key[0].startswith(("mavloom_message_", "mavloom_system_"))}
+    assert read["mavloom_system_frames_total", frozenset({("link", "A"), ("sys", "1")})] == sum(
+        line["frames"] for line in sut.router.stats("source") if (line["link"], line["sys"]) == ("A", 1))
     assert read["mavloom_link_frames_in_total", frozenset({("link", "A")})] == 6
     assert read["mavloom_link_unknown_target_total", frozenset({("link", "A")})] == 1
     assert ("mavloom_endpoint_send_errors_total", frozenset({("endpoint", 'a"b\\c d')})) in read

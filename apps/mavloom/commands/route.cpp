@@ -36,6 +36,7 @@ struct RouteOptions {
     std::string ring;     // overrides the ring of the file
     std::string name;     // empty: the ring's name, else "router"
     std::string metrics;  // HOST:PORT
+    bool has_metrics_detail = false;
 };
 
 // The endpoints to route between: first those of the configuration file, then those of the command line. A reload
@@ -317,6 +318,7 @@ Exit route(const Common& common, const RouteOptions& options) {
     };
     auto router = router::Router::create(*dialect, plan->config.router, notice);
     if (!router) return fail(router.error());
+    if (options.has_metrics_detail) (*router)->set_metrics_detail(router::MetricsDetail::components);
     const Signals signals([](void* r) noexcept { static_cast<router::Router*>(r)->wake(); }, router->get(),
                           Signals::OnHangup::remember);
     std::optional<ExplainPrinter> explain;
@@ -364,6 +366,8 @@ Run declare_route(Arguments command, const Common& common) {
         .type_name("NAME");
     command.add_option("--metrics", options->metrics, "serve Prometheus metrics at http://HOST:PORT/metrics")
         .type_name("HOST:PORT");
+    command.add_flag("--metrics-detail", options->has_metrics_detail,
+                     "let the metrics distinguish the components of each system, and list more messages");
     command.add_option("--for", options->duration, "end after this time: 10s, 2m").type_name("TIME");
     command.footer(
         "Forwards every frame byte for byte: broadcasts to all other links, targeted frames to the links where their "

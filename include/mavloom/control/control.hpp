@@ -4,10 +4,10 @@
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// Both run on one thread of their own, the control thread. It posts each request to the router's thread, which runs the
-// request between two turns of its loop and only copies counters. The control thread then formats the answer, at a low
-// priority. 64 clients of each kind can be connected; a further one takes the place of the one that has been idle
-// longest.
+// Both run on one thread of their own, the control thread. It posts each request to the router's thread, which copies
+// its counters in pieces, each between two turns of its loop. The control thread then formats the answer in pieces, at
+// a low priority, and sends each when the client has taken the last. 64 clients of each kind can be connected; a
+// further one takes the place of the one that has been idle longest.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.

@@ -16,6 +16,20 @@ using Lines = std::vector<std::string>;
 template <class Text>
 using Later = std::function<Text()>;
 
+// An answer that is copied and formatted in pieces. So no turn of the owner's loop spends long on it, and a slow client
+// takes little memory.
+struct Report {
+    // The owner's thread calls this between two turns. It copies one piece of the data, in less than a millisecond, and
+    // returns true while something is left. Empty if nothing is to be copied.
+    std::function<bool()> copy_more{};
+    // Formats and returns the next piece of the text; empty after the last. Called after all is copied, on one other
+    // thread that formats all reports.
+    std::function<std::string()> next_text;
+};
+// Everything is copied already, and the text is one piece.
+[[nodiscard]] Report report_of(Later<Lines> lines);
+[[nodiscard]] Report report_of(Later<std::string> text);
+
 class Served {
 public:
     Served() = default;
@@ -29,13 +43,12 @@ public:
     // Destroys posted work that has not run yet. An object that posts work must call this before it is destroyed.
     virtual void drop_posted() = 0;
 
-    // `answer` and `metrics` run on the owner's thread and only copy data. Another thread may call the functions that
-    // they return.
+    // Both run on the owner's thread.
     //
-    // Answers one request line. The last line is {"ok":true} or {"ok":false,"error":"..."}.
-    [[nodiscard]] virtual Later<Lines> answer(std::string_view request) = 0;
+    // Answers one request line with lines that end in '\n'. The last is {"ok":true} or {"ok":false,"error":"..."}.
+    [[nodiscard]] virtual Report answer(std::string_view request) = 0;
     // Prometheus text exposition format, version 0.0.4.
-    [[nodiscard]] virtual Later<std::string> metrics() = 0;
+    [[nodiscard]] virtual Report metrics() = 0;
 };
 
 }  // namespace mavloom::control

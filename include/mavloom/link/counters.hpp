@@ -20,6 +20,8 @@ struct LinkCounters {
     Counter queue_bytes, queue_age;  // whole frames dropped from the send queue
     // Loss on the link itself, from gaps in the sequence numbers received.
     Counter lost, late, duplicate, resync;
+    // Frames whose loss is not computed, because the tracker has no room for a further sender.
+    Counter untracked;
     Counter frames_not_sent;  // in datagrams that the kernel rejected
     // Frames sent to a closed port. These are frames that an ICMP refusal answered, and frames sent in the second after
     // a refusal while the peer is silent.
@@ -27,7 +29,7 @@ struct LinkCounters {
     // Frames not sent to a UDP peer that was heard once only: its address may be forged (docs/design/security.md).
     Counter unconfirmed;
     void add(const LinkCounters& other) noexcept;
-    // Applies a sequence tracker's update to `lost`, `late`, `duplicate` and `resync`.
+    // Applies a sequence tracker's update to `lost`, `late`, `duplicate`, `resync` and `untracked`.
     void add(const wire::SequenceTracker::Update& update) noexcept;
 };
 
@@ -37,7 +39,7 @@ struct LinkCounter {
     Counter LinkCounters::*word;
     bool on_page;  // also on the counter page of a ring (docs/formats/ring.md)
 };
-inline constexpr std::array<LinkCounter, 19> link_counters{{
+inline constexpr std::array<LinkCounter, 20> link_counters{{
     {"frames_in", &LinkCounters::frames_in, true},
     {"bytes_in", &LinkCounters::bytes_in, true},
     {"frames_out", &LinkCounters::frames_out, true},
@@ -46,6 +48,7 @@ inline constexpr std::array<LinkCounter, 19> link_counters{{
     {"late", &LinkCounters::late, false},
     {"repeated", &LinkCounters::duplicate, false},
     {"resync", &LinkCounters::resync, false},
+    {"untracked", &LinkCounters::untracked, false},
     {"crc_error", &LinkCounters::crc_error, true},
     {"junk_bytes", &LinkCounters::junk_bytes, true},
     {"unknown_flags", &LinkCounters::unknown_flags, false},

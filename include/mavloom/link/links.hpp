@@ -204,6 +204,9 @@ public:
 
     // The links that exist now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
+    // The ids of the links that exist now, sorted; and those of `ids` that still exist. For a copy in pieces.
+    [[nodiscard]] std::vector<LinkId> link_ids() const;
+    [[nodiscard]] std::vector<LinkInfo> links(std::span<const LinkId> ids) const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;
     [[nodiscard]] const LinkCounters* counters(LinkId link) const noexcept override;
     // Loss per source on a link. Valid until the next turn; empty if the link is gone.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,5 +50,9 @@ struct Snapshot {
 };
 
 [[nodiscard]] Snapshot snapshot_of(const Links& links);
+
+// For a snapshot in pieces: first the endpoints, then some links at a time, in the order of their ids.
+void add_endpoints(Snapshot& snapshot, const Links& links);
+void add_links(Snapshot& snapshot, const Links& links, std::span<const LinkId> ids);
 
 }  // namespace mavloom::link

@@ -12,8 +12,9 @@
 // - A block that the kernel has taken in part is never dropped at a bound.
 //
 // Blocks lie back to back in one buffer, so that one system call can send many of them. The buffer grows with the
-// queue, to at most four times the bound, and shrinks again after a jam. The queue allocates nothing in steady state.
-// Not thread-safe.
+// queue: to twice the bytes that are queued, and in large queues to nine eighths of the bound. Each block takes 24
+// bytes more. The queue frees its memory when a backlog has been sent. It allocates nothing in steady state. Not
+// thread-safe.
 #pragma once
 
 #include <sys/uio.h>
@@ -53,8 +54,8 @@ public:
 
     explicit BlockQueue(const Limits& limits) noexcept : limits_(limits) {}
 
-    // Queues a copy of `block`. Set `key` only if a newer block with the same key makes this one worthless; otherwise
-    // pass 0.
+    // Queues a copy of `block`, which has less than 16 MiB. Set `key` only if a newer block with the same key makes
+    // this one worthless; otherwise pass 0.
     Pushed push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
     // Drops blocks that are older than their class allows. Returns how many.
     std::uint32_t expire(MonoTime now) noexcept;
@@ -64,6 +65,8 @@ public:
     [[nodiscard]] bool empty() const noexcept { return blocks_ == 0; }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
+    // The memory that the queue has allocated, some of which it may not have touched yet.
+    [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
     // For datagrams. `gather` collects whole blocks, starting at `from`, into as few pieces as possible. It takes at
     // most `max_bytes` in total, but always takes the first block. It moves `from` behind the last block taken. At the
@@ -84,17 +87,19 @@ private:
     struct Entry {
         std::uint64_t key;
         MonoTime queued;
-        std::uint32_t offset, size;
-        std::uint8_t block_class;
-        bool live;
+        std::uint32_t offset;
+        std::uint32_t size : 24;
+        std::uint32_t block_class : 7;
+        std::uint32_t live : 1;
     };
-    struct Newest {
-        std::uint64_t key = 0;
-        std::uint32_t index = 0;
-    };
+    static_assert(sizeof(Entry) == 24);
     static constexpr std::size_t first_capacity = 16384;
-    // When a jam is over, the queue frees a buffer that is larger than this.
-    static constexpr std::size_t kept_capacity = 65536;
+    // When a backlog has been sent, the queue frees memory beyond this.
+    static constexpr std::size_t kept_capacity = 65536, kept_entries = 2048;
+    // From these sizes on, memory matters more than the time to close gaps.
+    static constexpr std::size_t large_bytes = 262'144, large_blocks = 8192;
+    // A queue that has needed little this many times in a row had a burst, not much traffic.
+    static constexpr std::uint8_t rests_after = 255;
 
     Pushed push_when_full(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
     void append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now);
@@ -107,11 +112,16 @@ private:
     void drop(std::size_t index) noexcept;
     void drop_from_head() noexcept;
     void reset() noexcept;
+    void end_backlog() noexcept;
     void reserve(std::size_t size);
-    void compact(std::size_t capacity);
+    void reserve_entry();
+    void reserve_bytes(std::size_t size);
+    void move_blocks(std::size_t capacity);
+    void remove_dead_entries();
     void index_keys();
     void note_key(std::uint64_t key, std::size_t index);
-    [[nodiscard]] Newest& slot_of(std::uint64_t key) noexcept;
+    void grow_index();
+    [[nodiscard]] std::uint32_t& slot_of(std::uint64_t key) noexcept;
 
     Limits limits_;
     std::unique_ptr<std::uint8_t[]> memory_;
@@ -125,11 +135,14 @@ private:
     // Start of the search for the oldest block of each class: no droppable block of that class lies before it.
     std::array<std::size_t, classes> oldest_{};
 
+    bool has_backlog_ = false;     // the outlet was blocked, or the queue was jammed
+    std::uint8_t small_uses_ = 0;  // how often in a row the queue became empty and had needed little
+
     // Used only while the queue is jammed: from the moment it reaches the byte bound until it is empty or rewound.
-    // `newest_` maps each key to its newest block. `superseded_` lists the blocks that have a newer one, in the order
-    // in which they were superseded.
+    // `newest_` is a hash table of keys: the index of a key's newest block plus one, or 0. `superseded_` lists the
+    // blocks that have a newer one, in the order in which they were superseded.
     bool jammed_ = false;
-    std::vector<Newest> newest_;
+    std::vector<std::uint32_t> newest_;
     std::size_t keys_ = 0;
     std::vector<std::uint32_t> superseded_;
     std::size_t next_superseded_ = 0;

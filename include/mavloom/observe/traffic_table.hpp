@@ -48,11 +48,22 @@ public:
     // Removes the rows of all links for which `is_there(LinkId)` returns false.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {
-        std::erase_if(rows_, [&](const auto& row) { return !is_there(row.second.link); });
+        for (auto& place : places_) {
+            if (place == nullptr || is_there(place->link)) continue;
+            rows_.erase(key_of(*place));
+            place = nullptr;
+        }
+        refill_from_ = 0;
     }
 
     // An unsorted copy of the rows. Faster than `sorted`.
     [[nodiscard]] std::vector<TrafficRow> rows() const;
+    // Copies rows in pieces, while the table changes between them: looks at the next `most` places from `from` (at
+    // first 0) and appends their rows to `to`. Returns the place to continue from, or `end` after the last. A row that
+    // exists all the time is copied exactly once.
+    [[nodiscard]] std::size_t copy_rows(std::size_t from, std::size_t most, std::vector<TrafficRow>& to) const;
+    static constexpr std::size_t end = SIZE_MAX;
+    [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
     // A copy sorted by link, system, component, then message id.
     [[nodiscard]] std::vector<TrafficRow> sorted() const { return sorted(rows()); }
     [[nodiscard]] static std::vector<TrafficRow> sorted(std::vector<TrafficRow> rows);
@@ -71,7 +82,15 @@ private:
         }
     };
 
-    std::unordered_map<Key, TrafficRow, KeyHash> rows_;
+    [[nodiscard]] static Key key_of(const TrafficRow& row) noexcept { return key_of(row.link, row.source, row.id); }
+    [[nodiscard]] static Key key_of(LinkId link, Source source, MessageId id) noexcept;
+    using Rows = std::unordered_map<Key, TrafficRow, KeyHash>;
+    Rows::iterator add_row(const Key& key, const TrafficRow& row);
+
+    Rows rows_;
+    // The rows in places that they keep, so that a copy in pieces misses none. Null: free.
+    std::vector<TrafficRow*> places_;
+    std::size_t refill_from_ = 0;  // no place before this one is free
     std::uint64_t unlisted_ = 0;
 };
 

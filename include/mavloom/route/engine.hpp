@@ -227,12 +227,16 @@ public:
 
     // The routes that have not timed out, sorted by system, component and link. Allocates.
     [[nodiscard]] std::vector<RouteInfo> routes(MonoTime now) const;
+    // The same for one link, unsorted. Empty for an unknown link.
+    [[nodiscard]] std::vector<RouteInfo> routes(LinkId link, MonoTime now) const;
     // The first max_duplicate_ids duplicate ids, in order of detection. `counters().duplicate_ids` counts all.
     [[nodiscard]] std::span<const DuplicateId> duplicate_ids() const noexcept;
     // The first max_route_conflicts conflicts, in order of detection. `counters().route_conflicts` counts all.
     [[nodiscard]] std::span<const RouteConflict> route_conflicts() const noexcept;
     // The targets of frames dropped as unknown_target, sorted by system and component. Allocates.
     [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets() const;
+    // The same for one target system.
+    [[nodiscard]] std::vector<UnknownTargetInfo> unknown_targets(SystemId system) const;
 
     [[nodiscard]] const EngineCounters& counters() const noexcept;
     // Null for an unknown link. The pointer is valid until the link is removed.

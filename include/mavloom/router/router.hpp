@@ -36,6 +36,10 @@ class Forwarder;
 class Recordings;
 class RoutedEndpoints;
 class SilenceWatch;
+class Snapshots;
+
+// Whether the metrics distinguish the components of a system.
+enum class MetricsDetail : std::uint8_t { systems, components };
 
 class Router : public control::Served, private link::LinkHandler {
 public:
@@ -82,6 +86,7 @@ public:
     void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
 
     void explain(Explainer explainer);
+    void set_metrics_detail(MetricsDetail detail) noexcept { metrics_detail_ = detail; }
 
     // Runs one turn of the links, which waits until `deadline` at most. Then runs one piece of posted work and the
     // periodic tasks that are due.
@@ -95,10 +100,12 @@ public:
     // control::Served.
     void post(std::function<void()> work) override;
     void drop_posted() override;
-    [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
-    [[nodiscard]] control::Later<std::string> metrics() override;
+    [[nodiscard]] control::Report answer(std::string_view request) override;
+    [[nodiscard]] control::Report metrics() override;
 
     // For reports; on the router's thread only.
+    [[nodiscard]] Snapshots& snapshots() noexcept { return *snapshots_; }
+    [[nodiscard]] MetricsDetail metrics_detail() const noexcept { return metrics_detail_; }
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const route::Engine& engine() const noexcept;
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept;
@@ -133,6 +140,7 @@ private:
     void tell_silence(MonoTime now);
 
     const dialect::Dialect& dialect_;
+    MetricsDetail metrics_detail_ = MetricsDetail::systems;
     bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
     // None of these is null, except `ring_` without a ring.
@@ -142,6 +150,7 @@ private:
     std::unique_ptr<SilenceWatch> silence_;
     std::unique_ptr<control::PostBox> posted_;
     std::unique_ptr<Recordings> recordings_;
+    std::unique_ptr<Snapshots> snapshots_;
     std::unique_ptr<ring::RingTap> ring_;
     MonoTime started_ = mono_now();
     MonoTime look_due_{}, work_due_{};

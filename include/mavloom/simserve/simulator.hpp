@@ -110,8 +110,8 @@ public:
     // control::Served.
     void post(std::function<void()> work) override;
     void drop_posted() override;
-    [[nodiscard]] control::Later<control::Lines> answer(std::string_view request) override;
-    [[nodiscard]] control::Later<std::string> metrics() override;
+    [[nodiscard]] control::Report answer(std::string_view request) override;
+    [[nodiscard]] control::Report metrics() override;
 
     // For reports and requests; on the simulator's thread only.
     [[nodiscard]] link::Links& links() noexcept { return *links_; }

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "mavloom/router/report.hpp"
 #include "router/report/json_line.hpp"
@@ -15,23 +14,15 @@ namespace {
 
 constexpr std::array commands{"links", "routes", "stats", "add", "remove"};
 
-Later<Lines> failed(std::string_view why) {
-    return [line = line_of({{"ok", false}, {"error", why}})] { return Lines{line}; };
+Report one_line(const Json& object) {
+    return control::report_of([line = line_of(object)] { return line + '\n'; });
 }
 
-Later<Lines> with_end(Later<Lines> report) {
-    return [report = std::move(report)] {
-        Lines lines = report();
-        lines.push_back(line_of({{"ok", true}}));
-        return lines;
-    };
-}
+Report failed(std::string_view why) { return one_line({{"ok", false}, {"error", why}}); }
 
-Later<Lines> done() {
-    return with_end([] { return Lines{}; });
-}
+Report done() { return one_line({{"ok", true}}); }
 
-Later<Lines> add(Router& router, const std::string& url) {
+Report add(Router& router, const std::string& url) {
     const auto endpoint = parse_router_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     if (const auto added = router.add(*endpoint); !added) return failed(added.error().text);
@@ -40,7 +31,7 @@ Later<Lines> add(Router& router, const std::string& url) {
 }
 
 // Removes an endpoint, a recording or a link by its name.
-Later<Lines> remove(Router& router, const std::string& name) {
+Report remove(Router& router, const std::string& name) {
     if (!router.remove(name))
         return failed(fmt::format(
             "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
@@ -67,20 +58,20 @@ SetupResult<endpoint::Endpoint> parse_router_endpoint(std::string_view text) {
     return endpoint;
 }
 
-Later<Lines> answer_request(Router& router, std::string_view request) {
+Report answer_request(Router& router, std::string_view request) {
     const auto parsed = Json::parse(request, nullptr, false);
     if (!parsed.is_object()) return failed("a request is one JSON object a line, as in {\"cmd\":\"links\"}");
     const auto command = text_at(parsed, "cmd");
-    if (command == "links") return with_end(report_links(router));
-    if (command == "routes") return with_end(report_routes(router));
-    if (command == "stats") return with_end(report_stats(router));
+    if (command == "links") return report_links(router);
+    if (command == "routes") return report_routes(router);
+    if (command == "stats") return report_stats(router);
     if (command == "add") return add(router, text_at(parsed, "url"));
     if (command == "remove") return remove(router, text_at(parsed, "name"));
     return failed(fmt::format("there is no command '{}'; there are {}", command, fmt::join(commands, ", ")));
 }
 
-Later<Lines> Router::answer(std::string_view request) { return answer_request(*this, request); }
+Report Router::answer(std::string_view request) { return answer_request(*this, request); }
 
-Later<std::string> Router::metrics() { return report_metrics(*this); }
+Report Router::metrics() { return report_metrics(*this); }
 
 }  // namespace mavloom::router

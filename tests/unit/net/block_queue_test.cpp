@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mavloom::net {
 namespace {
@@ -202,6 +205,61 @@ TEST(BlockQueue, StaysWithinItsBoundOverALongJam) {
     }
     EXPECT_EQ(queue.blocks() + dropped, 100'001u);
     EXPECT_THAT(content(queue), ::testing::StartsWith("commands stay"));
+}
+
+void drain(BlockQueue& queue) {
+    std::vector<iovec> room(256);
+    while (!queue.empty()) {
+        std::size_t bytes = 0;
+        for (const iovec& piece : std::span(room).first(queue.pieces(room))) bytes += piece.iov_len;
+        queue.consume(bytes);
+    }
+}
+
+// As long as a HEARTBEAT.
+constexpr std::string_view short_block = "twenty-one bytes long";
+constexpr std::size_t kept_bytes = 65536 + 2048 * 24;
+
+// It took 7 MB.
+TEST(BlockQueue, ShortBlocksTakeLittleMemoryInALongJam) {
+    BlockQueue queue = queue_of(1 << 20);
+    std::size_t most = 0;
+    for (int i = 0; i < 300'000; ++i) {
+        push(queue, short_block, 2, 0);
+        most = std::max(most, queue.memory_bytes());
+    }
+    EXPECT_GT(queue.bytes(), (1u << 20) - 21);
+    EXPECT_LE(most, 2'900'000u);
+}
+
+TEST(BlockQueue, FreesItsMemoryAfterAJam) {
+    BlockQueue queue = queue_of(1 << 20);
+    for (std::uint64_t i = 0; i < 100'000; ++i) push(queue, short_block, 2, 1 + i % 1000);
+    drain(queue);
+    EXPECT_LE(queue.memory_bytes(), kept_bytes);
+}
+
+// `expire` runs while the outlet is blocked.
+TEST(BlockQueue, FreesItsMemoryAfterABacklogThatFitted) {
+    BlockQueue queue = queue_of(1 << 20);
+    for (int i = 0; i < 40'000; ++i) push(queue, short_block);
+    EXPECT_EQ(queue.expire(start), 0u);
+    drain(queue);
+    EXPECT_LE(queue.memory_bytes(), kept_bytes);
+}
+
+TEST(BlockQueue, KeepsItsMemoryForTrafficButNotAfterABurst) {
+    BlockQueue queue = queue_of(1 << 20);
+    for (int turn = 0; turn < 1000; ++turn) {
+        for (int i = 0; i < 10'000; ++i) push(queue, short_block);
+        drain(queue);
+        ASSERT_GT(queue.memory_bytes(), kept_bytes);
+    }
+    for (int turn = 0; turn < 1000; ++turn) {
+        push(queue, short_block);
+        drain(queue);
+    }
+    EXPECT_LE(queue.memory_bytes(), kept_bytes);
 }
 
 TEST(BlockQueue, ARewoundBlockMayExpire) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <vector>
+
 #include "support/golden_frames.hpp"
 
 namespace mavloom::observe {
@@ -146,6 +149,29 @@ TEST(TrafficTable, BoundsItsRowsAndCountsTheRest) {
 
     EXPECT_EQ(sut.sorted().size(), TrafficTable::max_rows);
     EXPECT_EQ(sut.unlisted(), 2 * 65536u - TrafficTable::max_rows);
+}
+
+TEST(TrafficTable, ACopyInPiecesHasEachRowOnceWhileRowsComeAndGo) {
+    TrafficTable sut;
+    for (std::uint32_t link = 1; link <= 100; ++link) sut.add(LinkId{link}, heartbeat, at(1s));
+    std::vector<TrafficRow> copied;
+
+    std::size_t next = sut.copy_rows(0, 40, copied);
+    sut.forget_links_unless([](LinkId link) { return link.value % 2 == 0; });
+    for (std::uint32_t link = 101; link <= 120; ++link) sut.add(LinkId{link}, heartbeat, at(2s));
+    while (next != TrafficTable::end) next = sut.copy_rows(next, 40, copied);
+
+    std::map<std::uint32_t, int> times;
+    for (const auto& row : copied) ++times[row.link.value];
+    for (std::uint32_t link = 2; link <= 100; link += 2) EXPECT_EQ(times[link], 1) << link;
+    for (const auto& [link, count] : times) EXPECT_EQ(count, 1) << link;
+    EXPECT_EQ(sut.rows().size(), 70u);
+}
+
+TEST(TrafficTable, ACopyOfAnEmptyTableEndsAtOnce) {
+    std::vector<TrafficRow> copied;
+    EXPECT_EQ(TrafficTable().copy_rows(0, 10, copied), TrafficTable::end);
+    EXPECT_TRUE(copied.empty());
 }
 
 }  // namespace mavloom::observe

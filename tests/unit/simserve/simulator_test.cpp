@@ -52,11 +52,7 @@ struct SimulatorTest : testing::Test {
     void run(Nanoseconds time) {
         for (const MonoTime end = mono_now() + time; mono_now() < end;) sut->turn(end);
     }
-    [[nodiscard]] std::string answer(std::string_view request) const {
-        std::string text;
-        for (const auto& line : sut->answer(request)()) text += line + "\n";
-        return text;
-    }
+    [[nodiscard]] std::string answer(std::string_view request) const { return sut->answer(request).next_text(); }
 
     Receiver receiver;
     std::unique_ptr<Simulator> sut;
@@ -82,7 +78,7 @@ TEST_F(SimulatorTest, AnswersRequests) {
     EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::StartsWith(R"({"kind":"vehicle","system":1,"type":"quad")"));
     EXPECT_THAT(answer(R"({"cmd":"state"})"), testing::EndsWith("{\"ok\":true}\n"));
     EXPECT_THAT(answer(R"({"cmd":"streams"})"), HasSubstr(R"("name":"ATTITUDE","asked_hz":50.0)"));
-    EXPECT_THAT(sut->metrics()(), HasSubstr("mavloom_sim_frames_sent_total{}"));
+    EXPECT_THAT(sut->metrics().next_text(), HasSubstr("mavloom_sim_frames_sent_total{}"));
 }
 
 TEST_F(SimulatorTest, BadRequestsAreAnswered) {
