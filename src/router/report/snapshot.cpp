@@ -100,11 +100,11 @@ bool Snapshots::has_all(const Copy& copy) noexcept {
 void Snapshots::begin(Copy& copy, Router& router) {
     Snapshot& to = *copy.to;
     to.dialect = &router.dialect();
-    to.time = wall_now();
     to.uptime = mono_now() - router.started();
     to.counts = counts_of(router);
     copy.links = router.links().link_ids();
     if (copy.contents == Contents::all) {
+        to.time = wall_now();
         router.links().refresh_kernel_drops();
         to.messages.reserve(router.traffic().size());
         for (const auto* recorder : router.recorders())

@@ -40,7 +40,7 @@ private:
     bool is_sorted_ = false;
 };
 
-enum class Contents : std::uint8_t { links, routes, all };  // `all` has everything but routes
+enum class Contents : std::uint8_t { links, routes, all };  // `all` has everything but routes; the others lack `time`
 
 // The snapshots that are being copied. On the router's thread only.
 class Snapshots {
