@@ -237,15 +237,42 @@ def test_source_and_sequence_change_what_is_sent(peer):
 
 def test_timeouts_hold(peer):
     connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
-    begin = time.monotonic()
     assert connection.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2) is None
     assert connection.wait_heartbeat(timeout=0.1) is None
-    assert 0.3 <= time.monotonic() - begin < 0.3 + DEADLINE_S / 10
     assert connection.recv_match(type="HEARTBEAT") is None and connection.recv_msg() is None
+    vehicle = speaker(connection, peer)
+    threading.Timer(0.1, lambda: vehicle.send(vehicle.heartbeat())).start()
+    assert connection.wait_heartbeat(timeout=DEADLINE_S) is not None  # the call does not end before
     idle = []
     connection.idle_hooks.append(idle.append)
     assert connection.recv_match(blocking=True, timeout=0.2) is None
     assert idle and idle[0] is connection
+    connection.close()
+
+
+def test_a_timeout_holds_while_other_messages_arrive(peer):
+    connection, seen = mavutil.mavlink_connection("udpin:127.0.0.1:0"), []
+    vehicle = speaker(connection, peer)
+
+    def send_another(*_):
+        seen.append(1)
+        assert len(seen) < 100_000, "the time-out does not hold"
+        vehicle.send(vehicle.attitude(1))
+        until(lambda: connection.link.stats.frames_in > len(seen))  # so the next read finds it
+    vehicle.send(vehicle.attitude(0))
+    until(lambda: connection.link.stats.frames_in == 1)
+    connection.message_hooks.append(send_another)
+    assert connection.recv_match(type="HEARTBEAT", blocking=True, timeout=0.1) is None
+    assert seen
+    connection.close()
+
+
+def test_a_timeout_of_zero_looks_at_all_messages_that_wait(peer):
+    connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
+    vehicle = speaker(connection, peer)
+    vehicle.send(*(vehicle.attitude(i) for i in range(100)), vehicle.heartbeat())
+    until(lambda: connection.link.stats.frames_in == 101)
+    assert connection.recv_match(type="HEARTBEAT", blocking=True, timeout=0) is not None
     connection.close()
 
 
