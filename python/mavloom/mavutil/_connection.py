@@ -57,8 +57,8 @@ class Connection:
     def _use(self, module: Any) -> None:
         """Sends with the definitions and the MAVLink version of a module, from sequence number 0 on."""
         before = getattr(self, "mav", None)
-        self.mav: mavlink.MAVLink = module.MAVLink(self, srcSystem=self.source_system,
-                                                   srcComponent=self.source_component)
+        self.mav: mavlink.MAVLink = module.MAVLink(self, srcSystem=getattr(before, "srcSystem", self.source_system),
+                                                   srcComponent=getattr(before, "srcComponent", self.source_component))
         self.mav.robust_parsing = self.robust_parsing
         self.WIRE_PROTOCOL_VERSION: str = module.WIRE_PROTOCOL_VERSION
         if before is not None:

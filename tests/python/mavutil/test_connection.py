@@ -221,6 +221,18 @@ def test_version_1_messages_have_no_extension_fields(peer, peer_v1, tmp_path):
     assert second.to_dict()["alt_ellipsoid"] == 99
 
 
+def test_a_source_that_was_set_stays_when_the_vehicle_speaks_version_2(peer):
+    """pymavlink sends with the first source again."""
+    connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
+    connection.mav.srcSystem, connection.mav.srcComponent = 42, 43
+    vehicle = speaker(connection, peer)
+    vehicle.send(vehicle.heartbeat())
+    assert connection.wait_heartbeat(timeout=DEADLINE_S) is not None and connection.mavlink20()
+    connection.mav.heartbeat_send(6, 8, 0, 0, 0)
+    assert tuple(vehicle.socket.recv(999)[5:7]) == (42, 43)
+    connection.close()
+
+
 def test_source_and_sequence_change_what_is_sent(peer):
     connection = mavutil.mavlink_connection("udpin:127.0.0.1:0", source_system=7, source_component=8)
     vehicle = speaker(connection, peer)
