@@ -2,6 +2,7 @@
 """MAVLink: encodes and decodes messages for mavloom.mavutil, and signs and verifies them."""
 from __future__ import annotations
 
+import collections
 import hashlib
 import threading
 import time
@@ -103,7 +104,7 @@ class MAVLink:
         self.signing = MAVLinkSigning()
         self._dialect = self._module.new_dialect()
         self._parser = MavutilParser(self._dialect)
-        self._found: list[MAVLink_message | tuple[bytes, str]] = []
+        self._found: collections.deque[MAVLink_message | tuple[bytes, str]] = collections.deque()
         self._sending = threading.RLock()
 
     def _take_over(self, other: MAVLink) -> None:
@@ -181,7 +182,7 @@ class MAVLink:
             self._found += self._parser.feed(data, time.time_ns())
         if not self._found:
             return None
-        message = self._received(self._found.pop(0))
+        message = self._received(self._found.popleft())
         if self.callback is not None:
             self.callback(message, *self.callback_args, **self.callback_kwargs)
         return message
