@@ -53,6 +53,15 @@ def test_no_vehicle_is_a_timeout():
         assert "no heartbeat yet" in repr(vehicle)
 
 
+def test_closed_links_can_be_shown(peer):
+    with flown(peer) as (vehicle, _):
+        messages = vehicle.link.messages
+    assert repr(vehicle) == f"<Vehicle 1/1 on {vehicle.link.name}: the link is closed>"
+    assert repr(messages) == f"<newest messages of {vehicle.link.name}, which is closed>"
+    with pytest.raises(mavloom.ClosedError):
+        vehicle.arm()
+
+
 def test_a_home_made_board_is_a_vehicle(peer):
     with flown(peer, autopilot=8) as (vehicle, _):
         assert vehicle.heartbeat.autopilot == 8

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _modes
 from .._core import Message
-from .._errors import ParameterError
+from .._errors import ClosedError, ParameterError
 from . import _commands, _mission, _params
 from ._exchange import Peer, run, run_async
 from ._mission import MissionItem
@@ -63,9 +63,16 @@ class _Common:
             return sorted(_modes.PX4)
         return sorted(_modes.ardupilot_modes(beat["type"]) or ())
 
+    def _state(self) -> str:
+        try:
+            if self.heartbeat is None:
+                return "no heartbeat yet"
+            return f"{self.mode}, {'' if self.armed else 'dis'}armed"
+        except ClosedError:
+            return "the link is closed"
+
     def __repr__(self) -> str:
-        state = "no heartbeat yet" if self.heartbeat is None else f"{self.mode}, {'' if self.armed else 'dis'}armed"
-        return f"<{type(self).__name__} {self.system}/{self.component} on {self.link.name}: {state}>"
+        return f"<{type(self).__name__} {self.system}/{self.component} on {self.link.name}: {self._state()}>"
 
 
 class Vehicle(_Common):
