@@ -11,6 +11,7 @@ import pytest
 import mavloom
 from autopilot import ARDUPILOT_PARAMS, ARMED, PX4_PARAMS, Autopilot, Settings
 from mavloom._vehicle import _commands, _mission, _params
+from vehicles import again_and_again
 
 
 @pytest.fixture
@@ -209,6 +210,64 @@ def test_a_parameter_that_is_not_taken(peer, quick):
         stub.on_param_set = lambda message: stub.send(stub.value(message.param_id))
         with pytest.raises(mavloom.ParameterError, match="is 1500, not 1600: the vehicle did not take it"):
             vehicle.params["RTL_ALT"] = 1600
+
+
+def test_a_late_answer_to_an_earlier_request_is_no_refusal(peer):
+    with flown(peer) as (vehicle, stub):
+        def late_then_set(message):
+            stub.send(stub.value(message.param_id))
+            Autopilot.on_param_set(stub, message)
+        stub.on_param_set = late_then_set
+        vehicle.params["RTL_ALT"] = 1600
+        assert vehicle.params["RTL_ALT"] == 1600
+
+
+def test_integers_are_exact(peer):
+    with flown(peer, px4=True) as (vehicle, stub):
+        vehicle.params["SYS_AUTOSTART"] = 4000000
+        stub.on_param_set = lambda message: stub.send(stub.value(message.param_id))
+        with pytest.raises(mavloom.ParameterError, match="is 4000000, not 4000001: the vehicle did not take it"):
+            vehicle.params["SYS_AUTOSTART"] = 4000001
+    with flown(peer) as (vehicle, stub):
+        vehicle.params["RTL_ALT"] = 2**24
+        with pytest.raises(mavloom.UsageError, match="takes values as float, which cannot hold 16777217"):
+            vehicle.params["RTL_ALT"] = 2**24 + 1
+        for value in (math.inf, math.nan):
+            with pytest.raises(mavloom.UsageError, match="RTL_ALT is an integer, not"):
+                vehicle.params["RTL_ALT"] = value
+        assert stub.params["RTL_ALT"][0] == 2**24
+
+
+def test_an_integer_that_is_reported_as_nan(peer):
+    """As by a vehicle that sends the bytes of -1, but whose autopilot sends numbers."""
+    with flown(peer) as (vehicle, stub):
+        stub.params["RTL_ALT"] = (math.nan, 6)
+        assert math.isnan(vehicle.params["RTL_ALT"]) and math.isnan(vehicle.params.fetch()["RTL_ALT"])
+
+
+def test_a_value_that_is_set_during_a_fetch_is_the_newer_one(peer):
+    def send_list(message):
+        names = sorted(stub.params)
+        stub.send(*(stub.value(name) for name in names[:-1]),
+                  peer.MAVLink_param_value_message(b"ARMING_CHECK", 7.0, 6, 5, 65535), stub.value(names[-1]))
+    with flown(peer) as (vehicle, stub):
+        stub.on_param_request_list = send_list
+        assert vehicle.params.fetch()["ARMING_CHECK"] == 7
+
+
+def test_values_that_repeat_do_not_prolong_a_fetch(peer, quick):
+    silent = frozenset({"PARAM_REQUEST_LIST", "PARAM_REQUEST_READ"})
+    with flown(peer, silent=silent) as (vehicle, stub), again_and_again(lambda: stub.send(stub.value("RTL_ALT")), 0.02):
+        with pytest.raises(TimeoutError, match="4 of 5 parameters did not arrive"):
+            vehicle.params.fetch()
+
+
+def test_all_values_can_be_forgotten(peer):
+    with flown(peer) as (vehicle, stub):
+        vehicle.params.fetch()
+        vehicle.params.clear()
+        assert vehicle.params["RTL_ALT"] == 1500
+        assert [m.get_type() for m in stub.messages] == ["PARAM_REQUEST_LIST", "PARAM_REQUEST_READ"]
 
 
 # ---- missions

@@ -162,6 +162,11 @@ class Params(MutableMapping[str, "int | float"]):
         del self._known[name]
         self._is_complete = False
 
+    def clear(self) -> None:
+        """Forgets all values that are known."""
+        self._known = {}
+        self._is_complete = False
+
     def __iter__(self) -> Iterator[str]:
         if not self._is_complete:
             self.fetch()
