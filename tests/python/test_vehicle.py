@@ -318,6 +318,49 @@ def test_lost_messages_of_a_mission_are_repeated(peer, quick):
         assert stub.mission == []
 
 
+def test_a_lost_acknowledgement_is_requested_again(peer, quick):
+    """By the last item once more, which a PX4 then acknowledges."""
+    with flown(peer) as (vehicle, stub):
+        def acknowledge(message, result=0):
+            if [m.get_type() for m in stub.messages].count("MISSION_ITEM_INT") == 4:
+                Autopilot.mission_ack(stub, message)
+        stub.mission_ack = acknowledge
+        vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+        assert [m.seq for m in stub.messages[1:]] == [0, 1, 2, 2] and len(stub.mission) == 3
+
+
+def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
+    with flown(peer) as (vehicle, stub):
+        def acknowledge_first(message):
+            stub.mission_ack(message)
+            Autopilot.on_mission_item_int(stub, message)
+        stub.on_mission_item_int = acknowledge_first
+        vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+        assert [m.seq for m in stub.messages[1:]] == [0, 1, 2]
+
+
+def test_an_upload_ends_whose_items_are_lost(peer, quick):
+    def request_first(message):
+        stub.send(peer.MAVLink_mission_request_message(message.get_srcSystem(), message.get_srcComponent(), 0, 0))
+    with flown(peer) as (vehicle, stub):
+        stub.on_mission_item_int = request_first
+        with pytest.raises(TimeoutError, match="no answer during the upload"):
+            vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+
+
+def test_a_fence_needs_mavlink_2(peer):
+    """MISSION_CLEAR_ALL of MAVLink 1 has no type, so it would delete the mission in place of the fence."""
+    with (mavloom.connect("udpin://127.0.0.1:0", version=1) as link,
+          Autopilot(peer, connect_to=("127.0.0.1", link.port), v1=True) as stub):
+        vehicle = link.vehicle(timeout=30)
+        for call in (vehicle.mission.clear, vehicle.mission.download, lambda kind: vehicle.mission.upload([], kind)):
+            with pytest.raises(mavloom.UsageError, match="fences and rally points need MAVLink 2"):
+                call(1)
+        assert stub.messages == []
+        vehicle.mission.upload([mavloom.MissionItem.at(*PLACES[0])])
+        assert len(stub.mission) == 1
+
+
 def test_a_refused_mission_is_an_error_with_the_reason(peer):
     with flown(peer, refuse_mission=4) as (vehicle, _):
         with pytest.raises(mavloom.MissionError, match="upload of the mission: MAV_MISSION_NO_SPACE") as caught:
