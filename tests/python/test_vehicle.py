@@ -18,6 +18,7 @@ from vehicles import again_and_again
 def quick(monkeypatch):
     """Short waits, for tests of answers that never come."""
     for module, name, seconds in ((_commands, "ANSWER_S", 0.15), (_commands, "HEARTBEATS_S", 0.4),
+                                  (_commands, "POSITION_S", 0.2),
                                   (_params, "ANSWER_S", 0.15), (_params, "QUIET_S", 0.15),
                                   (_mission, "ANSWER_S", 0.15)):
         monkeypatch.setattr(module, name, seconds)
@@ -109,12 +110,17 @@ def test_takeoff_and_land_of_an_ardupilot(peer):
 def test_takeoff_of_a_px4_is_above_sea_level(peer):
     with flown(peer, px4=True) as (vehicle, stub):
         vehicle.takeoff(10)
-        stub.fly()
-        while vehicle.link.latest("GLOBAL_POSITION_INT") is None:
-            time.sleep(0.005)
-        vehicle.takeoff(10)
-        first, second = stub.messages
-        assert math.isnan(first.param7) and math.isnan(first.param4) and second.param7 == pytest.approx(594.5 + 10)
+        vehicle.takeoff(20)
+        requested, first, second = stub.messages
+        assert (requested.command, requested.param1) == (512, 33) and math.isnan(first.param4)
+        assert (first.param7, second.param7) == pytest.approx((594.5 + 10, 594.5 + 20))
+
+
+def test_a_px4_without_a_position_does_not_take_off(peer, quick):
+    with flown(peer, px4=True, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        with pytest.raises(TimeoutError, match="no GLOBAL_POSITION_INT within .*: the altitude above"):
+            vehicle.takeoff(10)
+        assert [m.command for m in stub.messages] == [512]
 
 
 def test_commands_by_number_and_name(peer):

@@ -109,7 +109,7 @@ class Vehicle(_Common):
 
     def takeoff(self, altitude: float) -> None:
         """Takes off to `altitude` m above the present place. The motors must be armed."""
-        run(self._peer, _commands.ANSWERS, _commands.takeoff(self._peer, altitude))
+        run(self._peer, _commands.TAKEOFF_ANSWERS, _commands.takeoff(self._peer, altitude))
 
     def land(self) -> None:
         """Lands at the present place."""
@@ -242,7 +242,7 @@ class AsyncVehicle(_Common):
 
     async def takeoff(self, altitude: float) -> None:
         """See Vehicle.takeoff."""
-        await run_async(self._peer, _commands.ANSWERS, _commands.takeoff(self._peer, altitude))
+        await run_async(self._peer, _commands.TAKEOFF_ANSWERS, _commands.takeoff(self._peer, altitude))
 
     async def land(self) -> None:
         """See Vehicle.land."""
