@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 import math
 import threading
-import time
 
 import pytest
 
@@ -18,7 +17,7 @@ from vehicles import again_and_again
 def quick(monkeypatch):
     """Short waits, for tests of answers that never come."""
     for module, name, seconds in ((_commands, "ANSWER_S", 0.15), (_commands, "HEARTBEATS_S", 0.4),
-                                  (_commands, "POSITION_S", 0.2),
+                                  (_commands, "POSITION_S", 0.2), (_commands, "IN_PROGRESS_S", 0.2),
                                   (_params, "ANSWER_S", 0.15), (_params, "QUIET_S", 0.15),
                                   (_mission, "ANSWER_S", 0.15)):
         monkeypatch.setattr(module, name, seconds)
@@ -139,6 +138,14 @@ def test_a_lost_command_is_repeated(peer, quick):
     with flown(peer, drop=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
         vehicle.command("DO_SET_SERVO", 1, 1000)
         assert [m.confirmation for m in stub.messages] == [0, 1]
+
+
+def test_a_command_in_progress_is_not_repeated(peer, quick):
+    with flown(peer) as (vehicle, stub):
+        stub.on_command_long = lambda message: stub.send(stub.ack(message, 5))
+        with pytest.raises(TimeoutError, match="MAV_CMD_PREFLIGHT_CALIBRATION was in progress, then silence for"):
+            vehicle.command("PREFLIGHT_CALIBRATION", 1)
+        assert [m.confirmation for m in stub.messages] == [0]
 
 
 def test_a_refused_command_is_an_error_with_the_reason(peer):

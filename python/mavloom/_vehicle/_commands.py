@@ -74,14 +74,20 @@ def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRI
 
 
 def acknowledgement(peer: Peer, number: int) -> Generator[float, Message | None, Message | None]:
-    """Waits for the final answer to a command; None if there is none."""
-    deadline = time.monotonic() + ANSWER_S
+    """Waits for the final answer to a command; None if there is none, so the command may be repeated.
+
+    A command in progress must not be repeated, because the vehicle would begin again: if it falls silent, raises
+    TimeoutError.
+    """
+    deadline, in_progress = time.monotonic() + ANSWER_S, False
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
             continue
         if answer["result"] != IN_PROGRESS:
             return answer
-        deadline = time.monotonic() + IN_PROGRESS_S
+        deadline, in_progress = time.monotonic() + IN_PROGRESS_S, True
+    if in_progress:
+        raise TimeoutError(f"{peer}: {name_of(number)} was in progress, then silence for {IN_PROGRESS_S:g} s")
     return None
 
 
