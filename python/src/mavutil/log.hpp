@@ -23,8 +23,8 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether the dialect has any of them.
-    [[nodiscard]] bool has_any() const noexcept { return !ids_.empty(); }
+    // Whether the dialect has any of them. BAD_DATA is what a connection that verifies signatures returns.
+    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty(); }
 
 private:
     std::vector<MessageId> ids_;
