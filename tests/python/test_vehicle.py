@@ -90,6 +90,17 @@ def test_modes_by_name_and_number(px4, mode, params, peer):
         assert vehicle.mode == {"guided": "GUIDED", 6: "RTL", "MISSION": "MISSION", 6 << 16: "OFFBOARD"}[mode]
 
 
+def test_modes_and_kinds_of_missions_that_are_none(peer):
+    with flown(peer) as (vehicle, stub):
+        with pytest.raises(mavloom.UsageError, match="a mode is a name or a number, not None"):
+            vehicle.set_mode(None)
+        for kind in ("MAV_MISSION_TYPE_FENCE", 256, None):
+            with pytest.raises(mavloom.UsageError, match="mission_type: a MAV_MISSION_TYPE, 0 to 255, not"):
+                vehicle.mission.clear(kind)
+        vehicle.mission.clear(mavloom.enums.MAV_MISSION_TYPE.MAV_MISSION_TYPE_FENCE)
+        assert [m.mission_type for m in stub.messages] == [1]
+
+
 def test_an_unknown_mode_is_an_error_that_lists_the_modes(peer):
     with flown(peer) as (vehicle, stub):
         with pytest.raises(mavloom.UsageError, match="unknown mode 'FLOAT': this vehicle has ACRO, ALT_HOLD, AUTO"):

@@ -138,6 +138,8 @@ def known_mode(mode: str, modes: dict[str, _T]) -> _T:
 
 def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
     """Requests a mode by name or custom mode, and waits until the heartbeats report it."""
+    if not isinstance(mode, (str, int)):
+        raise UsageError(f"a mode is a name or a number, not {mode!r}")
     heartbeat = yield from known_heartbeat(peer)
     base, main, sub, custom_mode = mode_params(heartbeat, mode)
     yield from command(peer, DO_SET_MODE, (base, main, sub))

@@ -136,7 +136,12 @@ def checked(peer: Peer, given: Iterable[MissionItem | Message | Mapping[str, Any
 
 
 def check_kind(peer: Peer, kind: int) -> None:
-    """MAVLink 1 has no field for the kind: the vehicle would clear or replace its mission in place of the fence."""
+    """Raises UsageError for a kind that cannot be sent.
+
+    MAVLink 1 has no field for it: the vehicle would clear or replace its mission in place of the fence.
+    """
+    if not isinstance(kind, int) or not 0 <= kind <= 255:
+        raise UsageError(f"mission_type: a MAV_MISSION_TYPE, 0 to 255, not {kind!r}")
     if kind != MISSION and peer.link.version == 1:
         raise UsageError(f"{peer}: fences and rally points need MAVLink 2; open the link with version=2")
 
