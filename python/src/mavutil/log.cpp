@@ -2,8 +2,10 @@
 #include "mavutil/log.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <system_error>
 
 #include "bindings.hpp"
 #include "errors.hpp"
@@ -72,7 +74,7 @@ nb::object MavutilLog::next() {
             place_ = entry.place;
             return message_of(entry);
         }
-        if (ended_) {
+        if (ended_ && !has_grown()) {
             place_ = size_;
             return {};
         }
@@ -80,6 +82,16 @@ nb::object MavutilLog::next() {
         if (!fill()) break;
     }
     raise(reader().error());
+}
+
+// Whether another program has appended to the file since its end was reached. If so, reading continues.
+bool MavutilLog::has_grown() {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(path_, failed);
+    if (failed || size <= size_ || !reader_->seek(end_)) return false;
+    size_ = size;
+    ended_ = false;
+    return true;
 }
 
 // Reads the next batch. Returns false if reading failed.
@@ -97,6 +109,7 @@ bool MavutilLog::fill() {
         if (record.error() == Stop::failed) return !entries_.empty();
         ended_ = record.error() == Stop::end;
         if (ended_ && end_ < reader_->position()) add_damage(end_, reader_->position() - end_);
+        if (!entries_.empty() && !entries_.back().damage.empty()) end_ = reader_->position();  // returned once
         break;
     }
     return true;

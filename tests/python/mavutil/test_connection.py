@@ -15,7 +15,7 @@ from pymavlink import mavutil as theirs_module
 import mavloom
 from autopilot import Autopilot, Settings
 from mavloom import mavutil
-from tlogs import frames_of, packer
+from tlogs import frames_of, packer, record
 from vehicles import Vehicle, until
 
 DEADLINE_S = 60
@@ -147,6 +147,29 @@ def test_junk_between_records_and_a_cut_end(peer, tmp_path):
     found = list(iter(mavutil.mavlink_connection(str(path)).recv_msg, None))
     assert [m.get_type() for m in found] == ["ATTITUDE", "BAD_DATA", "ATTITUDE"]
     assert (bytes(found[1].data), found[1].reason) == (b"hello world", "Bad prefix")
+
+
+def test_a_recording_that_grows_is_followed(peer, their_mavutil, tmp_path):
+    records = [record(packer(peer).pack(peer.MAVLink_attitude_message(i, 0, 0, 0, 0, 0, 0)), i) for i in range(30)]
+    path = tmp_path / "x.tlog"
+    cuts = [b"".join(records[:10]), b"".join(records[10:15]) + records[15][:20], records[15][20:] + records[16]]
+    found = []
+    for module in (their_mavutil, mavutil):
+        path.write_bytes(b"")
+        log, numbers = module.mavlogfile(str(path)), []
+        for part in cuts[:1] if module is their_mavutil else cuts:  # pymavlink loses the record that was cut
+            with path.open("ab") as out:
+                out.write(part)
+            numbers.append([m.time_boot_ms for m in iter(log.recv_msg, None)])
+        found.append(numbers)
+    assert found[0] == found[1][:1] and found[1] == [[*range(10)], [*range(10, 15)], [15, 16]]
+    for part, kinds in ((b"hello world", ["BAD_DATA"]), (records[18], ["ATTITUDE"])):
+        path.write_bytes(path.read_bytes() + part)
+        assert [m.get_type() for m in iter(log.recv_msg, None)] == kinds
+    log.stop_on_EOF = False
+    threading.Timer(0.1, lambda: path.write_bytes(path.read_bytes() + records[17])).start()
+    assert log.recv_match(type="ATTITUDE", blocking=True, timeout=DEADLINE_S).time_boot_ms == 17
+    assert log.recv_match(type="ATTITUDE", blocking=True, timeout=0.1) is None and log.recv_match() is None
 
 
 def test_a_file_without_times(peer, their_mavutil, tmp_path):
