@@ -425,6 +425,11 @@ def test_missions_in_files(tmp_path, mavlink, monkeypatch):
             again.load(tmp_path / "bad.txt")
     with pytest.raises(mavwp.MAVWPError, match="there is no item 9"):
         again.set(again.wp(0), 9)
+    for change in (lambda: again.add(again.wp(0)), lambda: again.insert(0, again.wp(1)),
+                   lambda: again.remove(again.wp(2)), lambda: again.set(again.wp(1), 1), again.reindex, again.clear):
+        again.last_change = 0.0
+        change()
+        assert again.last_change > 0  # MAVProxy looks at it
 
 
 def test_json_of_nan_is_pymavlinks(mavlink):
