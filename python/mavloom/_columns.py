@@ -336,7 +336,7 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
             return nanoseconds
         since = given - datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc)
         return (since.days * 86400 + since.seconds) * 10**9 + since.microseconds * 1000
-    if isinstance(given, np.datetime64):
+    if isinstance(given, np.datetime64) and not np.isnat(given):
         return int(given.astype("datetime64[ns]").astype("int64"))
     raise UsageError(f"{what}: a time is Unix time in ns, an aware datetime or a numpy.datetime64, not {given!r}")
 

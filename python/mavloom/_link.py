@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from . import _views
 from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, Subscription, is_vehicle
-from ._errors import UsageError
+from ._errors import ClosedError, UsageError
 from ._sends import Calls, Sends
 from ._types import MessageTypes
 from ._vehicle import AsyncVehicle, Vehicle
@@ -316,7 +316,10 @@ class Latest(Mapping[str, Message]):
         return list(self)
 
     def __repr__(self) -> str:
-        return f"<newest messages of system {self._link.target_system}: {', '.join(self) or 'none'}>"
+        try:
+            return f"<newest messages of system {self._link.target_system}: {', '.join(self) or 'none'}>"
+        except ClosedError:
+            return f"<newest messages of {self._link.name}, which is closed>"
 
 
 class Sender(Calls):

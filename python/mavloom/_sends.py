@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ._core import Message, MessageInfo, Port
+from ._signatures import parameter_name
 
 
 class Sends:
@@ -35,7 +36,7 @@ class Call:
         self.__name__ = name
         self.__doc__ = f"{'Sends' if name.endswith('_send') else 'Returns'} a {info.name}. Fields left out are 0."
         import inspect
-        parameters = [inspect.Parameter(field, inspect.Parameter.POSITIONAL_OR_KEYWORD,
+        parameters = [inspect.Parameter(parameter_name(field), inspect.Parameter.POSITIONAL_OR_KEYWORD,
                                         default=3 if field == "mavlink_version" else 0) for field in self._names]
         self.__signature__ = inspect.Signature(parameters)
 

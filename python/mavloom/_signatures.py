@@ -1,13 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Signatures of the compiled functions and classes, for the module inspect. nanobind keeps the text of each."""
+"""Signatures of functions, for the module inspect. nanobind keeps the text of each compiled one."""
 from __future__ import annotations
 
+import keyword
 from typing import TYPE_CHECKING, Any
 
 from . import _core, _errors
 
 if TYPE_CHECKING:
     import inspect
+
+
+def parameter_name(field: str) -> str:
+    """The name of a field as a parameter. A name that Python does not allow there gets an underscore."""
+    if keyword.iskeyword(field) or field == "self":
+        return field + "_"
+    return field if field.isidentifier() else "_" + field
 
 
 def signature_of(function: Any) -> inspect.Signature:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from typing import Any
 
 from . import mavutil
@@ -47,6 +48,7 @@ class MAVWPLoader:
         w.comment = comment
         w.seq = self.count()
         self.wpoints.append(w)
+        self._changed()
 
     def insert(self, idx: int, w: Any, comment: str = "") -> None:
         """Inserts an item before number `idx`."""
@@ -63,6 +65,7 @@ class MAVWPLoader:
             self.wpoints[idx] = w
         else:
             raise MAVWPError(f"there is no item {idx}: the mission has {self.count()}")
+        self._changed()
 
     def remove(self, w: Any) -> None:
         self.wpoints.remove(w)
@@ -70,11 +73,16 @@ class MAVWPLoader:
 
     def clear(self) -> None:
         self.wpoints = []
+        self._changed()
 
     def reindex(self) -> None:
         """Gives the items their numbers again."""
         for number, w in enumerate(self.wpoints):
             w.seq = number
+        self._changed()
+
+    def _changed(self) -> None:
+        self.last_change = time.time()
 
     def mav_mission_type(self) -> int:
         return 0

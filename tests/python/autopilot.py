@@ -194,6 +194,8 @@ class Autopilot:
         elif message.command == 176:
             self.custom_mode = (int(message.param2) << 16 | int(message.param3) << 24 if self.settings.px4
                                 else int(message.param2))
+        elif message.command == 512 and message.param1 == 33:  # REQUEST_MESSAGE: GLOBAL_POSITION_INT
+            self.send(self.position(10.5))
 
     def on_set_mode(self, message):
         self.custom_mode = message.custom_mode

@@ -251,6 +251,8 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
     assert len(mavloom.tables(flight, start=first, end=last)["ATTITUDE"]) == 200
     with pytest.raises(mavloom.UsageError, match="no field 'rol', did you mean 'roll'"):
         mavloom.columns(flight, "ATTITUDE", fields=["rol"])
+    with pytest.raises(mavloom.UsageError, match="start: a time is .*, not np.datetime64"):
+        mavloom.columns(flight, "ATTITUDE", start=np.datetime64("NaT"))
     with pytest.raises(mavloom.UsageError, match="has no time zone"):
         mavloom.columns(flight, "ATTITUDE", start=datetime.datetime(2026, 1, 1))
     with pytest.raises(mavloom.UsageError, match="start: a time is Unix time in ns"):

@@ -86,7 +86,8 @@ def test_row_25_pyright_takes_every_example(folder, version):
 
 @pytest.mark.parametrize("version", [OLDEST, NEWEST])
 def test_row_25_pyright_takes_the_package(folder, version):
-    assert pyright(folder, version, *(f"mavloom/{path.name}" for path in (folder / "mavloom").glob("*.py*"))) == []
+    files = (folder / "mavloom").rglob("*.py*")
+    assert pyright(folder, version, *(str(path.relative_to(folder)) for path in files)) == []
 
 
 def test_row_25_pyright_knows_the_types_of_fields(folder):

@@ -4,19 +4,20 @@ import asyncio
 import contextlib
 import math
 import threading
-import time
 
 import pytest
 
 import mavloom
 from autopilot import ARDUPILOT_PARAMS, ARMED, PX4_PARAMS, Autopilot, Settings
 from mavloom._vehicle import _commands, _mission, _params
+from vehicles import again_and_again
 
 
 @pytest.fixture
 def quick(monkeypatch):
     """Short waits, for tests of answers that never come."""
     for module, name, seconds in ((_commands, "ANSWER_S", 0.15), (_commands, "HEARTBEATS_S", 0.4),
+                                  (_commands, "POSITION_S", 0.2), (_commands, "IN_PROGRESS_S", 0.2),
                                   (_params, "ANSWER_S", 0.15), (_params, "QUIET_S", 0.15),
                                   (_mission, "ANSWER_S", 0.15)):
         monkeypatch.setattr(module, name, seconds)
@@ -53,6 +54,15 @@ def test_no_vehicle_is_a_timeout():
         assert "no heartbeat yet" in repr(vehicle)
 
 
+def test_closed_links_can_be_shown(peer):
+    with flown(peer) as (vehicle, _):
+        messages = vehicle.link.messages
+    assert repr(vehicle) == f"<Vehicle 1/1 on {vehicle.link.name}: the link is closed>"
+    assert repr(messages) == f"<newest messages of {vehicle.link.name}, which is closed>"
+    with pytest.raises(mavloom.ClosedError):
+        vehicle.arm()
+
+
 def test_a_home_made_board_is_a_vehicle(peer):
     with flown(peer, autopilot=8) as (vehicle, _):
         assert vehicle.heartbeat.autopilot == 8
@@ -80,6 +90,17 @@ def test_modes_by_name_and_number(px4, mode, params, peer):
         assert vehicle.mode == {"guided": "GUIDED", 6: "RTL", "MISSION": "MISSION", 6 << 16: "OFFBOARD"}[mode]
 
 
+def test_modes_and_kinds_of_missions_that_are_none(peer):
+    with flown(peer) as (vehicle, stub):
+        with pytest.raises(mavloom.UsageError, match="a mode is a name or a number, not None"):
+            vehicle.set_mode(None)
+        for kind in ("MAV_MISSION_TYPE_FENCE", 256, None):
+            with pytest.raises(mavloom.UsageError, match="mission_type: a MAV_MISSION_TYPE, 0 to 255, not"):
+                vehicle.mission.clear(kind)
+        vehicle.mission.clear(mavloom.enums.MAV_MISSION_TYPE.MAV_MISSION_TYPE_FENCE)
+        assert [m.mission_type for m in stub.messages] == [1]
+
+
 def test_an_unknown_mode_is_an_error_that_lists_the_modes(peer):
     with flown(peer) as (vehicle, stub):
         with pytest.raises(mavloom.UsageError, match="unknown mode 'FLOAT': this vehicle has ACRO, ALT_HOLD, AUTO"):
@@ -99,12 +120,17 @@ def test_takeoff_and_land_of_an_ardupilot(peer):
 def test_takeoff_of_a_px4_is_above_sea_level(peer):
     with flown(peer, px4=True) as (vehicle, stub):
         vehicle.takeoff(10)
-        stub.fly()
-        while vehicle.link.latest("GLOBAL_POSITION_INT") is None:
-            time.sleep(0.005)
-        vehicle.takeoff(10)
-        first, second = stub.messages
-        assert math.isnan(first.param7) and math.isnan(first.param4) and second.param7 == pytest.approx(594.5 + 10)
+        vehicle.takeoff(20)
+        requested, first, second = stub.messages
+        assert (requested.command, requested.param1) == (512, 33) and math.isnan(first.param4)
+        assert (first.param7, second.param7) == pytest.approx((594.5 + 10, 594.5 + 20))
+
+
+def test_a_px4_without_a_position_does_not_take_off(peer, quick):
+    with flown(peer, px4=True, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        with pytest.raises(TimeoutError, match="no GLOBAL_POSITION_INT within .*: the altitude above"):
+            vehicle.takeoff(10)
+        assert [m.command for m in stub.messages] == [512]
 
 
 def test_commands_by_number_and_name(peer):
@@ -123,6 +149,14 @@ def test_a_lost_command_is_repeated(peer, quick):
     with flown(peer, drop=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
         vehicle.command("DO_SET_SERVO", 1, 1000)
         assert [m.confirmation for m in stub.messages] == [0, 1]
+
+
+def test_a_command_in_progress_is_not_repeated(peer, quick):
+    with flown(peer) as (vehicle, stub):
+        stub.on_command_long = lambda message: stub.send(stub.ack(message, 5))
+        with pytest.raises(TimeoutError, match="MAV_CMD_PREFLIGHT_CALIBRATION was in progress, then silence for"):
+            vehicle.command("PREFLIGHT_CALIBRATION", 1)
+        assert [m.confirmation for m in stub.messages] == [0]
 
 
 def test_a_refused_command_is_an_error_with_the_reason(peer):
@@ -202,6 +236,64 @@ def test_a_parameter_that_is_not_taken(peer, quick):
             vehicle.params["RTL_ALT"] = 1600
 
 
+def test_a_late_answer_to_an_earlier_request_is_no_refusal(peer):
+    with flown(peer) as (vehicle, stub):
+        def late_then_set(message):
+            stub.send(stub.value(message.param_id))
+            Autopilot.on_param_set(stub, message)
+        stub.on_param_set = late_then_set
+        vehicle.params["RTL_ALT"] = 1600
+        assert vehicle.params["RTL_ALT"] == 1600
+
+
+def test_integers_are_exact(peer):
+    with flown(peer, px4=True) as (vehicle, stub):
+        vehicle.params["SYS_AUTOSTART"] = 4000000
+        stub.on_param_set = lambda message: stub.send(stub.value(message.param_id))
+        with pytest.raises(mavloom.ParameterError, match="is 4000000, not 4000001: the vehicle did not take it"):
+            vehicle.params["SYS_AUTOSTART"] = 4000001
+    with flown(peer) as (vehicle, stub):
+        vehicle.params["RTL_ALT"] = 2**24
+        with pytest.raises(mavloom.UsageError, match="takes values as float, which cannot hold 16777217"):
+            vehicle.params["RTL_ALT"] = 2**24 + 1
+        for value in (math.inf, math.nan):
+            with pytest.raises(mavloom.UsageError, match="RTL_ALT is an integer, not"):
+                vehicle.params["RTL_ALT"] = value
+        assert stub.params["RTL_ALT"][0] == 2**24
+
+
+def test_an_integer_that_is_reported_as_nan(peer):
+    """As by a vehicle that sends the bytes of -1, but whose autopilot sends numbers."""
+    with flown(peer) as (vehicle, stub):
+        stub.params["RTL_ALT"] = (math.nan, 6)
+        assert math.isnan(vehicle.params["RTL_ALT"]) and math.isnan(vehicle.params.fetch()["RTL_ALT"])
+
+
+def test_a_value_that_is_set_during_a_fetch_is_the_newer_one(peer):
+    def send_list(message):
+        names = sorted(stub.params)
+        stub.send(*(stub.value(name) for name in names[:-1]),
+                  peer.MAVLink_param_value_message(b"ARMING_CHECK", 7.0, 6, 5, 65535), stub.value(names[-1]))
+    with flown(peer) as (vehicle, stub):
+        stub.on_param_request_list = send_list
+        assert vehicle.params.fetch()["ARMING_CHECK"] == 7
+
+
+def test_values_that_repeat_do_not_prolong_a_fetch(peer, quick):
+    silent = frozenset({"PARAM_REQUEST_LIST", "PARAM_REQUEST_READ"})
+    with flown(peer, silent=silent) as (vehicle, stub), again_and_again(lambda: stub.send(stub.value("RTL_ALT")), 0.02):
+        with pytest.raises(TimeoutError, match="4 of 5 parameters did not arrive"):
+            vehicle.params.fetch()
+
+
+def test_all_values_can_be_forgotten(peer):
+    with flown(peer) as (vehicle, stub):
+        vehicle.params.fetch()
+        vehicle.params.clear()
+        assert vehicle.params["RTL_ALT"] == 1500
+        assert [m.get_type() for m in stub.messages] == ["PARAM_REQUEST_LIST", "PARAM_REQUEST_READ"]
+
+
 # ---- missions
 
 PLACES = [(47.3977, 8.5456, 20), (47.3980, 8.5460, 25.5), (-33.8, 151.2, 30)]
@@ -248,6 +340,49 @@ def test_lost_messages_of_a_mission_are_repeated(peer, quick):
         assert vehicle.mission.download() == items
         vehicle.mission.clear()
         assert stub.mission == []
+
+
+def test_a_lost_acknowledgement_is_requested_again(peer, quick):
+    """By the last item once more, which a PX4 then acknowledges."""
+    with flown(peer) as (vehicle, stub):
+        def acknowledge(message, result=0):
+            if [m.get_type() for m in stub.messages].count("MISSION_ITEM_INT") == 4:
+                Autopilot.mission_ack(stub, message)
+        stub.mission_ack = acknowledge
+        vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+        assert [m.seq for m in stub.messages[1:]] == [0, 1, 2, 2] and len(stub.mission) == 3
+
+
+def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
+    with flown(peer) as (vehicle, stub):
+        def acknowledge_first(message):
+            stub.mission_ack(message)
+            Autopilot.on_mission_item_int(stub, message)
+        stub.on_mission_item_int = acknowledge_first
+        vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+        assert [m.seq for m in stub.messages[1:]] == [0, 1, 2]
+
+
+def test_an_upload_ends_whose_items_are_lost(peer, quick):
+    def request_first(message):
+        stub.send(peer.MAVLink_mission_request_message(message.get_srcSystem(), message.get_srcComponent(), 0, 0))
+    with flown(peer) as (vehicle, stub):
+        stub.on_mission_item_int = request_first
+        with pytest.raises(TimeoutError, match="no answer during the upload"):
+            vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
+
+
+def test_a_fence_needs_mavlink_2(peer):
+    """MISSION_CLEAR_ALL of MAVLink 1 has no type, so it would delete the mission in place of the fence."""
+    with (mavloom.connect("udpin://127.0.0.1:0", version=1) as link,
+          Autopilot(peer, connect_to=("127.0.0.1", link.port), v1=True) as stub):
+        vehicle = link.vehicle(timeout=30)
+        for call in (vehicle.mission.clear, vehicle.mission.download, lambda kind: vehicle.mission.upload([], kind)):
+            with pytest.raises(mavloom.UsageError, match="fences and rally points need MAVLink 2"):
+                call(1)
+        assert stub.messages == []
+        vehicle.mission.upload([mavloom.MissionItem.at(*PLACES[0])])
+        assert len(stub.mission) == 1
 
 
 def test_a_refused_mission_is_an_error_with_the_reason(peer):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from typing import TypeVar
 
 from .. import _modes, enums
@@ -18,13 +18,16 @@ from ._exchange import Peer, Protocol, wait_until
 _T = TypeVar("_T")
 
 ANSWERS = ("COMMAND_ACK", "HEARTBEAT")
+TAKEOFF_ANSWERS = (*ANSWERS, "GLOBAL_POSITION_INT")
 ANSWER_S = 1.0  # how long one request waits for its answer
 TRIES = 4
 IN_PROGRESS_S = 30.0  # how long a command in progress may report nothing
 HEARTBEATS_S = 5.0  # how long a change of mode or of arming may take to appear in heartbeats
+POSITION_S = 5.0  # how old the present place may be, and how long it may take to arrive
 
 ACCEPTED, IN_PROGRESS = 0, 5  # MAV_RESULT
-ARM_DISARM, DO_SET_MODE, NAV_TAKEOFF, NAV_LAND, RETURN_TO_LAUNCH = 400, 176, 22, 21, 20  # MAV_CMD
+ARM_DISARM, DO_SET_MODE, NAV_TAKEOFF, NAV_LAND, RETURN_TO_LAUNCH, REQUEST_MESSAGE = 400, 176, 22, 21, 20, 512  # MAV_CMD
+GLOBAL_POSITION_INT_ID = 33
 ARMED = 128  # MAV_MODE_FLAG
 FORCE = 21196  # param2 of ARM_DISARM: without the vehicle's own checks
 
@@ -71,20 +74,25 @@ def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRI
 
 
 def acknowledgement(peer: Peer, number: int) -> Generator[float, Message | None, Message | None]:
-    """Waits for the final answer to a command; None if there is none."""
-    deadline = time.monotonic() + ANSWER_S
+    """Waits for the final answer to a command; None if there is none, so the command may be repeated.
+
+    A command in progress must not be repeated, because the vehicle would begin again: if it falls silent, raises
+    TimeoutError.
+    """
+    deadline, in_progress = time.monotonic() + ANSWER_S, False
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
             continue
         if answer["result"] != IN_PROGRESS:
             return answer
-        deadline = time.monotonic() + IN_PROGRESS_S
+        deadline, in_progress = time.monotonic() + IN_PROGRESS_S, True
+    if in_progress:
+        raise TimeoutError(f"{peer}: {name_of(number)} was in progress, then silence for {IN_PROGRESS_S:g} s")
     return None
 
 
-def heartbeat_with(peer: Peer, what: str, is_so: object, seconds: float) -> Protocol[Message]:
+def heartbeat_with(peer: Peer, what: str, is_so: Callable[[Message], object], seconds: float) -> Protocol[Message]:
     """Waits for a heartbeat of which `is_so(heartbeat)` is true."""
-    assert callable(is_so)
     deadline = time.monotonic() + seconds
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name == "HEARTBEAT" and is_so(answer):
@@ -130,6 +138,8 @@ def known_mode(mode: str, modes: dict[str, _T]) -> _T:
 
 def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
     """Requests a mode by name or custom mode, and waits until the heartbeats report it."""
+    if not isinstance(mode, (str, int)):
+        raise UsageError(f"a mode is a name or a number, not {mode!r}")
     heartbeat = yield from known_heartbeat(peer)
     base, main, sub, custom_mode = mode_params(heartbeat, mode)
     yield from command(peer, DO_SET_MODE, (base, main, sub))
@@ -140,15 +150,27 @@ def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
     """Requests a take-off to `altitude` m above the present place. An ArduPilot is put into mode GUIDED first."""
     heartbeat = yield from known_heartbeat(peer)
     if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
-        here = peer.link.latest("GLOBAL_POSITION_INT", system=peer.system)
-        above_sea = math.nan if here is None else here["alt"] / 1000 + altitude
+        here = yield from present_place(peer)
         nan = math.nan
-        yield from command(peer, NAV_TAKEOFF, (nan, nan, nan, nan, nan, nan, above_sea))
+        yield from command(peer, NAV_TAKEOFF, (nan, nan, nan, nan, nan, nan, here["alt"] / 1000 + altitude))
         return
     guided = known_mode("GUIDED", _modes.ardupilot_modes(heartbeat["type"]) or {"GUIDED": 4})
     if heartbeat["custom_mode"] != guided:
         yield from set_mode(peer, guided)
     yield from command(peer, NAV_TAKEOFF, (0, 0, 0, 0, 0, 0, altitude))
+
+
+def present_place(peer: Peer) -> Protocol[Message]:
+    """A GLOBAL_POSITION_INT of the last seconds. Requests one if there is none."""
+    here = peer.link.latest("GLOBAL_POSITION_INT", system=peer.system, component=peer.component, max_age=POSITION_S)
+    if here is not None:
+        return here
+    peer.send("COMMAND_LONG", command=REQUEST_MESSAGE, param1=GLOBAL_POSITION_INT_ID)
+    deadline = time.monotonic() + POSITION_S
+    while (answer := (yield from wait_until(deadline))) is not None:
+        if answer.name == "GLOBAL_POSITION_INT":
+            return answer
+    raise TimeoutError(f"{peer}: no GLOBAL_POSITION_INT within {POSITION_S:g} s: the altitude above the sea is unknown")
 
 
 def land(peer: Peer) -> Protocol[None]:

@@ -19,6 +19,7 @@ ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_I
 ANSWER_S = 1.5
 TRIES = 5
 ACCEPTED = 0  # MAV_MISSION_RESULT
+MISSION = 0  # MAV_MISSION_TYPE
 GLOBAL_RELATIVE_ALT_INT = 6  # MAV_FRAME
 DEGREES = 1e7  # of latitude and longitude in x and y
 FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
@@ -79,9 +80,11 @@ def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
     return MissionItem(**given)
 
 
-def error_of(peer: Peer, what: str, result: int) -> MissionError:
-    names = {int(member): text for text, member in enums.MAV_MISSION_RESULT.__members__.items()}
-    return MissionError(f"{peer}: {what}: {names.get(result, result)}", result)
+def raise_if_refused(peer: Peer, what: str, answer: Message) -> None:
+    """Raises MissionError if the answer is a MISSION_ACK that refuses."""
+    if answer.name == "MISSION_ACK" and (result := answer["type"]) != ACCEPTED:
+        names = {int(member): text for text, member in enums.MAV_MISSION_RESULT.__members__.items()}
+        raise MissionError(f"{peer}: {what}: {names.get(result, result)}", result)
 
 
 def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) -> Protocol[Message | None]:
@@ -94,42 +97,58 @@ def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) ->
 
 def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> Protocol[None]:
     """Replaces the mission of the vehicle. Raises MissionError if the vehicle refuses it."""
-    wanted = [item_of(item) for item in items]
-    if len(wanted) > MOST_ITEMS:
-        raise UsageError(f"a mission has at most {MOST_ITEMS} items, not {len(wanted)}")
-    checked(peer, wanted, kind)
-    started, tries = False, 0
-    while tries < TRIES:
-        if not started:
-            peer.send("MISSION_COUNT", count=len(wanted), mission_type=kind)
+    wanted = checked(peer, items, kind)
+    last, furthest = len(wanted) - 1, -1  # of the items, and of those that the vehicle has requested
+    message: dict[str, Any] = {"name": "MISSION_COUNT", "count": len(wanted), "mission_type": kind}
+    peer.send(**message)
+    deadline = time.monotonic() + TRIES * ANSWER_S
+    while time.monotonic() < deadline:
         answer = yield from answer_of(peer, ("MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ACK"), kind,
                                       time.monotonic() + ANSWER_S)
         if answer is None:
-            tries += 1
-            continue
-        if answer.name == "MISSION_ACK":
-            if answer["type"] != ACCEPTED:
-                raise error_of(peer, "upload of the mission", answer["type"])
-            if started or not wanted:
+            if furthest in (-1, last):  # between them, the vehicle repeats its request
+                peer.send(**message)
+        elif answer.name == "MISSION_ACK":
+            raise_if_refused(peer, "upload of the mission", answer)
+            if furthest == last:
                 return
-            continue
-        started, tries = True, 0
-        if answer["seq"] < len(wanted):
-            peer.send("MISSION_ITEM_INT", seq=answer["seq"], mission_type=kind, **asdict(wanted[answer["seq"]]))
+        elif answer["seq"] <= last:
+            if answer["seq"] > furthest:
+                furthest, deadline = answer["seq"], time.monotonic() + TRIES * ANSWER_S
+            message = {"name": "MISSION_ITEM_INT", "seq": answer["seq"], "mission_type": kind,
+                       **asdict(wanted[answer["seq"]])}
+            peer.send(**message)
     raise TimeoutError(f"{peer}: no answer during the upload of the mission")
 
 
-def checked(peer: Peer, items: list[MissionItem], kind: int) -> None:
-    """Raises UsageError, before anything is sent, if an item has a value that cannot be sent."""
+def checked(peer: Peer, given: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> list[MissionItem]:
+    """Returns the items. Raises UsageError, before anything is sent, if one has a value that cannot be sent."""
+    check_kind(peer, kind)
+    items = [item_of(item) for item in given]
+    if len(items) > MOST_ITEMS:
+        raise UsageError(f"a mission has at most {MOST_ITEMS} items, not {len(items)}")
     for number, item in enumerate(items):
         try:
             peer.link.dialect.encode("MISSION_ITEM_INT", seq=number, mission_type=kind, **asdict(item))
         except (UsageError, TypeError) as error:
             raise UsageError(f"item {number} of the mission: {error}") from None
+    return items
+
+
+def check_kind(peer: Peer, kind: int) -> None:
+    """Raises UsageError for a kind that cannot be sent.
+
+    MAVLink 1 has no field for it: the vehicle would clear or replace its mission in place of the fence.
+    """
+    if not isinstance(kind, int) or not 0 <= kind <= 255:
+        raise UsageError(f"mission_type: a MAV_MISSION_TYPE, 0 to 255, not {kind!r}")
+    if kind != MISSION and peer.link.version == 1:
+        raise UsageError(f"{peer}: fences and rally points need MAVLink 2; open the link with version=2")
 
 
 def download(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
     """Fetches the mission of the vehicle."""
+    check_kind(peer, kind)
     count = yield from request(peer, "MISSION_REQUEST_LIST", {}, ("MISSION_COUNT",), kind, None)
     items: list[MissionItem] = []
     for seq in range(count["count"]):
@@ -146,8 +165,7 @@ def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, .
         peer.send(name, mission_type=kind, **fields)
         deadline = time.monotonic() + ANSWER_S
         while (answer := (yield from answer_of(peer, (*answers, "MISSION_ACK"), kind, deadline))) is not None:
-            if answer.name == "MISSION_ACK" and answer["type"] != ACCEPTED:
-                raise error_of(peer, "download of the mission", answer["type"])
+            raise_if_refused(peer, "download of the mission", answer)
             if answer.name in answers and (seq is None or answer["seq"] == seq):
                 return answer
     raise TimeoutError(f"{peer}: no answer to {name} after {TRIES} tries")
@@ -155,12 +173,11 @@ def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, .
 
 def clear(peer: Peer, kind: int) -> Protocol[None]:
     """Deletes the mission of the vehicle."""
+    check_kind(peer, kind)
     for _ in range(TRIES):
         peer.send("MISSION_CLEAR_ALL", mission_type=kind)
         answer = yield from answer_of(peer, ("MISSION_ACK",), kind, time.monotonic() + ANSWER_S)
-        if answer is None:
-            continue
-        if answer["type"] != ACCEPTED:
-            raise error_of(peer, "clearing the mission", answer["type"])
-        return
+        if answer is not None:
+            raise_if_refused(peer, "clearing the mission", answer)
+            return
     raise TimeoutError(f"{peer}: no answer to MISSION_CLEAR_ALL after {TRIES} tries")

@@ -5,6 +5,7 @@ Source: https://mavlink.io/en/services/parameter.html
 """
 from __future__ import annotations
 
+import math
 import struct
 import time
 from dataclasses import dataclass
@@ -20,7 +21,6 @@ ANSWER_S = 1.0
 TRIES = 4
 QUIET_S = 1.0  # without a value for this long, the missing ones are requested one by one
 AT_ONCE = 10  # requests for missing values that are open at the same time
-NO_INDEX = 65535  # of a value outside the list, such as PX4's _HASH_CHECK
 ENCODES_BYTEWISE = 16  # MAV_PROTOCOL_CAPABILITY
 LONGEST_NAME = 16
 
@@ -49,8 +49,10 @@ def encodes_bytewise(peer: Peer, heartbeat: Message) -> bool:
 def decoded(message: Message, bytewise: bool) -> Value:
     kind = message["param_type"]
     value: int | float = message["param_value"]
-    if kind in INTEGERS:
-        value = struct.unpack_from(INTEGERS[kind], message.raw("param_value"))[0] if bytewise else int(value)
+    if kind in INTEGERS and bytewise:
+        value = struct.unpack_from(INTEGERS[kind], message.raw("param_value"))[0]
+    elif kind in INTEGERS and math.isfinite(value):
+        value = int(value)
     return Value(value, kind, message["param_index"])
 
 
@@ -58,10 +60,15 @@ def encoded(name: str, value: float, kind: int, bytewise: bool) -> bytes:
     """The four bytes of `param_value`. Raises UsageError if the value does not fit the type."""
     if kind not in INTEGERS:
         return pack(name, "<f", float(value))
-    if value != int(value):
+    if not math.isfinite(value) or value != int(value):
         raise UsageError(f"parameter {name} is an integer, not {value}")
     whole = pack(name, INTEGERS[kind], int(value))
-    return whole.ljust(4, b"\0") if bytewise else pack(name, "<f", float(value))
+    if bytewise:
+        return whole.ljust(4, b"\0")
+    data = pack(name, "<f", float(value))
+    if struct.unpack("<f", data)[0] != value:
+        raise UsageError(f"parameter {name}: this vehicle takes values as float, which cannot hold {value}")
+    return data
 
 
 def pack(name: str, layout: str, value: float) -> bytes:
@@ -112,23 +119,30 @@ def write(peer: Peer, name: str, value: float, known: Value | None) -> Protocol[
     bytewise = encodes_bytewise(peer, heartbeat)
     before = known if known is not None else (yield from read(peer, name))
     data = encoded(name, value, before.type, bytewise)
+    other: Value | None = None
     for _ in range(TRIES):
         peer.send("PARAM_SET", param_id=name, param_value=data, param_type=before.type)
-        deadline = time.monotonic() + ANSWER_S
-        answer = yield from answer_about(name, deadline)
+        answer = yield from answer_about(name, time.monotonic() + ANSWER_S)
         if answer is None:
             continue
         if answer.name == "PARAM_ERROR":
             raise error_in(peer, answer, name)
         now = decoded(answer, bytewise)
-        if not is_close(now.value, value):
-            raise ParameterError(f"{peer}: parameter {name} is {now.value}, not {value}: the vehicle did not take it")
-        return now
-    raise TimeoutError(f"{peer}: parameter {name} was not confirmed after {TRIES} tries")
+        if is_taken(value, now):
+            return now
+        if other is not None:  # the first one may be a late answer to an earlier request
+            break
+        other = now
+    if other is None:
+        raise TimeoutError(f"{peer}: parameter {name} was not confirmed after {TRIES} tries")
+    raise ParameterError(f"{peer}: parameter {name} is {other.value}, not {value}: the vehicle did not take it")
 
 
-def is_close(one: float, other: float) -> bool:
-    return one == other or abs(one - other) <= TOLERANCE * max(abs(one), abs(other)) or one != one and other != other
+def is_taken(sent: float, now: Value) -> bool:
+    """Whether the vehicle has the value that was sent. Integers are exact; a float may be rounded."""
+    if now.type in INTEGERS:
+        return now.value == sent
+    return math.isclose(now.value, sent, rel_tol=TOLERANCE) or math.isnan(now.value) and math.isnan(sent)
 
 
 def fetch(peer: Peer) -> Protocol[dict[str, Value]]:
@@ -140,13 +154,15 @@ def fetch(peer: Peer) -> Protocol[dict[str, Value]]:
     count: int | None = None
     in_vain = 0  # rounds without a new value
     while in_vain < TRIES:
+        asked: set[int] = set()
         if count is None:
             peer.send("PARAM_REQUEST_LIST")
         else:
-            for index in [i for i in range(count) if i not in seen][:AT_ONCE]:
-                peer.send("PARAM_REQUEST_READ", param_id="", param_index=index)
+            asked.update([i for i in range(count) if i not in seen][:AT_ONCE])
+        for index in sorted(asked):
+            peer.send("PARAM_REQUEST_READ", param_id="", param_index=index)
         before = len(seen)
-        count = yield from collect(found, seen, count, bytewise)
+        count = yield from collect(found, seen, asked, count, bytewise)
         if count is not None and len(seen) >= count:
             return dict(sorted(found.items()))
         in_vain = 0 if len(seen) > before else in_vain + 1
@@ -155,17 +171,24 @@ def fetch(peer: Peer) -> Protocol[dict[str, Value]]:
     raise TimeoutError(f"{peer}: {count - len(seen)} of {count} parameters did not arrive")
 
 
-def collect(found: dict[str, Value], seen: set[int], count: int | None,
+def collect(found: dict[str, Value], seen: set[int], asked: set[int], count: int | None,
             bytewise: bool) -> Protocol[int | None]:
-    """Takes values until all are there or none arrives for a while. Returns how many the vehicle has."""
+    """Takes values until all that were `asked` for are there (all, if none were), or until no new one arrives for a
+    while. Returns how many the vehicle has."""
     deadline = time.monotonic() + (QUIET_S if count is not None else ANSWER_S * 2)
     while (answer := (yield from wait_until(deadline))) is not None:
-        if answer.name != "PARAM_VALUE" or answer["param_index"] == NO_INDEX:
+        if answer.name != "PARAM_VALUE":
+            continue
+        name, index = answer["param_id"], answer["param_index"]
+        if index >= answer["param_count"]:  # not one of the list: a value that was set, or PX4's _HASH_CHECK
+            if name in found:
+                found[name] = decoded(answer, bytewise)
             continue
         count = answer["param_count"]
-        found[answer["param_id"]] = decoded(answer, bytewise)
-        seen.add(answer["param_index"])
-        deadline = time.monotonic() + QUIET_S
-        if len(seen) >= answer["param_count"]:
+        found[name] = decoded(answer, bytewise)
+        if index not in seen:
+            seen.add(index)
+            deadline = time.monotonic() + QUIET_S
+        if len(seen) >= answer["param_count"] or asked and asked <= seen:
             break
     return count

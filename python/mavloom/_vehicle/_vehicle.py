@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _modes
 from .._core import Message
-from .._errors import ParameterError
+from .._errors import ClosedError, ParameterError
 from . import _commands, _mission, _params
 from ._exchange import Peer, run, run_async
 from ._mission import MissionItem
@@ -63,9 +63,16 @@ class _Common:
             return sorted(_modes.PX4)
         return sorted(_modes.ardupilot_modes(beat["type"]) or ())
 
+    def _state(self) -> str:
+        try:
+            if self.heartbeat is None:
+                return "no heartbeat yet"
+            return f"{self.mode}, {'' if self.armed else 'dis'}armed"
+        except ClosedError:
+            return "the link is closed"
+
     def __repr__(self) -> str:
-        state = "no heartbeat yet" if self.heartbeat is None else f"{self.mode}, {'' if self.armed else 'dis'}armed"
-        return f"<{type(self).__name__} {self.system}/{self.component} on {self.link.name}: {state}>"
+        return f"<{type(self).__name__} {self.system}/{self.component} on {self.link.name}: {self._state()}>"
 
 
 class Vehicle(_Common):
@@ -102,7 +109,7 @@ class Vehicle(_Common):
 
     def takeoff(self, altitude: float) -> None:
         """Takes off to `altitude` m above the present place. The motors must be armed."""
-        run(self._peer, _commands.ANSWERS, _commands.takeoff(self._peer, altitude))
+        run(self._peer, _commands.TAKEOFF_ANSWERS, _commands.takeoff(self._peer, altitude))
 
     def land(self) -> None:
         """Lands at the present place."""
@@ -153,6 +160,11 @@ class Params(MutableMapping[str, "int | float"]):
     def __delitem__(self, name: str) -> None:
         """Forgets the value that is known, so that the next look requests it again."""
         del self._known[name]
+        self._is_complete = False
+
+    def clear(self) -> None:
+        """Forgets all values that are known."""
+        self._known = {}
         self._is_complete = False
 
     def __iter__(self) -> Iterator[str]:
@@ -230,7 +242,7 @@ class AsyncVehicle(_Common):
 
     async def takeoff(self, altitude: float) -> None:
         """See Vehicle.takeoff."""
-        await run_async(self._peer, _commands.ANSWERS, _commands.takeoff(self._peer, altitude))
+        await run_async(self._peer, _commands.TAKEOFF_ANSWERS, _commands.takeoff(self._peer, altitude))
 
     async def land(self) -> None:
         """See Vehicle.land."""

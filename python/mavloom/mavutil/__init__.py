@@ -91,7 +91,9 @@ def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations
     current_dialect = dialect if isinstance(dialect, str) else _current.module().DIALECT
 
 
-def _check_source(system: int, component: int) -> None:
+def _check(system: int, component: int, unknown: dict[str, Any]) -> None:
+    for keyword in unknown:
+        warnings.warn(f"mavlink_connection() has no keyword {keyword!r}; it is ignored, as by pymavlink", stacklevel=3)
     for what, number in (("source_system", system), ("source_component", component)):
         if not isinstance(number, int) or not 0 <= number <= 255:
             raise UsageError(f"{what}: {number!r} is out of range, 0 to 255")
@@ -116,9 +118,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     connections.
     """
     global mavfile_global
-    for keyword in opts:
-        warnings.warn(f"mavlink_connection() has no keyword {keyword!r}; it is ignored, as by pymavlink", stacklevel=2)
-    _check_source(source_system, source_component)
+    _check(source_system, source_component, opts)
     if dialect is not None:
         set_dialect(dialect)
     target = _urls.target_of(device)

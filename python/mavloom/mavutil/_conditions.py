@@ -12,7 +12,6 @@ import ast
 import functools
 import math
 import operator
-import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -21,18 +20,24 @@ from .._errors import UsageError
 Names = Mapping[str, Any]
 Evaluator = Callable[[Names], Any]
 
+LARGEST_POWER = 64  # of an exponent, so that no number gets too long to compute
+
+
+def rounded(value: Any, digits: int | None = None) -> Any:
+    if isinstance(digits, int) and abs(digits) > LARGEST_POWER:  # Python computes 10 ** -digits
+        raise UsageError(f"round() to {digits} digits is too long for a condition")
+    return round(value, digits)
+
+
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in
        ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "degrees", "radians", "floor", "ceil", "exp",
         "log", "log10", "fabs", "fmod", "hypot", "isnan", "isinf", "isfinite")},
-    "abs": abs, "min": min, "max": max, "len": len, "int": int, "float": float, "bool": bool, "round": round,
+    "abs": abs, "min": min, "max": max, "len": len, "int": int, "float": float, "bool": bool, "round": rounded,
     "str": str, "sum": sum, "any": any, "all": all, "ord": ord, "chr": chr,
 }
 CONSTANTS = {"pi": math.pi, "e": math.e, "inf": math.inf, "nan": math.nan}
-BRACES = re.compile(r"(.*)\{(.*)\}\s*", re.DOTALL)
-LARGEST_POWER = 64  # of an exponent, so that no number gets too long to compute
 LONGEST = 10_000  # characters of an expression
-LONGEST_SEQUENCE = 10_000  # elements or characters that a multiplication may make
 
 
 def power(base: Any, exponent: Any) -> Any:
@@ -42,9 +47,8 @@ def power(base: Any, exponent: Any) -> Any:
 
 
 def times(left: Any, right: Any) -> Any:
-    for sequence, count in ((left, right), (right, left)):
-        if isinstance(sequence, (str, bytes, list, tuple)) and len(sequence) * count > LONGEST_SEQUENCE:
-            raise UsageError("a condition must not make long sequences")
+    if isinstance(left, (str, bytes, list, tuple)) or isinstance(right, (str, bytes, list, tuple)):
+        raise UsageError("a condition cannot multiply text or lists")
     return left * right
 
 
@@ -82,8 +86,6 @@ class Unknown(Exception):
 @functools.lru_cache(maxsize=256)
 def compiled(expression: str) -> Evaluator:
     """Checks an expression. Raises UsageError with the place of what is not accepted."""
-    if len(expression) > LONGEST:
-        raise UsageError(f"a condition of {len(expression)} characters is too long")
     try:
         tree = ast.parse(expression.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -220,9 +222,11 @@ def evaluate_expression(expression: str, vars: Names, nocondition: bool = False)
     if not isinstance(expression, str):
         raise UsageError(f"a condition is text, such as 'ATTITUDE.roll > 0.1', not {expression!r:.60}; the recv_match "
                          "of mavloom.Link takes functions")
-    braces = None if nocondition else BRACES.fullmatch(expression)
-    if braces is not None:
-        return evaluate_expression(braces[1], vars, True) if evaluate_expression(braces[2], vars, True) else None
+    if len(expression) > LONGEST:
+        raise UsageError(f"a condition of {len(expression)} characters is too long")
+    value, brace, condition = expression.rstrip().removesuffix("}").rpartition("{")
+    if brace and not nocondition and expression.rstrip().endswith("}"):
+        return evaluate_expression(value, vars, True) if evaluate_expression(condition, vars, True) else None
     evaluator = compiled(expression)
     try:
         return evaluator(vars)

@@ -57,8 +57,8 @@ class Connection:
     def _use(self, module: Any) -> None:
         """Sends with the definitions and the MAVLink version of a module, from sequence number 0 on."""
         before = getattr(self, "mav", None)
-        self.mav: mavlink.MAVLink = module.MAVLink(self, srcSystem=self.source_system,
-                                                   srcComponent=self.source_component)
+        self.mav: mavlink.MAVLink = module.MAVLink(self, srcSystem=getattr(before, "srcSystem", self.source_system),
+                                                   srcComponent=getattr(before, "srcComponent", self.source_component))
         self.mav.robust_parsing = self.robust_parsing
         self.WIRE_PROTOCOL_VERSION: str = module.WIRE_PROTOCOL_VERSION
         if before is not None:
@@ -113,7 +113,8 @@ class Connection:
         types = self._types_of(type)
         if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
             raise UsageError(f"type={type!r}: no such message, so this call would wait for ever")
-        end = None if timeout is None else time.monotonic() + timeout
+        blocking = blocking and (timeout is None or timeout > 0)
+        end = time.monotonic() + timeout if blocking and timeout is not None else None
         while True:
             left = 0.0 if not blocking else 3600.0 if end is None else max(0.0, end - time.monotonic())
             message = self._read(min(left, IDLE_HOOKS_PAUSE_S) if self.idle_hooks else left)
@@ -121,12 +122,14 @@ class Connection:
                 message = self._post(message)
                 if (types is None or types.takes(message)) and self._agrees(message, condition):
                     return message
-                continue
-            if self._has_ended():
+            elif self._has_ended():
                 return None
-            for hook in self.idle_hooks:
-                hook(self)
-            if not blocking or end is not None and time.monotonic() >= end:
+            else:
+                for hook in self.idle_hooks:
+                    hook(self)
+            if message is None and not blocking:
+                return None
+            if end is not None and time.monotonic() >= end:
                 return None
 
     def _types_of(self, type: Types) -> MavutilTypes | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._core import Dialect, FieldInfo, MavutilMessage
 from .._errors import Error
+from .._signatures import parameter_name
 
 if TYPE_CHECKING:
     from ._protocol import MAVLink
@@ -327,20 +328,21 @@ def parameters(fields: list[FieldInfo], version: str = "") -> str:
     """The fields as the parameters of a function: extension fields may be left out."""
     texts = []
     for field in fields:
-        if field.name == "mavlink_version" and version:
-            texts.append(f"{field.name}{version}")
+        name = parameter_name(field.name)
+        if name == "mavlink_version" and version:
+            texts.append(f"{name}{version}")
         elif not field.extension:
-            texts.append(field.name)
+            texts.append(name)
         elif field.type == "char":
-            texts.append(f'{field.name}=b""')
+            texts.append(f'{name}=b""')
         else:
-            texts.append(f"{field.name}={'(' + '0, ' * field.array_length + ')' if field.array_length else '0'}")
+            texts.append(f"{name}={'(' + '0, ' * field.array_length + ')' if field.array_length else '0'}")
     return ", ".join(texts)
 
 
 def make_init(dialect: Dialect, name: str, fields: list[FieldInfo]) -> Callable[..., None]:
     """Returns the __init__ of a message class, with the fields as its parameters."""
-    names = "".join(f"{field.name}, " for field in fields)
+    names = "".join(f"{parameter_name(field.name)}, " for field in fields)
     scope: dict[str, Any] = {"_start": MavutilMessage.__init__, "_dialect": dialect}
     exec(f"def __init__(self, {parameters(fields)}):\n    _start(self, _dialect, {name!r}, ({names}), False)\n", scope)
     made: Callable[..., None] = scope["__init__"]

@@ -2,6 +2,7 @@
 """MAVLink: encodes and decodes messages for mavloom.mavutil, and signs and verifies them."""
 from __future__ import annotations
 
+import collections
 import hashlib
 import threading
 import time
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._core import Dialect, FieldInfo, MavutilParser
 from .._errors import UsageError
+from .._signatures import parameter_name
 from ._messages import MAVError, MAVLink_bad_data, MAVLink_message, as_bytes, parameters
 
 if TYPE_CHECKING:
@@ -103,7 +105,7 @@ class MAVLink:
         self.signing = MAVLinkSigning()
         self._dialect = self._module.new_dialect()
         self._parser = MavutilParser(self._dialect)
-        self._found: list[MAVLink_message | tuple[bytes, str]] = []
+        self._found: collections.deque[MAVLink_message | tuple[bytes, str]] = collections.deque()
         self._sending = threading.RLock()
 
     def _take_over(self, other: MAVLink) -> None:
@@ -181,7 +183,7 @@ class MAVLink:
             self._found += self._parser.feed(data, time.time_ns())
         if not self._found:
             return None
-        message = self._received(self._found.pop(0))
+        message = self._received(self._found.popleft())
         if self.callback is not None:
             self.callback(message, *self.callback_args, **self.callback_kwargs)
         return message
@@ -261,14 +263,15 @@ def check_form(frame: bytes) -> None:
 
 def make_call(module: MavlinkModule, name: str, verb: str, fields: list[FieldInfo]) -> Callable[..., Any]:
     """Returns the method NAME_send or NAME_encode, with the fields as its parameters."""
-    names = ", ".join(field.name for field in fields)
+    names = ", ".join(parameter_name(field.name) for field in fields)
     scope: dict[str, Any] = {"_make": module.classes.of(name.upper())}
     more, body = "", f"return _make({names})"
     if verb == "send":
         more = ", force_mavlink1=False" if fields else "force_mavlink1=False"
         body = f"self.send(_make({names}), force_mavlink1=force_mavlink1)"
-    exec(f"def {name}_{verb}(self, {parameters(fields, '=3')}{more}):\n    {body}\n", scope)
-    made: Callable[..., Any] = scope[f"{name}_{verb}"]
+    exec(f"def made(self, {parameters(fields, '=3')}{more}):\n    {body}\n", scope)
+    made: Callable[..., Any] = scope["made"]
+    made.__name__ = f"{name}_{verb}"
     made.__qualname__ = f"MAVLink.{name}_{verb}"
     made.__module__ = module.__name__
     return made

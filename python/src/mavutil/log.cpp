@@ -2,8 +2,10 @@
 #include "mavutil/log.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <system_error>
 
 #include "bindings.hpp"
 #include "errors.hpp"
@@ -72,7 +74,7 @@ nb::object MavutilLog::next() {
             place_ = entry.place;
             return message_of(entry);
         }
-        if (ended_) {
+        if (ended_ && !has_grown()) {
             place_ = size_;
             return {};
         }
@@ -80,6 +82,16 @@ nb::object MavutilLog::next() {
         if (!fill()) break;
     }
     raise(reader().error());
+}
+
+// Whether another program has appended to the file since its end was reached. If so, reading continues.
+bool MavutilLog::has_grown() {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(path_, failed);
+    if (failed || size <= size_ || !reader_->seek(end_)) return false;
+    size_ = size;
+    ended_ = false;
+    return true;
 }
 
 // Reads the next batch. Returns false if reading failed.
@@ -97,6 +109,7 @@ bool MavutilLog::fill() {
         if (record.error() == Stop::failed) return !entries_.empty();
         ended_ = record.error() == Stop::end;
         if (ended_ && end_ < reader_->position()) add_damage(end_, reader_->position() - end_);
+        if (!entries_.empty() && !entries_.back().damage.empty()) end_ = reader_->position();  // returned once
         break;
     }
     return true;
@@ -176,47 +189,74 @@ nb::object MavutilLog::match(MavutilState& state, const nb::object& owner, const
 
 // ---- the index
 
-nb::dict MavutilLog::index(MavutilState& state, const nb::object& owner) {
+namespace {
+
+// Counts the messages of a recording by type. Keeps the first one of each type, and of each further instance.
+class Index {
+public:
     struct First {
         const dialect::Message* definition;
         std::int64_t time_ns;
         std::vector<std::uint8_t> frame;
         bool is_instance;
     };
-    std::vector<First> found;
-    std::vector<const dialect::Message*> order;
-    std::map<const dialect::Message*, std::uint64_t> counts;
-    std::set<std::pair<const dialect::Message*, feed::Instance>> instances;
-    const auto look = [&](const record::Record& record) {
+
+    explicit Index(const dialect::Dialect& dialect) : dialect_(dialect) {}
+
+    void add(const record::Record& record) {
         if (record.info == nullptr) return;
-        const auto* definition = origin_->dialect().find(record.frame.id());
+        const auto* definition = dialect_.find(record.frame.id());
         const bool is_first = counts[definition]++ == 0;
         if (is_first) order.push_back(definition);
-        const auto* field = feed::instance_field(*definition);
-        bool is_new = false;
-        if (field != nullptr && instances.size() < 4096)
-            is_new = instances.emplace(definition, feed::instance_of(*definition, *field, record.frame)).second;
-        if (!is_first && !is_new) return;
+        if (!is_new_instance(*definition, record.frame) && !is_first) return;
         const auto bytes = record.frame.bytes();
-        found.push_back({definition, record.time.time_since_epoch().count(), {bytes.begin(), bytes.end()}, !is_first});
-    };
-    auto file = value_or_raise(open());
+        firsts.push_back({definition, record.time.time_since_epoch().count(), {bytes.begin(), bytes.end()}, !is_first});
+    }
+
+    std::vector<First> firsts;
+    std::vector<const dialect::Message*> order;  // of their first occurrence
+    std::map<const dialect::Message*, std::uint64_t> counts;
+
+private:
+    static constexpr std::size_t most_instances = 4096;
+
+    bool is_new_instance(const dialect::Message& definition, const wire::FrameView& frame) {
+        const auto* field = feed::instance_field(definition);
+        return field != nullptr && instances_.size() < most_instances &&
+               instances_.emplace(&definition, feed::instance_of(definition, *field, frame)).second;
+    }
+
+    const dialect::Dialect& dialect_;
+    std::set<std::pair<const dialect::Message*, feed::Instance>> instances_;
+};
+
+// Reads the whole file without the GIL. Handles signals now and then.
+void add_all(record::TlogReader& file, Index& index) {
     for (bool more = true; more; check_signals()) {
         const WithoutGil outside;
         for (std::size_t read = 0; more && read < 65'536; ++read) {
             const auto record = file.next(most_damage);
-            if (record) look(*record);
+            if (record) index.add(*record);
             else more = record.error() == record::TlogReader::Stop::damage;
         }
     }
-    for (const auto& first : found) {
+}
+
+}  // namespace
+
+nb::dict MavutilLog::index(MavutilState& state, const nb::object& owner) {
+    Index index(origin_->dialect());
+    auto file = value_or_raise(open());
+    add_all(file, index);
+    for (const auto& first : index.firsts) {
         const nb::object message = make_mavutil_message(origin_, first.definition, first.time_ns, 0,
                                                         wire::FrameView::unchecked(first.frame), 0);
         if (!first.is_instance && state.note(message)) owner.attr("_notice")(message);
         state.add_to_target(message);
     }
     nb::dict names;
-    for (const auto* definition : order) names[origin_->definitions()->names(*definition).message] = counts[definition];
+    for (const auto* definition : index.order)
+        names[origin_->definitions()->names(*definition).message] = index.counts[definition];
     return names;
 }
 

@@ -23,8 +23,8 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether the dialect has any of them.
-    [[nodiscard]] bool has_any() const noexcept { return !ids_.empty(); }
+    // Whether the dialect has any of them. BAD_DATA is what a connection that verifies signatures returns.
+    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty(); }
 
 private:
     std::vector<MessageId> ids_;
@@ -40,7 +40,7 @@ public:
     // when it opens a file. These, and further instances, also become messages of the target. Calls owner._notice() for
     // those that concern it. Returns {name: count}.
     nb::dict index(MavutilState& state, const nb::object& owner);
-    // Returns the next message; an invalid object at the end. Notes nothing.
+    // Returns the next message; an invalid object at the end, until the file grows. Notes nothing.
     nb::object next();
     // Returns the next message of these types, or None at the end. Notes every message that it passes in `state`, and
     // calls owner._notice() for those that concern it.
@@ -65,6 +65,7 @@ private:
 
     [[nodiscard]] record::TlogReader& reader();
     [[nodiscard]] SetupResult<record::TlogReader> open() const;
+    bool has_grown();
     bool fill();
     void add(const record::Record& record);
     void add_damage(std::uint64_t from, std::uint64_t count);

@@ -223,6 +223,23 @@ def test_a_dialect_of_ones_own(tmp_path):
         mavutil.current_dialect = "all"
 
 
+def test_fields_with_names_that_python_does_not_allow(tmp_path):
+    xml = tmp_path / "mine.xml"
+    fields = "".join(f'<field type="uint8_t" name="{name}">a</field>' for name in ("from", "1st", "None"))
+    xml.write_text(f'<mavlink><messages><message id="61000" name="MINE">{fields}</message><message id="61001" '
+                   'name="OWN"><field type="uint8_t" name="self">a</field></message></messages></mavlink>')
+    dialect = mavloom.Dialect(xml)
+    link = mavloom.connect("udpin://127.0.0.1:0", dialect=dialect)
+    assert repr(link.mav.mine_encode) == "<mine_encode(from_=0, _1st=0, None_=0)>"
+    assert link.mav.mine_encode(1, 2, 3).to_dict() == link.mav.mine_encode(**{"from": 1, "1st": 2, "None": 3}).to_dict()
+    link.close()
+    module = mavutil._current.module_of(dialect, 2)
+    message = module.MAVLink(None).mine_encode(1, 2, None_=3)
+    assert (getattr(message, "from"), getattr(message, "1st"), getattr(message, "None")) == (1, 2, 3)
+    assert module.MAVLink_mine_message(from_=1, _1st=2, None_=3).to_dict() == message.to_dict()
+    assert module.MAVLink(None).own_encode(self_=4).self == 4
+
+
 def test_pymavlinks_dialect_modules():
     from mavloom.dialects.v10 import common as one
     from mavloom.dialects.v20 import ardupilotmega as two
@@ -408,6 +425,11 @@ def test_missions_in_files(tmp_path, mavlink, monkeypatch):
             again.load(tmp_path / "bad.txt")
     with pytest.raises(mavwp.MAVWPError, match="there is no item 9"):
         again.set(again.wp(0), 9)
+    for change in (lambda: again.add(again.wp(0)), lambda: again.insert(0, again.wp(1)),
+                   lambda: again.remove(again.wp(2)), lambda: again.set(again.wp(1), 1), again.reindex, again.clear):
+        again.last_change = 0.0
+        change()
+        assert again.last_change > 0  # MAVProxy looks at it
 
 
 def test_json_of_nan_is_pymavlinks(mavlink):
