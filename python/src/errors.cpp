@@ -57,6 +57,10 @@ void raise_buffer(const std::string& text) {
     throw nb::python_error();
 }
 
+void warn(const std::string& text) {
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw nb::python_error();
+}
+
 std::string path_of(nb::handle path) {
     PyObject* encoded = nullptr;
     if (PyUnicode_FSConverter(path.ptr(), &encoded) != 0) {

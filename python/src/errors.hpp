@@ -22,6 +22,8 @@ namespace nb = nanobind;
 [[noreturn]] void raise_closed(const std::string& text);
 [[noreturn]] void raise_error(const std::string& text);   // mavloom.Error itself
 [[noreturn]] void raise_buffer(const std::string& text);  // Python's BufferError
+// Issues a RuntimeWarning. Raises it if the user's filters turn it into an error. Hold no lock: filters run user code.
+void warn(const std::string& text);
 
 template <class T>
 T value_or_raise(SetupResult<T>&& result) {

@@ -79,6 +79,11 @@ void Channel::publish() {
     changed_.notify_all();
 }
 
+void Channel::look_after_recorders() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& recorder : recorders_) recorder->look_after();
+}
+
 void Channel::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

@@ -58,14 +58,10 @@ bool Destinations::send(const wire::FrameView& frame, WallTime time) {
 }
 
 void Destinations::look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice) {
-    constexpr std::chrono::milliseconds interval{500};
-    if (now < files_due_) return;
-    files_due_ = now + interval;
     for (auto& file : files_) {
-        keep(file.flush());
-        auto removed = file.renew_if_removed(now);
-        if (removed && !removed->empty()) on_notice(record::removal_notice(*removed));
+        auto removed = file.look_after(now);
         if (!removed) keep(tl::unexpected(std::move(removed.error())));
+        else if (!removed->empty()) on_notice(record::removal_notice(*removed));
     }
 }
 

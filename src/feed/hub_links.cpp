@@ -6,6 +6,7 @@
 namespace mavloom::feed {
 namespace {
 
+constexpr auto look_interval = std::chrono::seconds(1);
 constexpr std::size_t ring_frames_a_turn = 4096;  // in total, over all lossy rings
 
 bool listens(endpoint::Scheme scheme) noexcept {
@@ -19,8 +20,16 @@ HubLinks::HubLinks(Sources sources) : sources_(std::move(sources)) { links().let
 void HubLinks::turn(MonoTime deadline) {
     for (const auto& [endpoint, served] : served_)
         if (served.is_lossless) sources_.hold_ring(endpoint, !served.channel->has_room());
-    sources_.turn(*this, deadline, {0, Channel::frames_a_turn, ring_frames_a_turn});
+    sources_.turn(*this, std::min(deadline, look_due_), {0, Channel::frames_a_turn, ring_frames_a_turn});
     for (const auto& [endpoint, served] : served_) served.channel->publish();
+    look_after_recorders();
+}
+
+void HubLinks::look_after_recorders() {
+    const auto now = mono_now();
+    if (now < look_due_) return;
+    look_due_ = now + look_interval;
+    for (const auto& [endpoint, served] : served_) served.channel->look_after_recorders();
 }
 
 void HubLinks::close_channels() {

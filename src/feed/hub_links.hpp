@@ -55,6 +55,7 @@ private:
     void on_link_down(LinkId link, link::EndpointId endpoint, std::string_view why) override;
     void on_bad_checksum(LinkId link, link::EndpointId endpoint, MessageId id) override;
 
+    void look_after_recorders();
     [[nodiscard]] link::Links& links() noexcept { return sources_.links(); }
     // Null for an endpoint without a channel, such as a served inlet.
     [[nodiscard]] Served* served_by(link::EndpointId endpoint) noexcept;
@@ -70,6 +71,7 @@ private:
     // Maps each served inlet to the endpoint that fills its ring.
     std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
+    MonoTime look_due_{};  // when to look after the recorders
 };
 
 }  // namespace mavloom::feed

@@ -131,4 +131,9 @@ bool File::is_named() const noexcept {
            named.stx_dev_major == mine.stx_dev_major && named.stx_dev_minor == mine.stx_dev_minor;
 }
 
+bool File::is_linked() const noexcept {
+    struct stat mine {};
+    return ::fstat(fd_, &mine) == 0 && mine.st_nlink != 0;
+}
+
 }  // namespace mavloom::record

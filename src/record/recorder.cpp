@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 namespace mavloom::record {
@@ -54,16 +55,31 @@ void Recorder::run() {
 }
 
 SetupResult<void> Recorder::look_at_file() {
-    auto removed = writer_.renew_if_removed(mono_now());
+    auto removed = writer_.look_after(mono_now());
     if (!removed) return tl::unexpected(std::move(removed.error()));
     if (!removed->empty()) notice_(fmt::format("{}: {}", label_, removal_notice(*removed)));
     return {};
 }
 
 SetupResult<void> Recorder::write(const FrameQueue::Entry& entry) {
+    wait_to_rotate(entry);
     auto taken = writer_.write(entry.time, entry.frame);
     count();
     return taken;
+}
+
+// On a full disk, the last records of a segment cannot be written, so the next segment cannot begin. Meanwhile frames
+// wait in the queue.
+void Recorder::wait_to_rotate(const FrameQueue::Entry& entry) {
+    constexpr std::chrono::milliseconds look_for_room{100};
+    while (writer_.begins_segment(entry.time, entry.frame) && !ending_.load(std::memory_order_relaxed)) {
+        const auto room = writer_.make_room(entry.time, entry.frame);
+        count();
+        tell(room);
+        if (room || !writer_.is_full_disk(room.error())) return;
+        std::this_thread::sleep_for(look_for_room);
+        if (const auto looked = look_at_file(); !looked) tell(looked);
+    }
 }
 
 void Recorder::count() noexcept {

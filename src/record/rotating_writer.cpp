@@ -55,11 +55,11 @@ SetupResult<RotatingWriter> RotatingWriter::create(const fs::path& path, Rotatio
     return all;
 }
 
-bool RotatingWriter::is_due(WallTime time, std::size_t record_bytes) const noexcept {
+bool RotatingWriter::begins_segment(WallTime time, const wire::FrameView& frame) const noexcept {
     if (!rotation_.rotates()) return false;
     if (!writer_) return true;
-    if (rotation_.bytes != 0 && writer_->records() != 0 && writer_->size() + record_bytes > rotation_.bytes)
-        return true;
+    const std::uint64_t size = writer_->size() + time_length + frame.size();
+    if (rotation_.bytes != 0 && writer_->records() != 0 && size > rotation_.bytes) return true;
     return rotation_.every != Nanoseconds{} && time > begin_ && time - begin_ >= rotation_.every;
 }
 
@@ -91,59 +91,74 @@ SetupResult<void> RotatingWriter::go_on_in(TlogWriter next) {
     return closed;
 }
 
-SetupResult<fs::path> RotatingWriter::renew_if_removed(MonoTime now) {
+SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
     constexpr std::chrono::milliseconds look_interval{500};
     if (now < look_due_) return {};
     look_due_ = now + look_interval;
-    if (!writer_ || !writer_->is_file() || writer_->is_named()) return {};
-    auto removed = segment_path();
-    if (auto anew = begin_anew(); !anew) return tl::unexpected(std::move(anew.error()));
+    auto removed = is_removed() ? segment_path() : fs::path{};
+    if (removed.empty()) no_file_.reset();
+    auto done = removed.empty() ? flush() : begin_anew();
+    if (!done) return tl::unexpected(std::move(done.error()));
     return removed;
 }
 
+bool RotatingWriter::is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
+
 SetupResult<void> RotatingWriter::begin_anew() {
-    if (rotation_.rotates()) return end_segment();
-    auto next = TlogWriter::create(path_);
-    if (!next) return tl::unexpected(std::move(next.error()));
-    return go_on_in(std::move(*next));
+    const bool is_empty = writer_->buffered_bytes() == 0;
+    if (rotation_.rotates() && is_empty) return end_segment();
+    const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
+    auto next = TlogWriter::create(rotation_.rotates() ? free_name(begin) : path_);
+    if (!next) {
+        if (!writer_->is_linked()) no_file_ = next.error();
+        return tl::unexpected(std::move(next.error()));
+    }
+    no_file_.reset();
+    next->take_buffered(*writer_);
+    return begin_segment(std::move(*next), begin);
 }
 
-// If the disk has no room for the buffered records of the open segment, a new segment would not help: the open segment
-// stays. The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
+// The new segment is opened before the old one is closed, so if it cannot be opened, nothing has changed.
 SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& frame) {
     SetupResult<void> closed;
-    if (is_due(time, time_length + frame.size()) && !is_disk_full()) {
-        auto next = TlogWriter::create(free_name(time));
-        if (!next) {
-            ++refused_;
-            return tl::unexpected(std::move(next.error()));
-        }
-        closed = go_on_in(std::move(*next));
-        begin_ = time;
+    auto taken = make_room(time, frame);
+    if (taken && !no_file_ && begins_segment(time, frame)) {
+        if (auto next = TlogWriter::create(free_name(time)); next) closed = begin_segment(std::move(*next), time);
+        else taken = tl::unexpected(std::move(next.error()));
     }
-    auto taken = writer_->write(time, frame);
+    if (taken) taken = writer_->write(time, frame);
     if (taken) return closed;
     ++refused_;
     return taken;
 }
 
-SetupResult<void> RotatingWriter::make_room(const wire::FrameView& frame) {
-    return writer_ ? writer_->make_room(frame) : SetupResult<void>{};
+SetupResult<void> RotatingWriter::begin_segment(TlogWriter next, WallTime time) {
+    begin_ = time;
+    return go_on_in(std::move(next));
+}
+
+SetupResult<void> RotatingWriter::make_room(WallTime time, const wire::FrameView& frame) {
+    if (!writer_) return {};
+    if (no_file_) return writer_->has_room(frame) ? SetupResult<void>{} : tl::unexpected(*no_file_);
+    if (!begins_segment(time, frame)) return writer_->make_room(frame);
+    auto flushed = flush();
+    if (!flushed && is_full_disk(flushed.error())) return flushed;
+    return {};  // after any other error, a new segment may help
 }
 
 bool RotatingWriter::is_full_disk(const SetupError& error) const noexcept {
     return (error.sys_errno == ENOSPC || error.sys_errno == EDQUOT) && writer_ && writer_->is_file();
 }
 
-bool RotatingWriter::is_disk_full() {
-    const auto flushed = flush();
-    return !flushed && is_full_disk(flushed.error());
+SetupResult<void> RotatingWriter::flush() {
+    if (no_file_) return tl::unexpected(*no_file_);
+    return writer_ ? writer_->flush() : SetupResult<void>{};
 }
-
-SetupResult<void> RotatingWriter::flush() { return writer_ ? writer_->flush() : SetupResult<void>{}; }
 
 SetupResult<void> RotatingWriter::close() {
     closed_ = true;
+    if (is_removed() && writer_->buffered_bytes() != 0)
+        if (auto anew = begin_anew(); !anew && no_file_) return anew;
     return writer_ ? writer_->close() : SetupResult<void>{};
 }
 

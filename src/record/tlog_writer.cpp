@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "record/tlog_format.hpp"
 
@@ -81,8 +82,24 @@ TlogWriter::~TlogWriter() {
 }
 
 SetupResult<void> TlogWriter::make_room(const wire::FrameView& frame) {
-    return time_length + frame.size() > capacity_ - used_ ? flush() : SetupResult<void>{};
+    return has_room(frame) ? SetupResult<void>{} : flush();
 }
+
+bool TlogWriter::has_room(const wire::FrameView& frame) const noexcept {
+    return time_length + frame.size() <= capacity_ - used_;
+}
+
+// A record of which `from` has written only a part moves too, as a whole.
+void TlogWriter::take_buffered(TlogWriter& from) noexcept {
+    std::swap(buffer_, from.buffer_);
+    std::swap(capacity_, from.capacity_);
+    used_ = std::exchange(from.used_, 0);
+    from.half_ = 0;
+    records_ = from.records_ - from.written_records_;
+    from.records_ = from.written_records_;
+}
+
+WallTime TlogWriter::first_buffered_time() const noexcept { return wall_from_us(load_be64(buffer_.get())); }
 
 SetupResult<void> TlogWriter::write(WallTime time, const wire::FrameView& frame) {
     const std::size_t length = time_length + frame.size();

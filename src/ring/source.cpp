@@ -22,12 +22,15 @@ constexpr std::size_t most_links = 2 * route::Engine::max_links;
 constexpr Nanoseconds names_distance = std::chrono::seconds(1);  // between two reads of the page for missing names
 constexpr Nanoseconds look_distance = shm::RingFollower::look_distance;
 
+shm::Trust trust_of(const endpoint::EndpointOptions& options) {
+    return {.foreign = options.foreign, .user = link::Links::owner_of_inlets()};
+}
+
 shm::ReaderOptions reader_options(const endpoint::EndpointOptions& options) {
     using From = shm::ReaderOptions::From;
     return {.lossless = options.lossless.value_or(false),
             .from = options.from_oldest ? From::oldest : From::newest,
-            .foreign = options.foreign,
-            .trusted_user = link::Links::owner_of_inlets()};
+            .trust = trust_of(options)};
 }
 
 bool is_echo(std::uint8_t ring_verdict) noexcept { return verdict_of(ring_verdict) == route::Verdict::echo; }
@@ -255,7 +258,7 @@ std::string RingSource::name_of(LinkId in_ring) {
 // Reads the counter page. Returns whether its names have changed.
 bool RingSource::read_names() {
     next_names_ = mono_now() + names_distance;
-    auto page = shm::read_counters(follower_.name());
+    auto page = shm::read_counters(follower_.name(), trust_of(endpoint_.options));
     if (!page || page->links == names_) return false;
     names_ = std::move(page->links);
     return true;

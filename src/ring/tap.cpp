@@ -20,6 +20,11 @@ RingTap::RingTap(std::string name, const shm::RingOptions& options, shm::RingWri
       writer_(std::move(writer)),
       page_(std::move(page)) {}
 
+// Another user may have put anything in its place: a file, a folder, a symbolic link.
+static bool is_no_page_of_ours(SetupCode code) noexcept {
+    return code == SetupCode::permission || code == SetupCode::bad_input || code == SetupCode::system;
+}
+
 // Opens the ring first: the process that holds its writer lock also owns the page.
 SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, shm::RingOptions options,
                                                     std::function<void()> ready) {
@@ -28,8 +33,7 @@ SetupResult<std::unique_ptr<RingTap>> RingTap::open(const std::string& name, shm
     auto writer = shm::RingWriter::open(name, options);
     if (!writer) return tl::unexpected(std::move(writer.error()));
     auto page = RingPage::create(name, options.mode);
-    const bool is_taken = !page && (page.error().code == SetupCode::permission ||
-                                    page.error().code == SetupCode::bad_input);  // look_after() reports it
+    const bool is_taken = !page && is_no_page_of_ours(page.error().code);  // look_after() reports it
     if (!page && !is_taken) {
         (void)writer->close(writer->created() ? shm::RingWriter::Leave::nothing : shm::RingWriter::Leave::ring);
         return tl::unexpected(std::move(page.error()));
@@ -64,7 +68,10 @@ void RingTap::refresh_page(const link::Links& links, std::optional<link::Endpoin
 
 std::vector<std::string> RingTap::look_after(const link::Links& links) {
     std::vector<std::string> notices;
-    if (!noted_aside_) note_aside(notices);
+    if (!noted_aside_) {
+        note_aside(notices);
+        note_page_aside(notices);
+    }
     if (!making_.valid() && writer_.is_removed()) make_ring_anew();
     else if (making_.valid() && making_.wait_for(Nanoseconds{}) == std::future_status::ready) take_new_ring(notices);
     if (!page_ || page_->is_removed()) make_page_anew(links, notices);
@@ -101,6 +108,11 @@ void RingTap::note_aside(std::vector<std::string>& notices) {
         notices.push_back(fmt::format("{}; it was renamed to mavloom.{}.aside", why, name_));
 }
 
+void RingTap::note_page_aside(std::vector<std::string>& notices) const {
+    if (page_ && !page_->set_aside().empty())
+        notices.push_back(fmt::format("{}; it was renamed to mavloom.{}.stat.aside", page_->set_aside(), name_));
+}
+
 void RingTap::take_new_ring(std::vector<std::string>& notices) {
     auto anew = making_.get();
     shm::RingWriter old = std::move(writer_);
@@ -127,6 +139,7 @@ void RingTap::make_page_anew(const link::Links& links, std::vector<std::string>&
     }
     told_page_ = false;
     page_.emplace(std::move(*anew));
+    note_page_aside(notices);
     for (const auto& link : links.links()) page_->name_link(link.id, link.name);
     page_due_ = MonoTime{};
 }

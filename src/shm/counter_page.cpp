@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -36,10 +37,11 @@ LinkSlot* links_in(const Segment& segment, std::uint32_t counters) noexcept {
     return reinterpret_cast<LinkSlot*>(segment.data() + page_header_bytes + sizeof(CounterSlot) * counters);
 }
 
-// Returns a checked copy of the page's header.
+// Returns a checked copy of the page's header. Reads the file and not the mapping, like open_ring().
 SetupResult<PageHeader> header_of(const Segment& segment) {
     PageHeader header;
-    if (segment.size() >= sizeof header) std::memcpy(&header, segment.data(), sizeof header);
+    std::array<std::uint8_t, sizeof header> bytes{};
+    if (segment.read_begin(bytes) == bytes.size()) std::memcpy(&header, bytes.data(), sizeof header);
     const auto wrong = [&](std::string_view what) {
         return setup_error(SetupCode::bad_input, fmt::format("{}: {}", segment.path(), what));
     };
@@ -132,6 +134,12 @@ SetupResult<void> check_options(const CounterPageOptions& options) {
     return {};
 }
 
+tl::unexpected<SetupError> has_owner(const Segment& segment) {
+    const auto header = header_of(segment);
+    return setup_error(held_code(segment), fmt::format("{} belongs to process {}, which is alive", segment.path(),
+                                                       header ? header->pid : 0));
+}
+
 SetupResult<Segment> create_page(const std::string& path, const CounterPageOptions& options) {
     PageHeader header;
     header.counters = options.counters;
@@ -149,21 +157,23 @@ SetupResult<CounterPage> CounterPage::create(std::string_view name, const Counte
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     const std::string path = path_of(name, suffix);
+    std::string set_aside;
     for (int attempt = 0; attempt < most_reads; ++attempt) {
         auto created = create_page(path, options);
-        if (created) return CounterPage(std::make_unique<Segment>(std::move(*created)), options);
-        if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));
-        auto present = Segment::open(path, Segment::Access::read_write, 0);
-        if (!present && present.error().code == SetupCode::not_found) continue;
-        if (present)
-            if (auto trusted = check_owner(*present); !trusted) present = tl::unexpected(std::move(trusted.error()));
-        if (!present && options.sets_aside && rename_aside(path)) continue;
-        if (!present) return tl::unexpected(std::move(present.error()));
-        if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) {
-            const auto header = header_of(*present);
-            return setup_error(SetupCode::in_use,
-                               fmt::format("{} belongs to process {}, which is alive", path, header ? header->pid : 0));
+        if (created) {
+            CounterPage page(std::make_unique<Segment>(std::move(*created)), options);
+            page.set_aside_ = std::move(set_aside);
+            return page;
         }
+        if (created.error().code != SetupCode::in_use) return tl::unexpected(std::move(created.error()));
+        auto present = Segment::open(path, Segment::Access::read_write, 0, check_owner);
+        if (!present && present.error().code == SetupCode::not_found) continue;
+        if (!present && options.sets_aside && rename_aside(path)) {
+            set_aside = std::move(present.error().text);
+            continue;
+        }
+        if (!present) return tl::unexpected(std::move(present.error()));
+        if (!present->try_lock(owner_byte) && present->is_locked(owner_byte)) return has_owner(*present);
         if (auto unlinked = present->unlink(); !unlinked) return tl::unexpected(std::move(unlinked.error()));
     }
     return setup_error(SetupCode::in_use, fmt::format("{} keeps being created and removed by other processes", path));
@@ -182,6 +192,7 @@ CounterPage& CounterPage::operator=(CounterPage&& other) noexcept {
     if (this == &other) return *this;
     end();
     segment_ = std::move(other.segment_);
+    set_aside_ = std::move(other.set_aside_);
     slots_ = other.slots_;
     free_counters_ = std::move(other.free_counters_);
     free_links_ = std::move(other.free_links_);
@@ -243,15 +254,18 @@ void CounterPage::forget_link(LinkId link) {
 }
 
 void remove_left_page(std::string_view ring) {
-    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0);
+    auto page = Segment::open(path_of(ring, suffix), Segment::Access::read_write, 0, check_owner);
     if (page && page->try_lock(owner_byte)) static_cast<void>(page->unlink());
 }
 
 bool CounterPage::is_removed() const noexcept { return !segment_->is_named(); }
 
-SetupResult<CounterSnapshot> read_counters(std::string_view name) {
+SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& trust) {
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
-    const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes);
+    const auto check = [&](const Segment& file) {
+        return check_trusted(file, fmt::format("the counter page of {}", name), trust);
+    };
+    const auto segment = Segment::open(path_of(name, suffix), Segment::Access::read_only, page_header_bytes, check);
     if (!segment) return tl::unexpected(segment.error());
     const auto header = header_of(*segment);
     if (!header) return tl::unexpected(header.error());

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <utility>
@@ -22,9 +23,12 @@ tl::unexpected<SetupError> wrong(const std::string& path, std::string_view what)
     return setup_error(SetupCode::bad_input, fmt::format("{}: {}", path, what));
 }
 
+// Not through the mapping: a file of another user may have been shortened meanwhile.
 Identity identity_of(const Segment& segment) noexcept {
     Identity identity;
-    std::memcpy(&identity, segment.data(), sizeof identity);
+    std::array<std::uint8_t, sizeof identity> bytes{};
+    static_cast<void>(segment.read_begin(bytes));
+    std::memcpy(&identity, bytes.data(), sizeof identity);
     return identity;
 }
 
@@ -88,7 +92,7 @@ SetupResult<Segment> create_ring(const std::string& path, const RingOptions& opt
 tl::unexpected<SetupError> has_writer(std::string_view name, const Segment& segment) {
     const auto pid = memory_of(segment).control->writer_pid.load(std::memory_order_relaxed);
     const auto who = pid == 0 ? std::string("which is just starting or ending") : fmt::format("process {}", pid);
-    return setup_error(SetupCode::in_use, fmt::format("ring {} already has a writer, {}", name, who));
+    return setup_error(held_code(segment), fmt::format("ring {} already has a writer, {}", name, who));
 }
 
 }  // namespace
@@ -102,9 +106,9 @@ RingMemory<SharedWords> memory_of(const Segment& segment) noexcept {
             reinterpret_cast<SharedWords::Word64*>(base + data_offset), segment.size() - data_offset};
 }
 
-SetupResult<Segment> open_ring(std::string_view name, Segment::Access access) {
+SetupResult<Segment> open_ring(std::string_view name, Segment::Access access, const Segment::Check& check) {
     if (auto good = check_name(name); !good) return tl::unexpected(std::move(good.error()));
-    auto segment = Segment::open(path_of(name), access, data_offset);
+    auto segment = Segment::open(path_of(name), access, data_offset, check);
     if (!segment) {
         if (segment.error().code == SetupCode::not_found)
             segment.error().text = fmt::format("there is no ring {}; {}", name, names_of(other_rings(name)));
@@ -127,9 +131,7 @@ void retire(const Segment& segment) noexcept {
 SetupResult<Segment> writer_segment(std::string_view name, const RingOptions& options, std::string* set_aside) {
     if (auto good = check_options(options); !good) return tl::unexpected(std::move(good.error()));
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-        auto present = open_ring(name, Segment::Access::read_write);
-        if (present)
-            if (auto trusted = check_owner(*present); !trusted) present = tl::unexpected(std::move(trusted.error()));
+        auto present = open_ring(name, Segment::Access::read_write, check_owner);
         if (!present && present.error().code != SetupCode::not_found) {
             if (!options.sets_aside || !rename_aside(path_of(name))) return present;
             if (set_aside != nullptr) *set_aside = std::move(present.error().text);

@@ -15,8 +15,9 @@ namespace mavloom::shm {
 inline constexpr std::size_t writer_byte = 0;  // the writer holds the lock on this byte; slot n uses byte n + 1
 [[nodiscard]] constexpr std::size_t slot_byte(unsigned slot) noexcept { return slot + 1; }
 
-// Opens an existing ring and checks its identity. `not_found` lists the rings that exist.
-[[nodiscard]] SetupResult<Segment> open_ring(std::string_view name, Segment::Access access);
+// Opens an existing ring: first checks its owner and mode by `check`, then its identity, before anything reads it
+// through the mapping. `not_found` lists the rings that exist.
+[[nodiscard]] SetupResult<Segment> open_ring(std::string_view name, Segment::Access access, const Segment::Check& check);
 // Returns pointers into a ring that open_ring() or writer_segment() returned.
 [[nodiscard]] RingMemory<SharedWords> memory_of(const Segment& segment) noexcept;
 

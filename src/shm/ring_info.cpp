@@ -98,7 +98,7 @@ std::vector<std::string> ring_names() {
 }
 
 SetupResult<RingStatus> ring_status(std::string_view name) {
-    const auto segment = open_ring(name, Segment::Access::read_only);
+    const auto segment = open_ring(name, Segment::Access::read_only, check_survivable);
     if (!segment) return tl::unexpected(segment.error());
     const auto ring = memory_of(*segment);
     const auto& control = *ring.control;
@@ -131,7 +131,7 @@ SetupResult<RingStatus> ring_status(std::string_view name) {
 
 SetupResult<void> remove_ring(std::string_view name) {
     if (auto good = check_name(name); !good) return good;
-    if (const auto segment = open_ring(name, Segment::Access::read_write)) {
+    if (const auto segment = open_ring(name, Segment::Access::read_write, check_survivable)) {
         if (auto unlinked = segment->unlink(); !unlinked) return unlinked;
         retire(*segment);
     } else if (::unlink(path_of(name).c_str()) != 0) {

@@ -52,13 +52,13 @@ SetupResult<RingReader> RingReader::open(std::string_view name, const ReaderOpti
     if (options.lossless && options.read_only)
         return setup_error(SetupCode::usage,
                            "a lossless reader writes its position to the ring, so it cannot be read-only");
-    auto segment = open_ring(name, options.read_only ? Access::read_only : Access::read_write);
+    const auto check = [&](const Segment& file) {
+        return check_trusted(file, fmt::format("ring {}", name), options.trust);
+    };
+    auto segment = open_ring(name, options.read_only ? Access::read_only : Access::read_write, check);
     if (!segment && segment.error().code == SetupCode::permission && !options.lossless && !options.read_only)
-        if (auto readable = open_ring(name, Access::read_only)) segment = std::move(readable);
+        segment = open_ring(name, Access::read_only, check);
     if (!segment) return tl::unexpected(std::move(segment.error()));
-    if (!options.foreign)
-        if (auto good = check_trusted(*segment, name, options.trusted_user); !good)
-            return tl::unexpected(std::move(good.error()));
     RingReader reader(std::string(name), options, std::make_shared<Segment>(std::move(*segment)));
     if (auto begun = reader.begin(); !begun) return tl::unexpected(std::move(begun.error()));
     return reader;

@@ -208,10 +208,12 @@ void RingWriter::end() noexcept {
     segment_.reset();
 }
 
-// Returns whether the page belongs to another live process, which may use it for more than this ring.
+// Returns whether the page belongs to another live process, which may use it for more than this ring, or to another
+// user.
 static bool page_is_of_another(const std::string& name) {
     const auto page = read_counters(name);
-    return page && page->owner_alive && page->owner_pid != static_cast<std::uint32_t>(::getpid());
+    if (!page) return page.error().code == SetupCode::permission;
+    return page->owner_alive && page->owner_pid != static_cast<std::uint32_t>(::getpid());
 }
 
 SetupResult<void> RingWriter::close(Leave leave) {

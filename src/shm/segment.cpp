@@ -23,6 +23,8 @@ namespace mavloom::shm {
 
 namespace {
 
+constexpr unsigned others_write = 0022;  // mode bits
+
 // Opening this path opens the same file again, with an open file description of its own.
 std::string path_of_descriptor(int fd) { return fmt::format("/proc/self/fd/{}", fd); }
 
@@ -83,18 +85,26 @@ SetupResult<void> check_owner(const Segment& segment) {
                                                           segment.path(), user_name(owner)));
 }
 
-SetupResult<void> check_trusted(const Segment& segment, std::string_view ring, std::optional<uid_t> trusted_user) {
-    constexpr unsigned others_write = 0022;
+SetupResult<void> check_trusted(const Segment& segment, std::string_view what, const Trust& trust) {
+    if (trust.foreign) return {};
     const auto [owner, mode] = segment.status();
-    if (owner != 0 && owner != ::geteuid() && owner != trusted_user)
-        return setup_error(SetupCode::permission,
-                           fmt::format("ring {} belongs to {}, so anything may be in it; foreign=true reads it", ring,
-                                       user_name(owner)));
+    if (owner != 0 && owner != ::geteuid() && owner != trust.user)
+        return setup_error(
+            SetupCode::permission,
+            fmt::format("{} belongs to {}, so anything may be in it; foreign=true reads it", what, user_name(owner)));
     if ((mode & others_write) == 0 || has_lost_mapping_handler()) return {};
     return setup_error(SetupCode::permission,
-                       fmt::format("others than its owner may write ring {} (mode {:04o}), and could end this program "
-                                   "by shortening it; foreign=true reads it",
-                                   ring, mode));
+                       fmt::format("others than its owner may write {} (mode {:04o}), and could end this program by "
+                                   "shortening it; foreign=true reads it",
+                                   what, mode));
+}
+
+SetupCode held_code(const Segment& segment) noexcept {
+    return (segment.status().mode & others_write) == 0 ? SetupCode::in_use : SetupCode::permission;
+}
+
+SetupResult<void> check_survivable(const Segment& segment) {
+    return check_trusted(segment, segment.path(), {.foreign = has_lost_mapping_handler()});
 }
 
 bool rename_aside(const std::string& path) { return ::rename(path.c_str(), (path + ".aside").c_str()) == 0; }
@@ -157,7 +167,7 @@ void Segment::populate() noexcept {
     ::madvise(data_, std::min(size_, most), writable() ? MADV_POPULATE_WRITE : MADV_POPULATE_READ);
 }
 
-SetupResult<Segment> Segment::open(const std::string& path, Access access, std::size_t least_bytes) {
+SetupResult<Segment> Segment::open(const std::string& path, Access access, std::size_t least_bytes, const Check& check) {
     const int flags = (access == Access::read_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     const int fd = ::open(path.c_str(), flags);
     if (fd < 0) return cannot_open(path, errno);
@@ -166,6 +176,7 @@ SetupResult<Segment> Segment::open(const std::string& path, Access access, std::
     if (::fstat(fd, &status) != 0) return cannot_open(path, errno);
     if (!S_ISREG(status.st_mode))
         return setup_error(SetupCode::bad_input, fmt::format("{} is not a regular file", path));
+    if (auto trusted = check(segment); !trusted) return tl::unexpected(std::move(trusted.error()));
     segment.size_ = static_cast<std::size_t>(status.st_size);
     if (segment.size_ < least_bytes)
         return setup_error(SetupCode::bad_input, fmt::format("{} is truncated: {} bytes instead of at least {}", path,
@@ -191,6 +202,13 @@ SetupResult<Segment> Segment::create(const std::string& path, std::size_t size, 
     if (::linkat(AT_FDCWD, path_of_descriptor(fd).c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
         return system_error(fmt::format("cannot create {}", path), errno);
     return segment;
+}
+
+std::size_t Segment::read_begin(ByteSpan out) const noexcept {
+    ssize_t count;
+    do count = ::pread(locks_->get(), out.data(), out.size(), 0);
+    while (count < 0 && errno == EINTR);
+    return count < 0 ? 0 : static_cast<std::size_t>(count);
 }
 
 bool Segment::try_lock(std::size_t byte) noexcept { return locks_->try_lock(byte); }

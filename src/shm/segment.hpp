@@ -10,6 +10,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/result.hpp"
+#include "mavloom/shm/trust.hpp"
 
 namespace mavloom::shm {
 
@@ -39,14 +41,22 @@ public:
     Segment& operator=(Segment&& other) noexcept;
     ~Segment();
 
+    // Decides by owner and mode whether this program may use the file. Called before the file is mapped, because its
+    // owner could shorten it meanwhile.
+    using Check = std::function<SetupResult<void>(const Segment&)>;
     // Opens and maps an existing file. Errors: `not_found`; `permission` names the owner; `bad_input` if it is not a
-    // regular file or is shorter than `least_bytes`.
-    [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t least_bytes);
+    // regular file or is shorter than `least_bytes`; the error of `check`.
+    [[nodiscard]] static SetupResult<Segment> open(const std::string& path, Access access, std::size_t least_bytes,
+                                                   const Check& check);
     // Creates and maps a file of `size` bytes that begins with `content`. Holds the lock on byte 0 before the file gets
     // its name. Removes the name of `replaced` only at the last step, when nothing else can fail. Errors: `in_use` if
     // the name is already taken; `no_space` before anything is written.
     [[nodiscard]] static SetupResult<Segment> create(const std::string& path, std::size_t size, unsigned mode,
                                                      ByteView content, const Segment* replaced = nullptr);
+
+    // Reads the beginning of the file without the mapping, so a file that was shortened is no danger. Returns how many
+    // bytes it read.
+    [[nodiscard]] std::size_t read_begin(ByteSpan out) const noexcept;
 
     [[nodiscard]] std::uint8_t* data() const noexcept { return data_; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -94,9 +104,14 @@ private:
 // Returns an error if the file belongs to another user than this one and root. Its owner can shorten it at any time.
 [[nodiscard]] SetupResult<void> check_owner(const Segment& segment);
 
-// Returns an error if a reader must not trust the file of this ring: see ReaderOptions::foreign.
-[[nodiscard]] SetupResult<void> check_trusted(const Segment& segment, std::string_view ring,
-                                              std::optional<uid_t> trusted_user);
+// Returns an error if a reader must not trust the file of this ring or page: see Trust (trust.hpp).
+// `what` names it in the error text.
+[[nodiscard]] SetupResult<void> check_trusted(const Segment& segment, std::string_view what, const Trust& trust);
+// Returns the code of the error that another process holds the lock of this file: `in_use`, or `permission` if others
+// than the owner may write the file. Then the holder of the lock may be any of them.
+[[nodiscard]] SetupCode held_code(const Segment& segment) noexcept;
+// Returns an error if this program could not survive that the owner of the file shortens it.
+[[nodiscard]] SetupResult<void> check_survivable(const Segment& segment);
 
 // Renames the file to PATH.aside, over an earlier one. Returns false if that is not allowed.
 [[nodiscard]] bool rename_aside(const std::string& path);

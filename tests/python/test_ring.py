@@ -835,6 +835,41 @@ for call in (mavloom.remove_ring, lambda name: mavloom.RingWriter(name, capacity
         assert reader.read(0).data == b"of another user"
 
 
+OPENS_RINGS = """
+print("ready", flush=True)
+for _ in range(20_000):
+    for kind in (mavloom.RingReader, mavloom.RingWriter):
+        try:
+            kind(ring).close()
+        except mavloom.Error:
+            pass
+"""
+READS_PAGES = """
+with mavloom.connect(f"shm://{ring}") as link, mavloom.RingWriter(ring) as writer:
+    print("ready", flush=True)
+    for number in range(20_000):
+        writer.write(b"record", kind=1, link=number)
+        link.recv(timeout=0)
+"""
+
+
+@as_root
+@pytest.mark.parametrize("suffix, code", [("", OPENS_RINGS), (".stat", READS_PAGES)])
+def test_a_file_of_another_user_that_shrinks_meanwhile_ends_no_process(start, ring, suffix, code):
+    """Without foreign=True, nothing in it is read, so its owner cannot end this process by SIGBUS."""
+    mavloom.RingWriter(ring).close()
+    process = start(code, ring)
+    assert process.stdout.readline() == "ready\n"
+    path = path_of(ring, suffix)
+    path.write_bytes(path_of(ring).read_bytes())
+    os.chown(path, NOBODY, NOBODY)
+    size = path.stat().st_size
+    while process.poll() is None:
+        os.truncate(path, 0)
+        os.truncate(path, size)
+    assert ended(process) == (0, "", "")
+
+
 @as_root
 def test_row_3_23_who_may_only_read_polls_and_changes_nothing(start, ring):
     with mavloom.RingWriter(ring, capacity=64 * KIB, mode=0o644) as writer:

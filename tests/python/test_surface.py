@@ -5,6 +5,7 @@ import pathlib
 import struct
 import subprocess
 import sys
+import warnings
 
 import pytest
 
@@ -246,6 +247,53 @@ with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as far:
                           env=child_environment)
     assert (done.returncode, done.stderr) == (0, "")
     assert [m.time_boot_ms for m in mavloom.read(tmp_path / "x.tlog")] == list(range(300))
+
+
+@pytest.mark.parametrize("replaced", [False, True])
+def test_a_recorder_whose_file_goes_reports_it_and_begins_another(link, vehicle, tmp_path, replaced):
+    path = tmp_path / "x.tlog"
+    with pytest.warns(RuntimeWarning, match=r"x\.tlog was removed or replaced; a new file begins"), \
+            link.record(path) as recorder:
+        vehicle.send(vehicle.attitude(1))
+        until(lambda: recorder.frames == 1)
+        path.unlink()
+        if replaced:
+            path.write_bytes(b"")
+        until(lambda: recorder.notices and path.exists())  # without further frames
+        vehicle.send(vehicle.attitude(2))
+        until(lambda: recorder.frames == 2)
+    assert [m.time_boot_ms for m in mavloom.read(path)] == [2]
+    assert (tmp_path / "x.tlog.1").exists() == replaced
+
+
+@pytest.mark.parametrize("replaced", [False, True])
+def test_a_writer_whose_file_goes_reports_it_and_begins_another(tmp_path, replaced):
+    path = tmp_path / "x.tlog"
+    frames = [mavloom.Dialect().encode("ATTITUDE", time_boot_ms=i) for i in range(3)]
+    with mavloom.write(path) as log:
+        log.write(frames[0])
+        log.flush()
+        path.unlink()
+        if replaced:
+            path.write_bytes(b"")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            until(lambda: (log.write(frames[1]), caught)[1])
+        assert f"{path} was removed or replaced; a new file begins" in str(caught[0].message)
+        log.write(frames[2])
+    times = [m.time_boot_ms for m in mavloom.read(path)]
+    assert times[0] == 1 and times[-1] == 2 and 0 not in times
+    assert (tmp_path / "x.tlog.1").exists() == replaced
+
+
+def test_a_writer_whose_file_went_at_the_end_keeps_what_it_buffers(tmp_path):
+    path = tmp_path / "x.tlog"
+    log = mavloom.write(path)
+    log.write(mavloom.Dialect().encode("ATTITUDE", time_boot_ms=7))
+    path.unlink()
+    with pytest.warns(RuntimeWarning, match="was removed or replaced"):
+        log.close()
+    assert log.records == 1 and [m.time_boot_ms for m in mavloom.read(path)] == [7]
 
 
 # ---- files of other formats

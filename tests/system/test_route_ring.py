@@ -438,8 +438,9 @@ def test_a_full_dev_shm(program, size, what):
                           timeout=harness.DEFAULT_TIMEOUT_S)
     if "status" not in done.stdout:
         pytest.skip(f"no mount namespace here: {done.stderr.strip()}")
-    assert done.stdout == "status 1\n", "nothing is left"
+    assert done.stdout == "status 0\n", "nothing is left"
     assert f"cannot create /dev/shm/{what}" in done.stderr and "No space left on device" in done.stderr
+    assert "the router runs without a ring" in done.stderr
 
 
 def test_rings_that_cannot_be(run, ring, tmp_path):
@@ -811,9 +812,73 @@ def test_a_damaged_file_under_its_name_keeps_no_router_down(tapped, ring, what):
     frame = attitude()
 
     assert frame in [r.data for r in net.sent_by(net.vehicle, heartbeat(), frame)]
+    assert shared(ring, ".stat").stat().st_size > len(b"squatted") * 10_000
     if not what:
         net.router.process.wait_output(f"mavloom.{ring}: is not a Mavloom ring; it was renamed to mavloom.{ring}.aside")
         assert shared(ring, ".aside").read_bytes() == b"squatted" * 10_000
+
+
+def squat(kind, path):
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "link":
+        path.symlink_to("/etc/passwd")
+    else:
+        path.write_bytes(b"")
+    os.chown(path, 12344, 12344, follow_symlinks=False)
+
+
+def remove(path):
+    path.rmdir() if path.is_dir() else path.unlink(missing_ok=True)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@pytest.mark.parametrize("kind", ["file", "folder", "link"])
+def test_a_counter_page_that_another_user_took_costs_root_nothing(tapped, ring, kind):
+    squat(kind, shared(ring, ".stat"))
+    net = tapped()
+    try:
+        net.router.process.wait_output(rf"mavloom\.{ring}\.stat.*; it was renamed to mavloom\.{ring}\.stat\.aside")
+        assert shared(ring, ".stat").is_file() and shared(ring, ".stat").stat().st_uid == 0
+    finally:
+        remove(shared(ring, ".stat.aside"))
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@pytest.mark.parametrize("kind", ["folder", "link"])
+def test_a_counter_page_that_another_user_took_costs_no_ring(ring, program, spawn, tmp_path, kind):
+    squat(kind, shared(ring, ".stat"))
+    tmp_path.chmod(0o1777)
+    for folder in list(tmp_path.parents)[:3]:
+        folder.chmod(0o755)
+    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring,
+                           "--for", "2s", f"udpin://127.0.0.1:{routers.udp_port()}"],
+                          capture_output=True, text=True, timeout=60,
+                          env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
+    remove(shared(ring, ".stat"))
+
+    assert done.returncode == 0 and f"no counter page for ring {ring}" in done.stderr, done
+    assert "without a ring" not in done.stderr
+
+
+@pytest.mark.parametrize("what, said", [("", "the router runs without a ring"), (".stat", "no counter page for ring")])
+def test_who_may_write_the_ring_keeps_no_router_down(tapped, tmp_path, what, said):
+    """With mode=0660, members of the group can hold the lock by which a live writer is known."""
+    file = tmp_path / "r.toml"
+    file.write_text('[ring]\nmode = "0660"\n')
+    net = tapped("--config", str(file))
+    net.sent_by(net.vehicle, heartbeat())
+    net.router.process.process.kill()
+    net.router.process.wait()
+    with open(shared(net.ring, what), "rb+") as held:
+        f_ofd_setlk = 37
+        fcntl.fcntl(held, f_ofd_setlk, struct.pack("hhqqi4x", fcntl.F_WRLCK, os.SEEK_SET, 0, 1, 0))
+        net.close()
+        again = tapped("--config", str(file))
+        again.router.process.wait_output(said)
+        again.ground.send(heartbeat((255, 190)))
+        again.vehicle.send(frame := attitude())
+        again.ground.until(frame)
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")

@@ -11,6 +11,7 @@
 #include "counted.hpp"
 #include "mavloom/base/shown.hpp"
 #include "mavloom/control/control.hpp"
+#include "mavloom/link/links.hpp"
 #include "mavloom/shm/counter_page.hpp"
 #include "output.hpp"
 
@@ -266,7 +267,7 @@ std::vector<std::string> lines_of(std::string_view name, const shm::CounterSnaps
 // Prefers the counter page of a live process, because reading it does not disturb the router. A page that a killed
 // process left behind is used only if no router answers.
 SetupResult<std::vector<std::string>> stats_of(const std::string& name) {
-    const auto page = shm::read_counters(name);
+    const auto page = shm::read_counters(name, {.user = link::Links::owner_of_inlets()});
     if (page && page->owner_alive) return lines_of(name, *page);
     auto asked = ask(name, {{"cmd", "stats"}});
     if (asked || (!page && page.error().code == SetupCode::not_found)) return asked;

@@ -49,7 +49,7 @@ public:
 
 private:
     SetupResult<void> look_at_file() {
-        auto removed = writer_.renew_if_removed(mono_now());
+        auto removed = writer_.look_after(mono_now());
         if (!removed && writer_.is_full_disk(removed.error())) return {};  // the next write waits for room
         if (!removed) return tl::unexpected(std::move(removed.error()));
         if (!removed->empty()) say(common_, record::removal_notice(*removed));
@@ -57,7 +57,7 @@ private:
     }
 
     SetupResult<void> write(const record::FrameQueue::Entry& entry) {
-        auto room = writer_.make_room(entry.frame);
+        auto room = writer_.make_room(entry.time, entry.frame);
         if (!room) room = flush();
         if (room) return writer_.write(entry.time, entry.frame);
         writer_.give_up();

@@ -256,22 +256,23 @@ private:
     control::ServiceManager manager_ = control::ServiceManager::from_environment();
 };
 
-// Another user may have taken the name. That must not end the routing.
-bool is_taken(const SetupError& error) {
-    return error.code == SetupCode::permission || error.code == SetupCode::bad_input || error.code == SetupCode::system;
+// Another user may have taken the name or filled the memory. That must not end the routing.
+bool may_be_others_doing(const SetupError& error) {
+    return error.code == SetupCode::permission || error.code == SetupCode::bad_input ||
+           error.code == SetupCode::no_space || error.code == SetupCode::system;
 }
 
 // Opens the ring, and the inlet through which its readers send. Without a folder for sockets there is no inlet.
 SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring, router::Router& router) {
     if (ring.name.empty()) return {};
     if (auto opened = router.open_ring(ring); !opened) {
-        if (!is_taken(opened.error())) return opened;
+        if (!may_be_others_doing(opened.error())) return opened;
         say(common, fmt::format("{}; the router runs without a ring", opened.error().text));
         return {};
     }
     const auto path = link::Links::inlet_path(ring.name);
     auto opened = path ? router.open_inlet(ring, *path) : SetupResult<void>(tl::unexpected(path.error()));
-    if (opened || !is_taken(opened.error())) return opened;
+    if (opened || !may_be_others_doing(opened.error())) return opened;
     say(common, fmt::format("{}; programs cannot send through ring {}", opened.error().text, ring.name));
     return {};
 }

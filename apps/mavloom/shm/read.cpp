@@ -71,8 +71,7 @@ public:
           follower_(options.name, {.lossless = options.lossless,
                                    .from = options.from == "oldest" ? shm::ReaderOptions::From::oldest
                                                                     : shm::ReaderOptions::From::newest,
-                                   .foreign = options.foreign,
-                                   .trusted_user = link::Links::owner_of_inlets()}) {
+                                   .trust = {.foreign = options.foreign, .user = link::Links::owner_of_inlets()}}) {
         output_.end_at(end);
     }
 

@@ -79,6 +79,8 @@ public:
     // Sets the name of a ring's link. Such a link is not a peer: nothing can be sent to it.
     void name_link(LinkId link, std::string_view name) { names_->add(link, std::string(name)); }
     void forget_link(LinkId link, std::span<const wire::SequenceStats> losses);
+    // Calls Recorder::look_after of each recorder. Call it once a second.
+    void look_after_recorders();
     // Wakes readers that wait for frames that arrived since the last call.
     void publish();
     // Ends the channel. Readers get no more frames, not even those that are still in the buffer.

@@ -68,8 +68,8 @@ public:
     // True if there are no files and no frame was sent to any peer.
     [[nodiscard]] bool reached_nobody() const;
 
-    // Twice a second, writes what the files still buffer, and begins a new file for each one that another program
-    // removed or replaced, which it reports to `on_notice`. Call it at least once a second.
+    // Calls RotatingWriter::look_after of each file, and reports files that were removed to `on_notice`. Call it at
+    // least once a second.
     void look_after_files(MonoTime now, const std::function<void(std::string_view)>& on_notice);
     // Whether a file could not be written. The command must then end.
     [[nodiscard]] bool failed() const noexcept { return failure_.has_value(); }
@@ -91,7 +91,6 @@ private:
     link::Links* links_;
     std::vector<Output> outputs_;
     std::vector<record::RotatingWriter> files_;
-    MonoTime files_due_{};
     std::optional<SetupError> failure_;
     std::uint64_t given_ = 0, sent_ = 0;
 };

@@ -61,6 +61,8 @@ public:
     [[nodiscard]] bool is_open() const noexcept { return fd_ >= 0; }
     // Returns whether the path still leads to this file.
     [[nodiscard]] bool is_named() const noexcept;
+    // Returns whether any path leads to this file.
+    [[nodiscard]] bool is_linked() const noexcept;
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     [[nodiscard]] tl::unexpected<SetupError> failed(std::string_view doing, int error) const;
 

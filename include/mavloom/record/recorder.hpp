@@ -52,7 +52,10 @@ public:
     void look_after() noexcept { queue_->wake(); }
     // Ends the recording without waiting for the disk. The writing thread writes the queued frames, closes the file and
     // then sets `finished`.
-    void end() noexcept { queue_->close(); }
+    void end() noexcept {
+        ending_.store(true, std::memory_order_relaxed);
+        queue_->close();
+    }
     [[nodiscard]] bool finished() const noexcept { return finished_.load(std::memory_order_acquire); }
     // Calls `end` and waits until the writing thread has finished.
     void stop();
@@ -66,6 +69,7 @@ private:
     Recorder(std::string label, record::RotatingWriter writer, std::unique_ptr<FrameQueue> queue, Notice notice);
     void run();
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
+    void wait_to_rotate(const FrameQueue::Entry& entry);
     void count() noexcept;
     void tell(const SetupResult<void>& result);
     [[nodiscard]] SetupResult<void> look_at_file();
@@ -77,7 +81,7 @@ private:
     Notice notice_;
     RecorderCounters counters_;
     bool failing_ = false;
-    std::atomic<bool> finished_{false};
+    std::atomic<bool> ending_{false}, finished_{false};
     std::thread thread_;
 };
 

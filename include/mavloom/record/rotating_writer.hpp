@@ -33,22 +33,28 @@ public:
     // writable, or if rotation is requested for a device or FIFO.
     [[nodiscard]] static SetupResult<RotatingWriter> create(const std::filesystem::path& path, Rotation rotation = {});
 
-    // Calls TlogWriter::make_room of the open segment.
-    [[nodiscard]] SetupResult<void> make_room(const wire::FrameView& frame);
+    // Returns whether this record would begin a segment.
+    [[nodiscard]] bool begins_segment(WallTime time, const wire::FrameView& frame) const noexcept;
+    // Makes room for this record: in the buffer, or, if the record begins a segment, by writing the last records of the
+    // open one. So a retry after an error loses nothing, and no segment grows past its limits on a full disk.
+    [[nodiscard]] SetupResult<void> make_room(WallTime time, const wire::FrameView& frame);
     // Whether this error of `make_room` means a full disk, so that a retry can succeed once the disk has room. False
     // for devices and pipes.
     [[nodiscard]] bool is_full_disk(const SetupError& error) const noexcept;
     // An error means that records were lost; `lost_records` counts them. There are two cases:
-    // - This record was not taken, because TlogWriter::write failed or the next segment could not be opened.
+    // - This record was not taken, because `make_room` failed or the next segment could not be opened.
     // - The last records of the previous segment could not be written when it was closed.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
-    // If another program removed, renamed or replaced the file that is written to, begins a new one: at once, or, with
-    // rotation, with the next frame. Looks at most twice a second, so call it for each batch of frames and once a
-    // second. Returns the path of the old file; empty if it is still there. After an error, the old file stays open.
-    [[nodiscard]] SetupResult<std::filesystem::path> renew_if_removed(MonoTime now);
+    // Twice a second, writes what is buffered. If another program removed, renamed or replaced the file that is written
+    // to, begins a new one instead, and what is buffered goes there: at once, or, with rotation and an empty buffer,
+    // with the next frame. Call it for each batch of frames and once a second. Returns the path of the old file; empty
+    // if it is still there. While no new file can be created, each call tries again. Meanwhile writes to the old file
+    // if it was renamed, and to none if it was deleted.
+    [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
+    // Begins a new file for what is buffered if the file was removed.
     [[nodiscard]] SetupResult<void> close();
 
     // The path given to `create`.
@@ -68,17 +74,17 @@ public:
 private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
-    // Flushes; returns true if the disk has no room for the buffered records.
-    [[nodiscard]] bool is_disk_full();
-    [[nodiscard]] bool is_due(WallTime time, std::size_t record_bytes) const noexcept;
+    [[nodiscard]] bool is_removed() const noexcept;
     [[nodiscard]] SetupResult<void> begin_anew();
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
+    [[nodiscard]] SetupResult<void> begin_segment(TlogWriter next, WallTime time);
     [[nodiscard]] std::filesystem::path free_name(WallTime time) const;
 
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
+    std::optional<SetupError> no_file_;  // why the file, which was deleted, has no successor yet
     MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;

@@ -35,6 +35,12 @@ public:
     // Buffers a record. An error means that the record was not taken, because the buffer is full and could not be
     // written. Times before 1970 or after 2255 are clamped to that range.
     [[nodiscard]] SetupResult<void> write(WallTime time, const wire::FrameView& frame);
+    // Returns whether the buffer has room for a record of this frame.
+    [[nodiscard]] bool has_room(const wire::FrameView& frame) const noexcept;
+    // Moves the records that `from` still buffers to this writer, which must be new.
+    void take_buffered(TlogWriter& from) noexcept;
+    // The time of the first buffered record. Call it only if there is one.
+    [[nodiscard]] WallTime first_buffered_time() const noexcept;
     // Writes the buffered records to the file, where other programs can see them.
     [[nodiscard]] SetupResult<void> flush();
     // Flushes, waits for the disk and closes the file. After an error, the records that `buffered_bytes` still counts
@@ -53,6 +59,8 @@ public:
     [[nodiscard]] std::size_t buffered_bytes() const noexcept { return used_; }
     // Returns whether the path still leads to the file that is written to.
     [[nodiscard]] bool is_named() const noexcept { return file_.is_named(); }
+    // False if the file was deleted. True if it was renamed.
+    [[nodiscard]] bool is_linked() const noexcept { return file_.is_linked(); }
     // False for a device or pipe.
     [[nodiscard]] bool is_file() const noexcept { return file_.is_regular(); }
 

@@ -56,6 +56,8 @@ public:
     // `most_own` counts, the same ones in each call.
     void refresh(const std::vector<link::LinkInfo>& links, const std::vector<link::EndpointInfo>& endpoints,
                  std::optional<link::EndpointId> inlet, const OfRing& ring, std::span<const OwnCount> own = {});
+    // See CounterPage::set_aside().
+    [[nodiscard]] const std::string& set_aside() const noexcept { return page_.set_aside(); }
     // Returns whether the page was removed or replaced. Makes two system calls.
     [[nodiscard]] bool is_removed() const noexcept { return page_.is_removed(); }
 

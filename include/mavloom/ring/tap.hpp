@@ -27,8 +27,8 @@ namespace mavloom::ring {
 class RingTap {
 public:
     // Creates the ring, or continues one whose writer was killed. If the file under its name is damaged, no ring or of
-    // another user, renames it; the first look_after() reports that. Same errors as RingWriter::open. A thread of the
-    // tap calls `ready` when look_after() has something to do.
+    // another user, renames it, and likewise the page's; the first look_after() reports that. Same errors as
+    // RingWriter::open. A thread of the tap calls `ready` when look_after() has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
         const std::string& name, shm::RingOptions options, std::function<void()> ready = [] {});
     // The last link number that the ring's earlier writers used. New links must get higher numbers, so that a slow
@@ -78,6 +78,7 @@ private:
     RingTap(std::string name, const shm::RingOptions& options, shm::RingWriter writer, std::optional<RingPage> page,
             std::function<void()> ready);
     void note_aside(std::vector<std::string>& notices);
+    void note_page_aside(std::vector<std::string>& notices) const;
     void make_ring_anew();
     void take_new_ring(std::vector<std::string>& notices);
     template <class Work>

@@ -19,6 +19,7 @@
 #include "mavloom/base/counter.hpp"
 #include "mavloom/base/ids.hpp"
 #include "mavloom/base/result.hpp"
+#include "mavloom/shm/trust.hpp"
 
 namespace mavloom::shm {
 
@@ -60,6 +61,9 @@ public:
     bool name_link(LinkId link, std::string_view name);
     void forget_link(LinkId link);
 
+    // If `create` renamed a file of another user, the reason; else empty.
+    [[nodiscard]] const std::string& set_aside() const noexcept { return set_aside_; }
+
     // Returns whether the page was removed or replaced, so that new readers cannot find it. Makes two system calls.
     [[nodiscard]] bool is_removed() const noexcept;
 
@@ -68,6 +72,7 @@ private:
     void end() noexcept;
 
     std::unique_ptr<Segment> segment_;
+    std::string set_aside_;
     std::uint32_t slots_ = 0;                                // number of counters; never re-read from the page
     std::vector<std::uint32_t> free_counters_, free_links_;  // free slots; the last one is used next
     std::map<LinkId, std::uint32_t> links_;
@@ -88,8 +93,8 @@ struct CounterSnapshot {
     std::map<LinkId, std::string> links;
 };
 
-// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `permission`,
-// `bad_input`.
-[[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name);
+// Reads a page. Each value is from some moment during the call. Errors as for rings: `not_found`, `bad_input`,
+// `permission`, also for a page that is not trusted.
+[[nodiscard]] SetupResult<CounterSnapshot> read_counters(std::string_view name, const Trust& trust = {});
 
 }  // namespace mavloom::shm

@@ -55,12 +55,14 @@ struct RingStatus {
     std::vector<ReaderStatus> readers;  // only those that are alive
 };
 
-// Reads the state of a ring that may be in use. Same errors as RingReader::open.
+// Reads the state of a ring that may be in use. Same errors as RingReader::open. In a program that does not
+// survive lost mappings (lost_mapping.hpp), `permission` also for the rings that Trust{} refuses.
 [[nodiscard]] SetupResult<RingStatus> ring_status(std::string_view name);
 
 // Removes the names of a ring and of its counter page. Processes that have the ring mapped keep their mapping. Its
 // readers then get `retired`, its writer `removed`. Never waits. A file under that name which is not a ring is removed
-// too. Errors: `not_found` if neither file exists; `permission` names the owner.
+// too. So is a ring that ring_status() refuses; its users are not notified. Errors: `not_found` if neither file exists;
+// `permission` names the owner.
 [[nodiscard]] SetupResult<void> remove_ring(std::string_view name);
 // Removes only the counter page. Succeeds if there is none.
 [[nodiscard]] SetupResult<void> remove_counter_page(std::string_view name);

@@ -11,8 +11,6 @@
 // One owner thread; move-only. After opening, a reader allocates nothing and makes system calls only to wait.
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -23,6 +21,7 @@
 #include "mavloom/base/result.hpp"
 #include "mavloom/shm/detail/consumer.hpp"
 #include "mavloom/shm/record.hpp"
+#include "mavloom/shm/trust.hpp"
 
 namespace mavloom::shm {
 
@@ -40,18 +39,13 @@ struct ReaderOptions {
     // every millisecond. A lossy reader falls back to this if 64 other readers are registered. It also does so if it
     // may not write to the ring (mode 0640 and another user).
     bool read_only = false;
-    // Reads every ring that the permissions allow. Otherwise the reader refuses two kinds of rings:
-    // - those whose owner is neither this user, nor root, nor `trusted_user`
-    // - in a program that does not survive lost mappings (lost_mapping.hpp), those that others than the owner may
-    //   write, because they could end the program
-    bool foreign = false;
-    std::optional<uid_t> trusted_user{};
+    Trust trust{};
 };
 
 class RingReader {
 public:
     // Opens a ring for reading. Errors: `not_found` lists the existing rings; `in_use` for a 65th lossless reader;
-    // `permission`, also for a ring that `foreign` would allow; `bad_input` if the file is not a ring of this version.
+    // `permission`, also for a ring that is not trusted; `bad_input` if the file is not a ring of this version.
     [[nodiscard]] static SetupResult<RingReader> open(std::string_view name, const ReaderOptions& options = {});
     RingReader(RingReader&& other) noexcept;
     RingReader& operator=(RingReader&& other) noexcept;

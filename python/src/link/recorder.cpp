@@ -9,12 +9,15 @@
 
 namespace mavloom::python {
 
+static constexpr std::size_t most_notices = 16;  // a disk may fill up again and again
+
 LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::string& path)
-    : channel_(std::move(channel)), notices_(std::make_shared<std::vector<std::string>>()) {
+    : channel_(std::move(channel)), notices_(std::make_shared<Notices>()) {
     auto opened = [&] {
         const WithoutGil outside;
         return record::Recorder::create(path, path, {}, [notices = notices_](std::string_view text) {
-            if (notices->size() < 16) notices->emplace_back(text);
+            const std::lock_guard lock(notices->mutex);
+            if (notices->texts.size() < most_notices) notices->texts.emplace_back(text);
         });
     }();
     recorder_ = value_or_raise(std::move(opened));
@@ -46,11 +49,18 @@ void LinkRecorder::close() {
         closed_ = true;
         stop();
     }
+    const auto said = notices();
     const auto lost = recorder_->counters().queue_full.value() + recorder_->counters().write_error.value();
     if (lost != 0)
         raise(SetupError{SetupCode::system, 0,
                          fmt::format("{}: {} frames were not recorded{}{}", recorder_->label(), lost,
-                                     notices_->empty() ? "" : ": ", notices_->empty() ? "" : notices_->front())});
+                                     said.empty() ? "" : ": ", said.empty() ? "" : said.front())});
+    for (const auto& text : said) warn(text);
+}
+
+std::vector<std::string> LinkRecorder::notices() const {
+    const std::lock_guard lock(notices_->mutex);
+    return notices_->texts;
 }
 
 void bind_link_recorder(nb::module_& module) {
@@ -58,7 +68,9 @@ void bind_link_recorder(nb::module_& module) {
         module, "LinkRecorder", nb::is_final(),
         "Records the frames that arrive on a link to a tlog, until it or the link is closed.\n\n"
         "A thread of its own writes the file, so a slow disk delays nothing. Frames for which there\n"
-        "was no room are counted in `dropped`. Use `with`, or `close()`.")
+        "was no room are counted in `dropped`. Use `with`, or `close()`.\n\n"
+        "If another program removes or replaces the file, a new one begins within a second. `notices`\n"
+        "states that.")
         .def_prop_ro("path", [](const LinkRecorder& r) { return r.recorder().label(); })
         .def_prop_ro(
             "renamed_to", [](const LinkRecorder& r) { return r.recorder().renamed_to().string(); },
@@ -72,9 +84,18 @@ void bind_link_recorder(nb::module_& module) {
                 return r.recorder().counters().queue_full.value() + r.recorder().counters().write_error.value();
             },
             "Frames that were not recorded, because the disk was too slow or full.")
+        .def_prop_ro(
+            "notices",
+            [](const LinkRecorder& r) {
+                nb::list texts;
+                for (const auto& text : r.notices()) texts.append(nb::str(text.data(), text.size()));
+                return texts;
+            },
+            nb::sig("def notices(self) -> list[str]"),
+            "The first 16 events that concern the file: it was removed, or could not be written for a time.")
         .def("close", &LinkRecorder::close,
              "Writes the queued frames, waits for the disk and closes the file. May be called again. Raises\n"
-             "SystemFailure if frames were not recorded.")
+             "SystemFailure if frames were not recorded. Otherwise each notice becomes a RuntimeWarning.")
         .def(
             "__enter__", [](nb::object self) { return self; }, nb::sig("def __enter__(self) -> LinkRecorder"))
         .def(

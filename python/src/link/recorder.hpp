@@ -29,13 +29,21 @@ public:
     void close();
 
     [[nodiscard]] const record::Recorder& recorder() const noexcept { return *recorder_; }
+    // Returns the reports about the file so far.
+    [[nodiscard]] std::vector<std::string> notices() const;
 
 private:
+    // The writing thread adds them.
+    struct Notices {
+        std::mutex mutex;
+        std::vector<std::string> texts;  // guarded by mutex
+    };
+
     void stop() noexcept;
 
     const feed::BeforeFork fork_;
     std::shared_ptr<feed::Channel> channel_;
-    std::shared_ptr<std::vector<std::string>> notices_;  // of the writing thread, until it has ended
+    std::shared_ptr<Notices> notices_;
     std::shared_ptr<record::Recorder> recorder_;
     std::mutex mutex_;
     bool closed_ = false;  // guarded by mutex_

@@ -10,7 +10,7 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "integer.hpp"
-#include "mavloom/record/tlog_writer.hpp"
+#include "mavloom/record/rotating_writer.hpp"
 #include "mavutil/message.hpp"
 #include "message/encode.hpp"
 #include "strings.hpp"
@@ -24,7 +24,7 @@ public:
         : path_(std::move(path)), definitions_(definitions_of(dialect)) {
         auto opened = [&] {
             const WithoutGil outside;
-            return record::TlogWriter::create(path_);
+            return record::RotatingWriter::create(path_);
         }();
         writer_.emplace(value_or_raise(std::move(opened)));
     }
@@ -47,47 +47,60 @@ public:
     }
 
     void flush() {
-        const auto lock = lock_without_gil(mutex_);
-        auto done = [&, &writer = writer()] {
+        warn_if_removed([&](record::RotatingWriter& writer) {
             const WithoutGil outside;
             return writer.flush();
-        }();
-        value_or_raise(std::move(done));
+        });
     }
 
     void close() {
-        const auto lock = lock_without_gil(mutex_);
-        if (!writer_) return;
-        auto done = [&] {
-            const WithoutGil outside;
-            return writer_->close();
-        }();
-        records_ = writer_->written_records();
-        writer_.reset();
-        value_or_raise(std::move(done));
+        if (close_file()) warn(record::removal_notice(path_));
     }
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] std::uint64_t records() {
         const auto lock = lock_without_gil(mutex_);
-        return writer_ ? writer_->records() : records_;
+        return writer_ ? writer_->taken_records() : records_;
     }
 
 private:
-    record::TlogWriter& writer() {
-        if (!writer_) raise_closed(path_ + ": the recording is closed");
-        return *writer_;
-    }
     void put(const wire::FrameView& frame, std::int64_t time_ns) {
+        warn_if_removed(
+            [&](record::RotatingWriter& writer) { return writer.write(WallTime{Nanoseconds{time_ns}}, frame); });
+    }
+    // Looks after the file, then calls work(writer).
+    template <class Work>
+    void warn_if_removed(Work work) {
+        const auto removed = [&] {
+            const auto lock = lock_without_gil(mutex_);
+            if (!writer_) raise_closed(path_ + ": the recording is closed");
+            auto looked = value_or_raise(writer_->look_after(mono_now()));
+            value_or_raise(work(*writer_));
+            return looked;
+        }();
+        if (!removed.empty()) warn(record::removal_notice(removed));
+    }
+    // Returns whether the file was removed, so that the last records are in a new one.
+    bool close_file() {
         const auto lock = lock_without_gil(mutex_);
-        value_or_raise(writer().write(WallTime{Nanoseconds{time_ns}}, frame));
+        if (!writer_) return false;
+        const auto files = writer_->segments();
+        auto done = [&] {
+            const WithoutGil outside;
+            return writer_->close();
+        }();
+        const bool removed = writer_->segments() != files;
+        records_ = writer_->written_records();
+        writer_.reset();
+        value_or_raise(std::move(done));
+        return removed;
     }
 
     const std::string path_;
     const std::shared_ptr<const Definitions> definitions_;
     std::mutex mutex_;
     // Guarded by mutex_:
-    std::optional<record::TlogWriter> writer_;  // empty: closed
+    std::optional<record::RotatingWriter> writer_;  // empty: closed
     std::uint64_t records_ = 0;
 };
 
@@ -98,8 +111,10 @@ void bind_recording_writer(nb::module_& module) {
         module, "RecordingWriter", nb::is_final(),
         "Writes messages to a tlog, which any MAVLink tool reads. A file that exists at this path is\n"
         "renamed to PATH.1, PATH.2, ...; none is overwritten.\n\n"
-        "Records are buffered: `flush` and `close` write them to the file. Use `with`. Safe from any\n"
-        "thread. SystemFailure reports a full disk.")
+        "Records are buffered: `flush` and `close` write them to the file, and `write` does so twice a\n"
+        "second. Use `with`. Safe from any thread. SystemFailure reports a full disk.\n\n"
+        "If another program removes or replaces the file, these functions begin a new one and issue a\n"
+        "RuntimeWarning. What was written before is in the old file.")
         .def(
             "__init__",
             [](RecordingWriter* self, const nb::object& path, const nb::object& dialect) {

@@ -204,8 +204,7 @@ shm::ReaderOptions options_of(bool lossless, const std::string& start, bool fore
         raise_usage(fmt::format("start='{}': expected newest or oldest", start));
     return {.lossless = lossless,
             .from = start == "oldest" ? From::oldest : From::newest,
-            .foreign = foreign,
-            .trusted_user = link::Links::owner_of_inlets()};
+            .trust = {.foreign = foreign, .user = link::Links::owner_of_inlets()}};
 }
 
 class PyRingReader {

@@ -128,6 +128,21 @@ TEST(Destinations, AFileThatCannotBeWrittenLeavesTheOthers) {
     EXPECT_EQ(sut.files()[1].lost_records(), 0u);
 }
 
+TEST(Destinations, WhatAFileBuffersWhenItGoesIsInTheNextOne) {
+    Node node;
+    const test::TempDir dir;
+    auto sut = open({"tlog://" + (dir / "x.tlog").string()}, *node.links);
+    const Bytes frame = attitude(1);
+    ASSERT_TRUE(sut.send(view(frame), at_ms(1000)));
+    std::filesystem::remove(dir / "x.tlog");
+
+    std::string notices;
+    sut.look_after_files(MonoTime{} + seconds(1), [&](std::string_view text) { notices += text; });
+    EXPECT_EQ(notices, (dir / "x.tlog").string() + " was removed or replaced; a new file begins");
+    ASSERT_TRUE(sut.close());
+    EXPECT_EQ(test::content_of(dir / "x.tlog"), record(at_ms(1000), frame));
+}
+
 TEST(Destinations, TheRoomIsThatOfTheSmallestQueue) {
     Node node;
     const auto peer = PlainSocket::udp();

@@ -175,6 +175,99 @@ TEST(RotatingWriter, AFolderThatGoesAwayIsAnErrorAndKeepsTheOpenSegment) {
     EXPECT_EQ(content_of(dir / "other/x-20231114T221320.000Z.tlog").size(), heartbeat_record_bytes);
 }
 
+struct Lost {
+    const char* what;
+    void (*lose)(const std::filesystem::path& file);
+};
+
+class LosesItsFile : public testing::TestWithParam<Lost> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    RotatingWriter, LosesItsFile,
+    testing::Values(Lost{"Deleted", [](const auto& file) { std::filesystem::remove(file); }},
+                    Lost{"Replaced",
+                         [](const auto& file) {
+                             std::filesystem::remove(file);
+                             test::write_file(file, {});
+                         }},
+                    Lost{"Renamed", [](const auto& file) { std::filesystem::rename(file, file.string() + ".away"); }}),
+    [](const auto& info) { return info.param.what; });
+
+TEST_P(LosesItsFile, WhatIsBufferedGoesToTheNewFile) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    for (const auto time : {0s, 1s}) ASSERT_TRUE(writer.write(begin + time, heartbeat()).has_value());
+    GetParam().lose(dir / "x.tlog");
+
+    EXPECT_EQ(writer.look_after(MonoTime{} + 1s).value(), dir / "x.tlog");
+    record(writer, {2s});
+
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), 3 * heartbeat_record_bytes);
+    EXPECT_EQ(writer.taken_records(), 3u);
+    EXPECT_EQ(writer.written_records(), 3u);
+    EXPECT_EQ(writer.lost_records(), 0u);
+}
+
+TEST_P(LosesItsFile, WhatIsBufferedBeginsTheNextSegment) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {.every = 10s});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    ASSERT_TRUE(writer.flush().has_value());
+    ASSERT_TRUE(writer.write(begin + 2s, heartbeat()).has_value());
+    GetParam().lose(dir / "x-20231114T221320.000Z.tlog");
+
+    EXPECT_FALSE(writer.look_after(MonoTime{} + 1s).value().empty());
+    record(writer, {11s, 12s});
+
+    EXPECT_EQ(content_of(dir / "x-20231114T221322.000Z.tlog").size(), 2 * heartbeat_record_bytes);
+    EXPECT_EQ(content_of(dir / "x-20231114T221332.000Z.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(writer.written_records(), 4u);
+}
+
+TEST_P(LosesItsFile, WhatIsBufferedAtTheEndIsWritten) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    GetParam().lose(dir / "x.tlog");
+
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), heartbeat_record_bytes);
+    EXPECT_EQ(writer.written_records(), 1u);
+}
+
+TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
+    const TempDir dir;
+    std::filesystem::create_directory(dir / "sub");
+    auto writer = created(dir / "sub/x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    std::filesystem::remove_all(dir / "sub");
+
+    EXPECT_FALSE(writer.look_after(MonoTime{} + 1s).has_value());
+    EXPECT_FALSE(writer.flush().has_value());
+    std::uint64_t taken = 1;
+    while (writer.write(begin, heartbeat())) ++taken;
+    EXPECT_EQ(writer.written_records(), 0u);
+    EXPECT_EQ(writer.lost_records(), 1u) << "the buffer is full";
+
+    std::filesystem::create_directory(dir / "sub");
+    EXPECT_EQ(writer.look_after(MonoTime{} + 2s).value(), dir / "sub/x.tlog");
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(writer.written_records(), taken);
+    EXPECT_EQ(content_of(dir / "sub/x.tlog").size(), taken * heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, WhatNoNewFileTookIsLostAndCounted) {
+    const TempDir dir;
+    std::filesystem::create_directory(dir / "sub");
+    auto writer = created(dir / "sub/x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    std::filesystem::remove_all(dir / "sub");
+
+    EXPECT_FALSE(writer.close().has_value());
+    EXPECT_EQ(writer.written_records(), 0u);
+    EXPECT_EQ(writer.lost_records(), 1u);
+}
+
 TEST(RotatingWriter, ASegmentThatCannotBeClosedCostsTheNextOneNothing) {
     const TempDir dir;
     auto writer = created(dir / "x.tlog", {.every = 1s});

@@ -2,6 +2,7 @@
 #include "mavloom/ring/source.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -147,6 +148,15 @@ TEST_F(RingSourceTest, LinksThatComeAndGoForEverHaveTheirNames) {
 }
 
 // A router whose page somebody removed makes it anew within a second or so.
+TEST_F(RingSourceTest, APageOfAnotherUserNamesNoLinks) {
+    if (::geteuid() != 0) GTEST_SKIP() << "giving files away needs root";
+    ASSERT_TRUE(sut.open());
+    auto page = opened(shm::CounterPage::create(name.text(), {.counters = 1, .links = 1}));
+    ASSERT_TRUE(page.name_link(LinkId{7}, "forged"));
+    ASSERT_EQ(::chown((name.path() + ".stat").c_str(), 65534, 65534), 0);
+    EXPECT_EQ(heard_from(7), "shm://" + name.text() + "/7");
+}
+
 TEST_F(RingSourceTest, ALinkThatSpokeWithoutACounterPageGetsItsNameWhenThePageIsThere) {
     ASSERT_TRUE(sut.open());
     EXPECT_EQ(heard_from(7), "shm://" + name.text() + "/7");

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,6 +104,26 @@ TEST(CounterPage, GoesWithItsOwner) {
     const RingName name;
     { auto page = create(name); }
     EXPECT_EQ(read_counters(name.text()).error().code, SetupCode::not_found);
+}
+
+TEST(CounterPage, OfAnotherUserIsReadOnRequestOnly) {
+    if (::geteuid() != 0) GTEST_SKIP() << "giving files away needs root";
+    const RingName name;
+    const auto page = create(name);
+    const std::string path = name.path() + ".stat";
+    ASSERT_EQ(::chown(path.c_str(), 65534, 65534), 0);
+    const auto refused = read_counters(name.text());
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, SetupCode::permission);
+    EXPECT_THAT(refused.error().text, HasSubstr("so anything may be in it"));
+    EXPECT_TRUE(read_counters(name.text(), {.user = 65534}));
+    EXPECT_FALSE(read_counters(name.text(), {.user = 65533}));
+    EXPECT_TRUE(read_counters(name.text(), {.foreign = true}));
+
+    ASSERT_EQ(::chown(path.c_str(), ::geteuid(), ::getegid()), 0);
+    ASSERT_EQ(::chmod(path.c_str(), 0660), 0);
+    EXPECT_FALSE(read_counters(name.text()));
+    EXPECT_TRUE(read_counters(name.text(), {.foreign = true}));
 }
 
 TEST(CounterPage, OfALivingOwnerIsRefusedAndOfADeadOneReplaced) {
