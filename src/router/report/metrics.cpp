@@ -66,6 +66,7 @@ std::vector<Series> busiest(std::vector<Series> rows, std::size_t most) {
     sum_equal(rows);
     if (rows.size() <= most) return rows;
     std::vector<std::uint64_t> frames;
+    frames.reserve(rows.size());
     for (const auto& row : rows) frames.push_back(row.counts[0]);
     const std::uint64_t limit = limit_of(std::move(frames), most);
     for (auto& row : rows)
@@ -105,6 +106,7 @@ private:
             return sum;
         };
         std::vector<std::pair<std::uint64_t, const OfLink*>> links;
+        links.reserve(s_.links.size());
         for (const auto& link : s_.links) links.emplace_back(frames_of(link), &link);
         std::ranges::stable_sort(links, std::greater{}, &decltype(links)::value_type::first);
         links.resize(std::min(links.size(), most_links));
