@@ -61,13 +61,13 @@ class mavfile(Connection):
 
     def mode_mapping(self) -> Any:
         """{name: mode} of the vehicle: numbers for ArduPilot, (base mode, main mode, sub mode) for PX4."""
-        if self.field("HEARTBEAT", "autopilot") == _modes.AUTOPILOT_PX4:
+        if self._target.mav_autopilot == _modes.AUTOPILOT_PX4:
             return tables.px4_map
         return tables.mode_mapping_byname(self.mav_type)
 
     def set_mode(self, mode: str | int, custom_mode: int = 0, custom_sub_mode: int = 0) -> None:
         """Requests a flight mode by name or number; of a PX4 also by its three numbers."""
-        if self.field("HEARTBEAT", "autopilot") == _modes.AUTOPILOT_PX4:
+        if self._target.mav_autopilot == _modes.AUTOPILOT_PX4:
             self.set_mode_px4(mode, custom_mode, custom_sub_mode)
         else:
             self.set_mode_apm(mode)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""What connections of mavloom.mavutil remember of each system, against pymavlink's after the same messages."""
+import pytest
+
+from mavloom import mavutil
+from tlogs import packer, write
+
+PX4, ARDUPILOT, NONE = 12, 3, 8  # MAV_AUTOPILOT
+QUADROTOR, STATION, COMPANION, GIMBAL, CAMERA = 2, 6, 18, 26, 30  # MAV_TYPE
+PX4_LOITER = 50593792
+
+
+class Sent(list):
+    """Stands in for the file that a MAVLink object writes to."""
+
+    def write(self, frame):
+        self.append(bytes(frame))
+
+
+class Crew:
+    """Packs the messages of several components, each with its own sequence numbers."""
+
+    def __init__(self, peer):
+        self.peer, self.packers = peer, {}
+
+    def frame(self, source, name, *values):
+        self.packers.setdefault(source, packer(self.peer, *source))
+        return self.packers[source].pack(getattr(self.peer, f"MAVLink_{name}_message")(*values))
+
+    def heartbeat(self, source, kind, autopilot, base=81, custom=0):
+        return self.frame(source, "heartbeat", kind, autopilot, base, custom, 4, 3)
+
+
+def both_read(path, frames, their_mavutil):
+    """The connections of both sides, after they have read the frames."""
+    logs = []
+    for module in (their_mavutil, mavutil):
+        log = module.mavlogfile(str(write(path, frames)))
+        while log.recv_msg() is not None:
+            pass
+        logs.append(log)
+    return logs
+
+
+def state_of(log):
+    return (log.target_system, log.flightmode, log.mav_type, log.base_mode, log.motors_armed(), log.mode_mapping(),
+            {system: (state.mav_autopilot, state.mav_type, state.flightmode, state.base_mode, state.armed,
+                      sorted(state.messages)) for system, state in log.sysid_state.items()})
+
+
+def sent_by(log, call, peer):
+    log.mav.file = sent = Sent()
+    call(log)
+    return [message.to_dict() for message in peer.MAVLink(None).parse_buffer(b"".join(sent))]
+
+
+OTHERS = {"companion": ((1, 191), COMPANION), "camera": ((1, 100), CAMERA), "gimbal": ((1, 154), GIMBAL),
+          "station": ((1, 190), STATION)}
+
+
+@pytest.mark.parametrize("other", OTHERS)
+@pytest.mark.parametrize("autopilot, custom", [(PX4, PX4_LOITER), (ARDUPILOT, 4)])
+def test_other_components_do_not_change_the_modes_of_their_vehicle(autopilot, custom, other, peer, their_mavutil,
+                                                                  tmp_path):
+    crew = Crew(peer)
+    frames = [crew.heartbeat((1, 1), QUADROTOR, autopilot, 209, custom),
+              crew.heartbeat(OTHERS[other][0], OTHERS[other][1], NONE, 0, 0)]
+    theirs, ours = both_read(tmp_path / "x.tlog", frames, their_mavutil)
+    assert state_of(ours) == state_of(theirs)
+    # After the heartbeat of the other component, pymavlink raises struct.error for a PX4.
+    alone, _ = both_read(tmp_path / "y.tlog", frames[:1], their_mavutil)
+    orders = (lambda log: log.set_mode("RTL"), lambda log: log.set_mode(*numbers))
+    numbers = (29, 4, 5) if autopilot == PX4 else (4,)
+    for order in orders:
+        assert sent_by(ours, order, peer) == sent_by(alone, order, peer) != []
