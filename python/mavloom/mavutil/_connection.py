@@ -180,6 +180,8 @@ class Connection:
         name = message.get_type()
         if name == "HEARTBEAT":
             self._notice_heartbeat(message)
+        elif name == "HIGH_LATENCY2":
+            self._notice_high_latency(message)
         elif name == "PARAM_VALUE":
             source = (message.get_srcSystem(), message.get_srcComponent())
             self.param_state.setdefault(source, param_state()).params[message.param_id] = message.param_value
@@ -200,6 +202,18 @@ class Connection:
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
         state.armed = message.base_mode & ARMED
+
+    def _notice_high_latency(self, message: MAVLink_message) -> None:
+        """Notes what a vehicle sends in place of heartbeats on a slow link. An ArduPilot has its base mode in custom0."""
+        if not self.probably_vehicle_heartbeat(message):
+            return
+        state = self.sysid_state[message.get_srcSystem()]
+        state.mav_type = message.type
+        state.mav_autopilot = message.autopilot
+        state.flightmode = _modes.ardupilot_name(message.type, message.custom_mode)
+        if message.autopilot == _modes.AUTOPILOT_ARDUPILOT:
+            state.base_mode = message.custom0
+            state.armed = message.custom0 & ARMED
 
     def probably_vehicle_heartbeat(self, msg: MAVLink_message) -> bool:
         """Whether a HEARTBEAT is that of a vehicle, by the rule of `Link.wait_heartbeat`."""

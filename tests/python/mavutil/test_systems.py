@@ -54,6 +54,11 @@ def sent_by(log, call, peer):
     return [message.to_dict() for message in peer.MAVLink(None).parse_buffer(b"".join(sent))]
 
 
+def high_latency(kind, autopilot, custom=4, custom0=0):
+    """The values of a HIGH_LATENCY2."""
+    return ("high_latency2", 0, kind, autopilot, custom, *[0] * 20, custom0, 0, 0)
+
+
 OTHERS = {"companion": ((1, 191), COMPANION), "camera": ((1, 100), CAMERA), "gimbal": ((1, 154), GIMBAL),
           "station": ((1, 190), STATION)}
 
@@ -73,3 +78,41 @@ def test_other_components_do_not_change_the_modes_of_their_vehicle(autopilot, cu
     numbers = (29, 4, 5) if autopilot == PX4 else (4,)
     for order in orders:
         assert sent_by(ours, order, peer) == sent_by(alone, order, peer) != []
+
+
+SUMMARIES = {
+    "copter": [high_latency(QUADROTOR, ARDUPILOT)], "plane": [high_latency(1, ARDUPILOT, 10)],
+    "unknown mode": [high_latency(QUADROTOR, ARDUPILOT, 99)], "armed": [high_latency(QUADROTOR, ARDUPILOT, 5, -64)],
+    "px4": [high_latency(QUADROTOR, PX4, 0x304)], "home-made": [high_latency(QUADROTOR, NONE)],
+    "before a heartbeat": [high_latency(QUADROTOR, ARDUPILOT), ("heartbeat", QUADROTOR, ARDUPILOT, 217, 5, 4, 3)],
+    "after a heartbeat": [("heartbeat", QUADROTOR, ARDUPILOT, 217, 5, 4, 3), high_latency(QUADROTOR, ARDUPILOT)]}
+
+
+@pytest.mark.parametrize("messages", SUMMARIES.values(), ids=list(SUMMARIES))
+def test_a_vehicle_on_a_slow_link_is_known_by_its_high_latency2(messages, peer, their_mavutil, tmp_path):
+    crew = Crew(peer)
+    frames = [crew.frame((7, 1), *message) for message in messages]
+    theirs, ours = both_read(tmp_path / "x.tlog", frames, their_mavutil)
+    assert state_of(ours) == state_of(theirs)
+    assert ours.target_system == 7
+
+
+def test_high_latency2_of_a_gimbal_changes_nothing(peer, tmp_path):
+    """In pymavlink the vehicle becomes a gimbal."""
+    crew, path = Crew(peer), tmp_path / "x.tlog"
+    log = mavutil.mavlogfile(str(write(path, [crew.heartbeat((1, 1), QUADROTOR, ARDUPILOT, 209, 4),
+                                              crew.frame((1, 154), *high_latency(GIMBAL, NONE, 0))])))
+    while log.recv_msg() is not None:
+        pass
+    assert (log.mav_type, log.flightmode, bool(log.motors_armed())) == (QUADROTOR, "GUIDED", True)
+
+
+@pytest.mark.parametrize("radio", [(51, 68), (51, 67)])
+def test_the_messages_of_a_radio_are_those_of_all_systems(radio, peer, their_mavutil, tmp_path):
+    crew = Crew(peer)
+    status = crew.frame(radio, "radio_status", 1, 2, 3, 4, 5, 6, 7)
+    beats = [crew.heartbeat((system, 1), QUADROTOR, ARDUPILOT) for system in (1, 2)]
+    for frames in ([*beats, status], [status, *beats]):
+        theirs, ours = both_read(tmp_path / "x.tlog", frames, their_mavutil)
+        assert state_of(ours) == state_of(theirs)
+        assert ("RADIO_STATUS" in ours.messages) == (radio == (51, 68) and frames[-1] == status)
