@@ -2,6 +2,7 @@
 #include "mavutil/log.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -17,6 +18,21 @@ namespace mavloom::python {
 
 // ---- types
 
+namespace {
+
+// The id in "UNKNOWN_<id>", the name of a message without definition.
+std::optional<MessageId> unknown_id(std::string_view name) noexcept {
+    constexpr std::string_view beginning = "UNKNOWN_";
+    if (!name.starts_with(beginning)) return std::nullopt;
+    const auto digits = name.substr(beginning.size());
+    std::uint32_t id = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+    if (error != std::errc{} || end != digits.data() + digits.size() || id > 0xff'ff'ff) return std::nullopt;
+    return MessageId{id};
+}
+
+}  // namespace
+
 MavutilTypes::MavutilTypes(const PyDialect& dialect, const nb::iterable& names) {
     const auto& definitions = dialect.definitions->dialect();
     for (const nb::handle name : names) {
@@ -27,12 +43,14 @@ MavutilTypes::MavutilTypes(const PyDialect& dialect, const nb::iterable& names) 
         const std::string text = nb::cast<std::string>(name);
         bad_data_ = bad_data_ || text == "BAD_DATA";
         if (const auto* message = definitions.find(text)) ids_.push_back(message->id());
+        else if (const auto id = unknown_id(text)) unknown_.push_back(*id);
     }
 }
 
 bool MavutilTypes::takes(const MavutilMessage& message) const noexcept {
     if (message.base.size == 0) return bad_data_;
-    return message.base.definition != nullptr && std::ranges::find(ids_, message.base.definition->id()) != ids_.end();
+    const auto& ids = message.base.definition == nullptr ? unknown_ : ids_;
+    return std::ranges::find(ids, message.base.frame().id()) != ids.end();
 }
 
 // ---- reading

@@ -23,11 +23,11 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether the dialect has any of them. BAD_DATA is what a connection that verifies signatures returns.
-    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty(); }
+    // Whether any of them can arrive: those of the dialect, UNKNOWN_<id>, BAD_DATA. BAD_DATA is what a connection that verifies signatures returns.
+    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty() || !unknown_.empty(); }
 
 private:
-    std::vector<MessageId> ids_;
+    std::vector<MessageId> ids_, unknown_;
     bool bad_data_ = false;
 };
 
