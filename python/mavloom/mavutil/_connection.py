@@ -14,6 +14,7 @@ from .._errors import UsageError
 from . import _current
 from ._conditions import evaluate_condition
 from ._messages import MAVLink_bad_data, MAVLink_message, as_bytes
+from ._protocol import signing_time
 from ._state import Systems, mavfile_state, param_state
 
 if TYPE_CHECKING:
@@ -358,7 +359,8 @@ class Connection:
                       initial_timestamp: int | None = None, link_id: int | None = None) -> None:
         """Signs what is sent, and replaces messages without a good signature by BAD_DATA.
 
-        `secret_key` has 32 bytes. `allow_unsigned_callback(mav, message_id)` returns whether a message without a good
+        `secret_key` has 32 bytes. Signatures that are a minute older than `initial_timestamp` are refused; it counts
+        10 µs since 2015, and is the present time by default. `allow_unsigned_callback(mav, message_id)` returns whether a message without a good
         signature is accepted.
         """
         key = as_bytes(secret_key)
@@ -369,8 +371,7 @@ class Connection:
         signing.sign_outgoing = sign_outgoing
         signing.allow_unsigned_callback = allow_unsigned_callback
         signing.link_id = _current.next_link_id() if link_id is None else link_id
-        if initial_timestamp is not None:
-            signing.timestamp = initial_timestamp
+        signing.timestamp = signing_time() if initial_timestamp is None else initial_timestamp
 
     def disable_signing(self) -> None:
         signing = self.mav.signing

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What connections of mavloom.mavutil remember of each system, against pymavlink's after the same messages."""
+import time
+
 import pytest
 
 from mavloom import mavutil
@@ -116,3 +118,34 @@ def test_the_messages_of_a_radio_are_those_of_all_systems(radio, peer, their_mav
         theirs, ours = both_read(tmp_path / "x.tlog", frames, their_mavutil)
         assert state_of(ours) == state_of(theirs)
         assert ("RADIO_STATUS" in ours.messages) == (radio == (51, 68) and frames[-1] == status)
+
+
+# ---- signing
+
+KEY = bytes(range(32))
+AGES_S = (0, 5, 15, 70, 3600, 365 * 86400)
+
+
+def signed_heartbeats(peer, now):
+    """One heartbeat of each age, each from a component of its own."""
+    frames = []
+    for component, age in enumerate(AGES_S, 1):
+        sender = packer(peer, 1, component)
+        sender.mav.signing.secret_key, sender.mav.signing.sign_outgoing = KEY, True
+        sender.mav.signing.timestamp = now - age * 100_000
+        frames.append(sender.pack(peer.MAVLink_heartbeat_message(QUADROTOR, ARDUPILOT, 0, 0, 4, 3)))
+    return frames
+
+
+def test_old_signatures_are_refused(peer, their_mavutil, tmp_path):
+    """Nobody can replay what was recorded before the program began."""
+    now = int((time.time() - 1420070400) * 100_000)
+    path, found = str(write(tmp_path / "x.tlog", signed_heartbeats(peer, now))), []
+    for module in (their_mavutil, mavutil):
+        log = module.mavlogfile(path)
+        log.setup_signing(KEY)
+        assert now <= log.mav.signing.timestamp < now + 86400 * 100_000
+        found.append([(message.get_type(), message.get_type() != "BAD_DATA" and message.get_signed())
+                      for message in iter(log.recv_msg, None)])
+    assert found[0] == found[1]
+    assert [name for name, _ in found[1]] == ["HEARTBEAT"] * 3 + ["BAD_DATA"] * 3
