@@ -396,5 +396,8 @@ class Connection:
 def open_to_write(path: str | os.PathLike[str], mode: str) -> BinaryIO:
     if mode.replace("+", "") not in ("w", "wb", "a", "ab"):
         raise UsageError(f"mode {mode!r}: a log is opened with 'wb' or 'ab'")
-    file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
+    try:
+        file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
+    except UnicodeEncodeError:
+        raise UsageError(f"{path!r:.60} is no name of a file: it has a lone surrogate") from None
     return file  # type: ignore[no-any-return]
