@@ -38,8 +38,8 @@ public:
 
     // Reads the whole file: counts its messages, and notes the first one of each type in `state`, as pymavlink does
     // when it opens a file. These, and further instances, also become messages of the target. Calls owner._notice() for
-    // those that concern it. Returns {name: count}.
-    nb::dict index(MavutilState& state, const nb::object& owner);
+    // those that concern it, and progress(percent) unless it is None. Returns {name: count}.
+    nb::dict index(MavutilState& state, const nb::object& owner, const nb::object& progress);
     // Returns the next message; an invalid object at the end, until the file grows. Notes nothing.
     nb::object next();
     // Returns the next message of these types, or None at the end. Notes every message that it passes in `state`, and
