@@ -108,6 +108,9 @@ class MAVLink:
         self._found: collections.deque[MAVLink_message | tuple[bytes, str]] = collections.deque()
         self._sending = threading.RLock()
 
+    def __repr__(self) -> str:
+        return f"<MAVLink {self.srcSystem}/{self.srcComponent} seq {self.seq} to {type(self.file).__name__}>"
+
     def _take_over(self, other: MAVLink) -> None:
         """Receives with the parser, signing and callbacks of another object, in its place."""
         self._dialect, self._parser, self._found = other._dialect, other._parser, other._found
@@ -116,6 +119,12 @@ class MAVLink:
                                                                    other.callback_kwargs)
         self.send_callback, self.send_callback_args, self.send_callback_kwargs = (
             other.send_callback, other.send_callback_args, other.send_callback_kwargs)
+
+    @property
+    def total_receive_errors(self) -> int:
+        """Frames with a wrong checksum, and bytes that are no frame. A live connection counts only frames."""
+        of_link: Callable[[], int] | None = getattr(self.file, "_damaged", None)
+        return self._errors + (0 if of_link is None else of_link())
 
     # ---- sending
 
@@ -150,14 +159,15 @@ class MAVLink:
                                      0 if key is None else signing.next_timestamp())
         return frame
 
-    def __getattr__(self, call: str) -> Callable[..., Any]:
-        name, _, verb = call.rpartition("_")
-        dialect = type(self)._module.dialect
-        if verb not in ("send", "encode") or name.upper() not in dialect:
-            raise AttributeError(f"MAVLink has no {call}: use NAME_send or NAME_encode, for example heartbeat_send")
-        setattr(type(self), call, make_call(type(self)._module, name, verb, dialect[name.upper()].fields))
-        made: Callable[..., Any] = getattr(self, call)
-        return made
+    if not TYPE_CHECKING:  # the stub of each module has the calls
+        def __getattr__(self, call: str) -> Callable[..., Any]:
+            name, _, verb = call.rpartition("_")
+            dialect = type(self)._module.dialect
+            if verb not in ("send", "encode") or name.upper() not in dialect:
+                raise AttributeError(f"MAVLink has no {call}: use NAME_send or NAME_encode, for example heartbeat_send")
+            setattr(type(self), call, make_call(type(self)._module, name, verb, dialect[name.upper()].fields))
+            made: Callable[..., Any] = getattr(self, call)
+            return made
 
     def __dir__(self) -> list[str]:
         names = [name.lower() for name in type(self)._module.dialect.message_names]
@@ -193,7 +203,7 @@ class MAVLink:
             self.total_packets_received += 1
             return self._checked(found)
         data, reason = found
-        self.total_receive_errors += 1
+        self._errors += 1
         if not self.robust_parsing:
             raise MAVError(reason if reason != "Bad prefix" else f"invalid MAVLink prefix '{data[0]}'")
         return MAVLink_bad_data(data, reason)
