@@ -46,6 +46,10 @@ class MAVLinkSigning:
         self.unsigned_count = 0
         self.reject_count = 0
 
+    def __repr__(self) -> str:
+        state = "off" if self.secret_key is None else "signs" if self.sign_outgoing else "verifies"
+        return f"<MAVLinkSigning {state}, link {self.link_id}, {self.goodsig_count} good, {self.reject_count} refused>"
+
     def next_timestamp(self) -> int:
         """The time of the next signature. Times never repeat, and follow the clock."""
         now = max(self.timestamp, signing_time())
@@ -100,7 +104,7 @@ class MAVLink:
         self.total_bytes_sent = 0
         self.total_packets_received = 0
         self.total_bytes_received = 0
-        self.total_receive_errors = 0
+        self._errors = 0  # that this object found; a link counts its own
         self.startup_time = time.time()
         self.signing = MAVLinkSigning()
         self._dialect = self._module.new_dialect()
@@ -123,8 +127,15 @@ class MAVLink:
     @property
     def total_receive_errors(self) -> int:
         """Frames with a wrong checksum, and bytes that are no frame. A live connection counts only frames."""
+        return self._errors + self._errors_of_link()
+
+    @total_receive_errors.setter
+    def total_receive_errors(self, value: int) -> None:
+        self._errors = value - self._errors_of_link()
+
+    def _errors_of_link(self) -> int:
         of_link: Callable[[], int] | None = getattr(self.file, "_damaged", None)
-        return self._errors + (0 if of_link is None else of_link())
+        return 0 if of_link is None else of_link()
 
     # ---- sending
 
