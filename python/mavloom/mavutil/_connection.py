@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 POSITION_FIX = 3  # GPS_FIX_TYPE: in three dimensions
 ARMED = 128  # MAV_MODE_FLAG
 IDLE_HOOKS_PAUSE_S = 0.05
+LONGEST_WAIT_S = 1_000_000
 
 Types = str | Iterable[str] | None
 
@@ -114,8 +115,9 @@ class Connection:
         types = self._types_of(type)
         if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
             raise UsageError(f"type={type!r}: no such message, so this call would wait for ever")
-        blocking = blocking and (timeout is None or timeout > 0)
-        end = time.monotonic() + timeout if blocking and timeout is not None else None
+        wait = None if timeout is None else wait_of(timeout)
+        blocking = blocking and wait != 0
+        end = time.monotonic() + wait if blocking and wait is not None else None
         while True:
             left = 0.0 if not blocking else 3600.0 if end is None else max(0.0, end - time.monotonic())
             message = self._read(min(left, IDLE_HOOKS_PAUSE_S) if self.idle_hooks else left)
@@ -193,7 +195,7 @@ class Connection:
         else:
             self.sysid_state[0].messages[name] = message
             if isinstance(message, MAVLink_bad_data):
-                self.mav.total_receive_errors += 1
+                self.mav._errors += 1
 
     def _notice_heartbeat(self, message: MAVLink_message) -> None:
         if not self.probably_vehicle_heartbeat(message):
@@ -391,6 +393,13 @@ class Connection:
         self.first_byte = self.first_byte and not buf
         if buf[:1] == b"\xfd" and not self.mavlink20():
             self._use(_current.change_to_version_2())
+
+
+def wait_of(timeout: float) -> float:
+    """A time-out in seconds that a system call accepts. Raises UsageError for NaN."""
+    if timeout != timeout:
+        raise UsageError("timeout: nan is no number of seconds")
+    return min(max(0.0, timeout), LONGEST_WAIT_S)
 
 
 def open_to_write(path: str | os.PathLike[str], mode: str) -> BinaryIO:
