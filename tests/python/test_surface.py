@@ -92,7 +92,8 @@ def test_objects_are_shown(link, vehicle, flight, tmp_path):
 
 def test_no_public_object_has_the_text_of_object(link, flight):
     conn = mavutil.mavlink_connection(str(flight))
-    things = [conn.mav, conn.mav.signing, mavwp.MAVWPLoader(), mavutil.periodic_event(5), link, link.mav, link.stats, link.messages, link.subscribe(), link.vehicle(1), link.vehicle(1).params,
+    things = [conn.mav, conn.mav.signing, mavwp.MAVWPLoader(), mavutil.periodic_event(5), link,
+              link.mav, link.stats, link.messages, link.subscribe(), link.vehicle(1), link.vehicle(1).params,
               link.vehicle_async(1), mavloom.read(flight), mavloom.read(flight).stats, mavloom.Parser(),
               mavloom.Dialect(), mavloom.Dialect()["HEARTBEAT"], mavloom.columns(flight, "RPM"),
               conn]

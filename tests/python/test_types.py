@@ -74,7 +74,8 @@ def test_row_25_mypy_knows_the_types_of_fields(mypy):
 
 def test_row_25_mypy_knows_the_names_of_messages(mypy):
     found = mypy("wrong_calls.py").stdout
-    assert '"Sender" has no attribute "heartbeet_send"' in found and '"MAVLink" has no attribute "heartbeet_send"' in found
+    assert '"Sender" has no attribute "heartbeet_send"' in found
+    assert '"MAVLink" has no attribute "heartbeet_send"' in found
 
 
 def pyright(folder, version, *include):

@@ -207,7 +207,7 @@ class Connection:
         state.armed = message.base_mode & ARMED
 
     def _notice_high_latency(self, message: MAVLink_message) -> None:
-        """Notes what a vehicle sends in place of heartbeats on a slow link. An ArduPilot has its base mode in custom0."""
+        """Notes what a vehicle sends in place of heartbeats on a slow link. ArduPilot has its base mode in custom0."""
         if not self.probably_vehicle_heartbeat(message):
             return
         state = self.sysid_state[message.get_srcSystem()]
@@ -362,8 +362,8 @@ class Connection:
         """Signs what is sent, and replaces messages without a good signature by BAD_DATA.
 
         `secret_key` has 32 bytes. Signatures that are a minute older than `initial_timestamp` are refused; it counts
-        10 µs since 2015, and is the present time by default. `allow_unsigned_callback(mav, message_id)` returns whether a message without a good
-        signature is accepted.
+        10 µs since 2015, and is the present time by default. `allow_unsigned_callback(mav, message_id)` returns whether
+        a message without a good signature is accepted.
         """
         key = as_bytes(secret_key)
         if len(key) != 32:

@@ -339,8 +339,7 @@ void bind_mavutil_log(nb::module_& module) {
             nb::arg("path"), nb::arg("dialect"), nb::arg("bad_data"),
             nb::sig("def __init__(self, path: str | os.PathLike[str], dialect: Dialect, bad_data: "
                     "collections.abc.Callable[[bytes, str], MavutilMessage]) -> None"))
-        .def("index", &MavutilLog::index, nb::arg("state"), nb::arg("owner"),
-             nb::arg("progress").none(),
+        .def("index", &MavutilLog::index, nb::arg("state"), nb::arg("owner"), nb::arg("progress").none(),
              nb::sig("def index(self, state: MavutilState, owner: typing.Any, "
                      "progress: collections.abc.Callable[[int], object] | None) -> dict[str, int]"))
         .def("match", &MavutilLog::match, nb::arg("state"), nb::arg("owner"), nb::arg("types").none(),

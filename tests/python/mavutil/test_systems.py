@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What connections of mavloom.mavutil remember of each system, against pymavlink's after the same messages."""
+"""The state of each system in connections of mavloom.mavutil, against pymavlink's after the same messages."""
 import time
 
 import pytest
@@ -154,8 +154,8 @@ def test_old_signatures_are_refused(peer, their_mavutil, tmp_path):
 
 # ---- parameters
 
-@pytest.mark.parametrize("name", ["5", "-1", " 5 ", "+5", "1_0", b"5", 5, 5.0, True, "5.0", "1e3", "0x10", "", "RTL_ALT",
-                                  b"RTL_ALT"])
+@pytest.mark.parametrize("name", ["5", "-1", " 5 ", "+5", "1_0", b"5", 5, 5.0, True, "5.0", "1e3", "0x10", "",
+                                  "RTL_ALT", b"RTL_ALT"])
 def test_one_parameter_is_requested_by_name_or_index(name, peer, their_mavutil, tmp_path):
     theirs, ours = both_read(tmp_path / "x.tlog", [Crew(peer).heartbeat((1, 1), QUADROTOR, ARDUPILOT)], their_mavutil)
     sent = [sent_by(log, lambda log: log.param_fetch_one(name), peer) for log in (theirs, ours)]
@@ -164,7 +164,8 @@ def test_one_parameter_is_requested_by_name_or_index(name, peer, their_mavutil, 
 
 @pytest.mark.parametrize("call", [lambda log: log.param_fetch_one("A\udc80"), lambda log: log.param_fetch_one(None),
                                   lambda log: log.param_set_send("A\udc80", 1), lambda log: log.param_set_send(5, 1),
-                                  lambda log: log.setup_logfile("x\ud800"), lambda log: log.setup_logfile_raw("\ud800")])
+                                  lambda log: log.setup_logfile("x\ud800"),
+                                  lambda log: log.setup_logfile_raw("\ud800")])
 def test_names_that_are_no_text_are_refused(call, flight):
     with pytest.raises(mavloom.UsageError):
         call(mavutil.mavlink_connection(str(flight)))
