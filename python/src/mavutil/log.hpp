@@ -23,8 +23,8 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether any of them can arrive: those of the dialect, UNKNOWN_<id>, and BAD_DATA, which a connection that verifies
-    // signatures returns.
+    // Whether any of them can arrive: those of the dialect, UNKNOWN_<id>, and BAD_DATA, which a connection returns that
+    // verifies signatures.
     [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty() || !unknown_.empty(); }
 
 private:

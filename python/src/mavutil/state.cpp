@@ -95,7 +95,7 @@ void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& m
     if (!value.is_valid()) throw nb::python_error();
     const nb::object previous = nb::borrow(PyDict_GetItem(messages.ptr(), name.ptr()));
     nb::object instances = previous.is_valid() ? nb::getattr(previous, "_instances", nb::none()) : nb::none();
-    if (instances.is_none()) instances = nb::dict();
+    if (!nb::isinstance<nb::dict>(instances)) instances = nb::dict();  // a program may set the attribute
     nb::setattr(message, "_instances", instances);
     if (nb::len(instances) >= static_cast<std::size_t>(most_messages) &&
         PyDict_Contains(instances.ptr(), value.ptr()) != 1)

@@ -87,6 +87,14 @@ def test_messages_are_selected_as_by_pymavlink(selection, peer, their_mavutil, t
     assert found[0] == found[1]
 
 
+def test_a_program_may_set_any_attribute_of_a_message(peer, tmp_path):
+    battery = peer.MAVLink_battery_status_message
+    frames = [packer(peer).pack(battery(i, 0, 0, 0, [1] * 10, 1, 2, 3, 4)) for i in (0, 1)]
+    log = mavutil.mavlogfile(write_log(tmp_path / "x.tlog", frames))
+    log.recv_msg()._instances = [1]
+    assert log.recv_msg()[1].id == 1 and "BATTERY_STATUS[1]" in log.sysid_state[1].messages
+
+
 def test_each_call_has_its_own_filter(flight):
     """In pymavlink the types of the first call stay in force, and messages are skipped."""
     log = mavutil.mavlink_connection(str(flight))
