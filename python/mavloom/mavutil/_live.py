@@ -182,7 +182,7 @@ class mavmcast(mavlive):
 def refusal(error: SystemFailure) -> OSError:
     """The error that a program expects from a socket."""
     if error.errno == errno.ECONNREFUSED:
-        return ConnectionRefusedError(error.errno, os.strerror(error.errno))
+        return ConnectionRefusedError(errno.ECONNREFUSED, os.strerror(errno.ECONNREFUSED))
     return error
 
 
