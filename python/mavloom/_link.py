@@ -51,7 +51,8 @@ class Link(Sends):
         wrong address or option.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
-        call waits up to 5 s for the far side, and raises SystemFailure if it is still absent.
+        call waits up to 5 s for an answer of the far side. It raises SystemFailure if there is none, and at once if the
+        far side refuses or the device is missing.
         """
         check_url(url)
         super().__init__(Port(url, source_system, source_component, dialect, buffer, version))

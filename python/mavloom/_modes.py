@@ -63,6 +63,11 @@ def mode_name(autopilot: int, vehicle_type: int, base_mode: int, custom_mode: in
         return px4_name(custom_mode)
     if not base_mode & CUSTOM_MODE_ENABLED:
         return f"Mode(0x{base_mode:08x})"
+    return ardupilot_name(vehicle_type, custom_mode)
+
+
+def ardupilot_name(vehicle_type: int, custom_mode: int) -> str:
+    """The name of a mode of ArduPilot; "Mode(5)" for one that is not in the tables."""
     return ARDUPILOT.get(vehicle_type, {}).get(custom_mode, f"Mode({custom_mode})")
 
 

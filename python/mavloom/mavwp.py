@@ -31,6 +31,9 @@ class MAVWPLoader:
         self.target_component = target_component
         self.last_change = 0.0
 
+    def __repr__(self) -> str:
+        return f"<MAVWPLoader for {self.target_system}/{self.target_component}, {self.count()} items>"
+
     def count(self) -> int:
         """The number of items."""
         return len(self.wpoints)

@@ -98,7 +98,6 @@ def sends(dialect):
         fields = "".join(f", {field.name}: {given_type(field)} = ..." for field in info.fields)
         lines += [f"    def {info.name.lower()}_send(self{fields}) -> int: ...",
                   f"    def {info.name.lower()}_encode(self{fields}) -> messages.{info.name}: ..."]
-    lines += ["    def __getattr__(self, call: str) -> Any: ..."]
     return SENDS + "\n".join(lines) + "\n"
 
 

@@ -196,6 +196,7 @@ constexpr std::array options_table{
     Option{"trusted", set_of(Scheme::udpin) | set_of(Scheme::udpbcast), "false", set_flag<&O::trusted>},
     Option{"low_latency", address_schemes | serial, "false", set_flag<&O::low_latency>},
     Option{"required", links, "false", set_flag<&O::required>},
+    Option{"reuse", set_of(Scheme::udpin), "false", set_flag<&O::reuse>},
     Option{"bind", set_of(Scheme::udpout) | set_of(Scheme::udpbcast) | set_of(Scheme::tcpout), "", set_bind},
     Option{"fixed", set_of(Scheme::udpbcast), "false", set_flag<&O::fixed>},
     Option{"baud", serial, "57600", set_baud},

@@ -164,7 +164,7 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     set_option(fd, local.is_v6() ? int{IPPROTO_IPV6} : int{IPPROTO_IP}, local.is_v6() ? IPV6_RECVERR : IP_RECVERR, 1);
     socket.receive_buffer_bytes_ = largest_receive_buffer(fd, options.receive_buffer_bytes);
     if (options.broadcast) set_option(fd, SOL_SOCKET, SO_BROADCAST, 1);
-    if (options.group) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
+    if (options.group || options.reuse_address) set_option(fd, SOL_SOCKET, SO_REUSEADDR, 1);
     if (options.ttl) set_hops(fd, local.is_v6(), *options.ttl);
     if (auto done = bind_to_device(fd, options.device); !done) return tl::unexpected(std::move(done).error());
     if (auto done = choose_group_interface(fd, local.is_v6(), options.group_interface); !done)

@@ -10,7 +10,7 @@ import warnings
 import pytest
 
 import mavloom
-from mavloom import mavutil
+from mavloom import mavutil, mavwp
 from tlogs import frames_of
 from vehicles import DEADLINE_S, Vehicle, until
 
@@ -91,10 +91,12 @@ def test_objects_are_shown(link, vehicle, flight, tmp_path):
 
 
 def test_no_public_object_has_the_text_of_object(link, flight):
-    things = [link, link.mav, link.stats, link.messages, link.subscribe(), link.vehicle(1), link.vehicle(1).params,
+    conn = mavutil.mavlink_connection(str(flight))
+    things = [conn.mav, conn.mav.signing, mavwp.MAVWPLoader(), mavutil.periodic_event(5), link,
+              link.mav, link.stats, link.messages, link.subscribe(), link.vehicle(1), link.vehicle(1).params,
               link.vehicle_async(1), mavloom.read(flight), mavloom.read(flight).stats, mavloom.Parser(),
               mavloom.Dialect(), mavloom.Dialect()["HEARTBEAT"], mavloom.columns(flight, "RPM"),
-              mavutil.mavlink_connection(str(flight))]
+              conn]
     assert not [repr(thing) for thing in things if " object at 0x" in repr(thing)]
 
 

@@ -19,6 +19,12 @@ pytestmark = pytest.mark.timeout(600)
 OLDEST = "3.10"
 NEWEST = "{}.{}".format(*sys.version_info)
 WRONG = "from mavloom import messages\ndef f(m: messages.ATTITUDE) -> int:\n    return m.roll\n"
+WRONG_CALLS = """from mavloom import Link, mavutil
+def f(link: Link, conn: mavutil.mavfile) -> None:
+    link.mav.heartbeet_send(6)
+    conn.mav.heartbeet_send(6)
+"""
+NO_EXAMPLES = ("wrong.py", "wrong_calls.py", "newer.py")
 
 
 @pytest.fixture(scope="module")
@@ -30,12 +36,13 @@ def folder(tmp_path_factory):
         (folder / f"{page.stem.replace('-', '_')}.py").write_text(script_of(page))
     shutil.copy(pathlib.Path(__file__).parent / "as_typed.py", folder)
     (folder / "wrong.py").write_text(WRONG)
+    (folder / "wrong_calls.py").write_text(WRONG_CALLS)
     (folder / "newer.py").write_text("from datetime import UTC\nprint(UTC)\n")  # 3.11
     return folder
 
 
 def examples_in(folder):
-    return sorted(path.name for path in folder.glob("*.py") if path.name not in ("wrong.py", "newer.py"))
+    return sorted(path.name for path in folder.glob("*.py") if path.name not in NO_EXAMPLES)
 
 
 @pytest.fixture(scope="module", params=[OLDEST, NEWEST])
@@ -63,6 +70,12 @@ def test_row_25_mypy_strict_takes_the_package(mypy):
 
 def test_row_25_mypy_knows_the_types_of_fields(mypy):
     assert 'Incompatible return value type (got "float", expected "int")' in mypy("wrong.py").stdout
+
+
+def test_row_25_mypy_knows_the_names_of_messages(mypy):
+    found = mypy("wrong_calls.py").stdout
+    assert '"Sender" has no attribute "heartbeet_send"' in found
+    assert '"MAVLink" has no attribute "heartbeet_send"' in found
 
 
 def pyright(folder, version, *include):

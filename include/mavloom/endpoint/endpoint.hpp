@@ -74,6 +74,8 @@ struct EndpointOptions {
     // A vehicle that is alive on another link is not learned here (learn=first).
     bool learns_first = false;
     bool required = false;
+    // udpin: other sockets of this kind may bind the same port. The newest of them receives.
+    bool reuse = false;
     std::optional<HostPort> bind;
     bool fixed = false;              // udpbcast
     std::optional<double> speed;     // tlog source: 1 = recorded pace, infinity = speed=max

@@ -85,6 +85,7 @@ struct UdpOptions {
     std::uint64_t receive_buffer_bytes = 32u << 20;
     bool v6_only = false;             // if false, a socket on :: also receives IPv4
     bool broadcast = false;           // allows sending to broadcast addresses
+    bool reuse_address = false;       // other sockets with this flag may bind the same address; the newest receives
     std::string device;               // the only interface to use (SO_BINDTODEVICE); empty: all
     std::optional<std::uint8_t> ttl;  // hop limit; 0 (this machine only) applies to multicast only
     // The multicast group to join. Other programs on this machine may join it too. Set `local` to the group, so that

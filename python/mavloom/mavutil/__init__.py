@@ -22,7 +22,7 @@ from .._core import Dialect
 from .._errors import UsageError
 from . import _current, _live, _logs, _urls
 from ._conditions import evaluate_condition, evaluate_expression
-from ._services import mavfile
+from ._services import mavfile as mavfile
 from ._current import NAME as _NAME
 from ._helpers import (SerialPort, all_printable, auto_detect_serial, auto_detect_serial_unix, decode_bitmask,
                        dump_message_unit_decoder, dump_message_verbose, is_printable, location, periodic_event,

@@ -3,8 +3,8 @@
 
 An expression may have names of messages, their fields, numbers, text, comparisons, `and`, `or`, `not`, `in`,
 arithmetic, `a if b else c`, indexes, tuples and lists, and calls of the functions of FUNCTIONS. Nothing else is
-accepted: no calls of methods, no attributes that begin with an underscore, no assignments. So a condition can read
-messages and nothing more.
+accepted: no calls of other methods than METHODS, no attributes that begin with an underscore, no assignments. So a
+condition can read messages and nothing more.
 """
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .._errors import UsageError
+from ._messages import MAVLink_message
 
 Names = Mapping[str, Any]
 Evaluator = Callable[[Names], Any]
@@ -34,7 +35,11 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
        ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "degrees", "radians", "floor", "ceil", "exp",
         "log", "log10", "fabs", "fmod", "hypot", "isnan", "isinf", "isfinite")},
     "abs": abs, "min": min, "max": max, "len": len, "int": int, "float": float, "bool": bool, "round": rounded,
-    "str": str, "sum": sum, "any": any, "all": all, "ord": ord, "chr": chr,
+    "pow": math.pow, "str": str, "sum": sum, "any": any, "all": all, "ord": ord, "chr": chr,
+}
+METHODS: dict[str, type] = {
+    "get_srcSystem": MAVLink_message, "get_srcComponent": MAVLink_message, "get_type": MAVLink_message,
+    "get_msgId": MAVLink_message, "get_seq": MAVLink_message, "startswith": str, "endswith": str,
 }
 CONSTANTS = {"pi": math.pi, "e": math.e, "inf": math.inf, "nan": math.nan}
 LONGEST = 10_000  # characters of an expression
@@ -153,10 +158,22 @@ class Builder:
         return lambda names: value(names)[index(names)]
 
     def make_call(self, node: ast.Call) -> Evaluator:
+        if isinstance(node.func, ast.Attribute) and node.func.attr in METHODS and not node.keywords:
+            return self.make_method(node, node.func)
         if not isinstance(node.func, ast.Name) or node.func.id not in FUNCTIONS or node.keywords:
-            raise self.refuse(node, "this call (there are " + ", ".join(sorted(FUNCTIONS)) + ")")
+            raise self.refuse(node, "this call (there are " + ", ".join(sorted({*FUNCTIONS, *METHODS})) + ")")
         function, arguments = FUNCTIONS[node.func.id], [self.make(one) for one in node.args]
         return lambda names: function(*(one(names) for one in arguments))
+
+    def make_method(self, node: ast.Call, called: ast.Attribute) -> Evaluator:
+        value, name, arguments = self.make(called.value), called.attr, [self.make(one) for one in node.args]
+
+        def call(names: Names) -> Any:
+            found = value(names)
+            if not isinstance(found, METHODS[name]):
+                raise UsageError(f"condition {shown(self._expression)}: {type(found).__name__} has no {name}()")
+            return getattr(found, name)(*(one(names) for one in arguments))
+        return call
 
     def make_binop(self, node: ast.BinOp) -> Evaluator:
         if type(node.op) not in BINARY:

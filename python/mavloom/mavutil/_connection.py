@@ -14,6 +14,7 @@ from .._errors import UsageError
 from . import _current
 from ._conditions import evaluate_condition
 from ._messages import MAVLink_bad_data, MAVLink_message, as_bytes
+from ._protocol import signing_time
 from ._state import Systems, mavfile_state, param_state
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 POSITION_FIX = 3  # GPS_FIX_TYPE: in three dimensions
 ARMED = 128  # MAV_MODE_FLAG
 IDLE_HOOKS_PAUSE_S = 0.05
+LONGEST_WAIT_S = 1_000_000
 
 Types = str | Iterable[str] | None
 
@@ -113,8 +115,9 @@ class Connection:
         types = self._types_of(type)
         if types is not None and blocking and timeout is None and not types.has_any and not self._has_ended():
             raise UsageError(f"type={type!r}: no such message, so this call would wait for ever")
-        blocking = blocking and (timeout is None or timeout > 0)
-        end = time.monotonic() + timeout if blocking and timeout is not None else None
+        wait = None if timeout is None else wait_of(timeout)
+        blocking = blocking and wait != 0
+        end = time.monotonic() + wait if blocking and wait is not None else None
         while True:
             left = 0.0 if not blocking else 3600.0 if end is None else max(0.0, end - time.monotonic())
             message = self._read(min(left, IDLE_HOOKS_PAUSE_S) if self.idle_hooks else left)
@@ -180,6 +183,8 @@ class Connection:
         name = message.get_type()
         if name == "HEARTBEAT":
             self._notice_heartbeat(message)
+        elif name == "HIGH_LATENCY2":
+            self._notice_high_latency(message)
         elif name == "PARAM_VALUE":
             source = (message.get_srcSystem(), message.get_srcComponent())
             self.param_state.setdefault(source, param_state()).params[message.param_id] = message.param_value
@@ -190,7 +195,7 @@ class Connection:
         else:
             self.sysid_state[0].messages[name] = message
             if isinstance(message, MAVLink_bad_data):
-                self.mav.total_receive_errors += 1
+                self.mav._errors += 1
 
     def _notice_heartbeat(self, message: MAVLink_message) -> None:
         if not self.probably_vehicle_heartbeat(message):
@@ -200,6 +205,18 @@ class Connection:
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
         state.armed = message.base_mode & ARMED
+
+    def _notice_high_latency(self, message: MAVLink_message) -> None:
+        """Notes what a vehicle sends in place of heartbeats on a slow link. ArduPilot has its base mode in custom0."""
+        if not self.probably_vehicle_heartbeat(message):
+            return
+        state = self.sysid_state[message.get_srcSystem()]
+        state.mav_type = message.type
+        state.mav_autopilot = message.autopilot
+        state.flightmode = _modes.ardupilot_name(message.type, message.custom_mode)
+        if message.autopilot == _modes.AUTOPILOT_ARDUPILOT:
+            state.base_mode = message.custom0
+            state.armed = message.custom0 & ARMED
 
     def probably_vehicle_heartbeat(self, msg: MAVLink_message) -> bool:
         """Whether a HEARTBEAT is that of a vehicle, by the rule of `Link.wait_heartbeat`."""
@@ -344,8 +361,9 @@ class Connection:
                       initial_timestamp: int | None = None, link_id: int | None = None) -> None:
         """Signs what is sent, and replaces messages without a good signature by BAD_DATA.
 
-        `secret_key` has 32 bytes. `allow_unsigned_callback(mav, message_id)` returns whether a message without a good
-        signature is accepted.
+        `secret_key` has 32 bytes. Signatures that are a minute older than `initial_timestamp` are refused; it counts
+        10 µs since 2015, and is the present time by default. `allow_unsigned_callback(mav, message_id)` returns whether
+        a message without a good signature is accepted.
         """
         key = as_bytes(secret_key)
         if len(key) != 32:
@@ -355,8 +373,7 @@ class Connection:
         signing.sign_outgoing = sign_outgoing
         signing.allow_unsigned_callback = allow_unsigned_callback
         signing.link_id = _current.next_link_id() if link_id is None else link_id
-        if initial_timestamp is not None:
-            signing.timestamp = initial_timestamp
+        signing.timestamp = signing_time() if initial_timestamp is None else initial_timestamp
 
     def disable_signing(self) -> None:
         signing = self.mav.signing
@@ -378,8 +395,18 @@ class Connection:
             self._use(_current.change_to_version_2())
 
 
+def wait_of(timeout: float) -> float:
+    """A time-out in seconds that a system call accepts. Raises UsageError for NaN."""
+    if timeout != timeout:
+        raise UsageError("timeout: nan is no number of seconds")
+    return min(max(0.0, timeout), LONGEST_WAIT_S)
+
+
 def open_to_write(path: str | os.PathLike[str], mode: str) -> BinaryIO:
     if mode.replace("+", "") not in ("w", "wb", "a", "ab"):
         raise UsageError(f"mode {mode!r}: a log is opened with 'wb' or 'ab'")
-    file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
+    try:
+        file: Any = open(os.fspath(path), mode if "b" in mode else mode + "b", buffering=0)
+    except UnicodeEncodeError:
+        raise UsageError(f"{path!r:.60} is no name of a file: it has a lone surrogate") from None
     return file  # type: ignore[no-any-return]

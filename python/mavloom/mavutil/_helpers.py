@@ -43,6 +43,9 @@ class periodic_event:
         self.frequency = float(frequency)
         self.last_time = time.time()
 
+    def __repr__(self) -> str:
+        return f"periodic_event({self.frequency})"
+
     def force(self) -> None:
         """Makes the next trigger() true."""
         self.last_time = 0

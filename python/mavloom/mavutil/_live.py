@@ -6,15 +6,19 @@ import errno
 import os
 import select
 import sys
+import time
+from collections import deque
 from typing import Any
 
 from .._errors import ClosedError, SystemFailure, UsageError
 from .._link import Link
+from ._connection import LONGEST_WAIT_S, wait_of
 from ._services import mavfile
 from ._messages import MAVLink_message, as_bytes
 from ._urls import Target, host_and_port
 
 SIGNAL = (1).to_bytes(8, sys.byteorder)  # what makes an eventfd readable
+PYMAVLINK_GROUP = "239.255.145.50"
 FRAMES_APART = "mtu=0"  # each frame in a datagram of its own
 
 
@@ -26,16 +30,27 @@ class mavlive(mavfile):
         self.url = url
         self._closed = False
         self._watched = False  # whether somebody waits on the descriptor
-        self.link = Link(url, dialect=self.mav._dialect)
+        self._held: deque[MAVLink_message] = deque()  # read when the descriptor was armed
+        self.link = self._open(url)
         self._reader: Any = self.link._reader
 
+    def _open(self, url: str) -> Link:
+        return Link(url, dialect=self.mav._dialect)
+
     def _read(self, timeout: float) -> MAVLink_message | None:
-        message: MAVLink_message | None = self._reader.recv(timeout)
+        message: MAVLink_message | None = self._held.popleft() if self._held else self._reader.recv(timeout)
         if message is None and self._watched:
             message = self._arm()
         if message is not None:
             self._change_version()
         return message
+
+    def _damaged(self) -> int:
+        """How many damaged frames the link has counted."""
+        try:
+            return int(self.link.stats.crc_error)
+        except ClosedError:
+            return 0
 
     def _arm(self) -> MAVLink_message | None:
         """After a read that found nothing: the descriptor becomes readable when the next message arrives.
@@ -79,18 +94,25 @@ class mavlive(mavfile):
     @property
     def fd(self) -> int:
         """A descriptor for select and poll. It is readable while there may be messages."""
-        descriptor: int = self._reader.event_fd()
         if not self._watched:
             self._watched = True
-            os.write(descriptor, SIGNAL)  # messages may have arrived before
+            self._hold()
+        descriptor: int = self._reader.event_fd()
         return descriptor
+
+    def _hold(self) -> None:
+        """Makes the descriptor readable if there is a message, and holds that message for the next read."""
+        if not self._held and (message := self._arm()) is not None:
+            self._held.append(message)
 
     def fileno(self) -> int:
         return self.fd
 
     def select(self, timeout: float) -> bool:
-        """Waits until there is a message, for at most `timeout` seconds. Returns whether there may be one."""
-        ready, _, _ = select.select([self.fd], [], [], max(0.0, timeout))
+        """Waits until there is a message, for at most `timeout` seconds. Returns whether there is one."""
+        self._watched = True
+        self._hold()
+        ready, _, _ = select.select([self.fd], [], [], wait_of(timeout))
         return bool(ready)
 
     @property
@@ -100,6 +122,7 @@ class mavlive(mavfile):
 
     def close(self) -> None:
         self._closed = True
+        self._held.clear()
         self.link.close()
         super().close()
 
@@ -140,18 +163,34 @@ class mavudp(mavlive):
 
     def __init__(self, device: str, input: bool = True, broadcast: bool = False, source_system: int = 255,
                  source_component: int = 0, use_native: bool = False, timeout: float = 0) -> None:
-        host, port = host_and_port(device, "UDP")
+        host, port = host_and_port(device, "UDP", "0.0.0.0" if input else "127.0.0.1")
         scheme = "udpin" if input else "udpbcast" if broadcast else "udpout"
-        super().__init__(f"{scheme}://{host}:{port}?{FRAMES_APART}", device, source_system, source_component)
+        shared = "&reuse=true" if input else ""
+        super().__init__(f"{scheme}://{host}:{port}?{FRAMES_APART}{shared}", device, source_system, source_component)
 
 
 class mavmcast(mavlive):
-    """A multicast group; by default that of pymavlink."""
+    """A multicast group; by default, and with a port alone, that of pymavlink."""
 
     def __init__(self, device: str = "", source_system: int = 255, source_component: int = 0,
                  use_native: bool = False) -> None:
-        host, port = host_and_port(device or "239.255.145.50:14550", "multicast")
+        place = f":{device}" if device.isdigit() else device or ":14550"
+        host, port = host_and_port(place, "multicast", PYMAVLINK_GROUP)
         super().__init__(f"udpmcast://{host}:{port}?{FRAMES_APART}", device, source_system, source_component)
+
+
+def refusal(error: SystemFailure) -> OSError:
+    """The error that a program expects from a socket."""
+    if error.errno == errno.ECONNREFUSED:
+        return ConnectionRefusedError(errno.ECONNREFUSED, os.strerror(errno.ECONNREFUSED))
+    return error
+
+
+def seconds(value: float, name: str) -> float:
+    """A pause in seconds. Raises UsageError for what is none."""
+    if not isinstance(value, (int, float)) or not 0 <= value <= LONGEST_WAIT_S:
+        raise UsageError(f"{name}: {value!r} is no number of seconds, 0 to {LONGEST_WAIT_S}")
+    return value
 
 
 class mavtcp(mavlive):
@@ -159,16 +198,24 @@ class mavtcp(mavlive):
 
     def __init__(self, device: str, autoreconnect: bool = False, source_system: int = 255, source_component: int = 0,
                  retries: int = 3, reconnect_delay: float = 1, use_native: bool = False) -> None:
-        host, port = host_and_port(device, "TCP")
+        host, port = host_and_port(device, "TCP", "127.0.0.1")
         self.autoreconnect = autoreconnect
         self.retries = retries
-        required = "false" if autoreconnect else "true"
+        self.reconnect_delay = seconds(reconnect_delay, "reconnect_delay")
+        super().__init__(f"tcpout://{host}:{port}?required=true", device, source_system, source_component)
+
+    def _open(self, url: str) -> Link:
+        """Tries `retries` times, with a pause of `reconnect_delay` seconds."""
+        for _ in range(self.retries - 1):
+            try:
+                return super()._open(url)
+            except SystemFailure as error:
+                print(f"{refusal(error)} sleeping")
+                time.sleep(self.reconnect_delay)
         try:
-            super().__init__(f"tcpout://{host}:{port}?required={required}", device, source_system, source_component)
+            return super()._open(url)
         except SystemFailure as error:
-            if error.errno == errno.ECONNREFUSED:
-                raise ConnectionRefusedError(error.errno, error.strerror) from error
-            raise
+            raise refusal(error) from None
 
 
 class mavtcpin(mavlive):

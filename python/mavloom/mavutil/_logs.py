@@ -138,15 +138,13 @@ class mavmmaplog(mavlogfile):
         super().__init__(filename, source_system=source_system, source_component=source_component)
         self._flightmodes: list[tuple[str, float, float]] | None = None
         assert self._log_file is not None
-        self._counts: dict[str, int] = self._log_file.index(self._state, self)
+        self._counts: dict[str, int] = self._log_file.index(self._state, self, progress_callback)
         self._change_version()
         for state in self.sysid_state.values():
             state.flightmode = "UNKNOWN"
         self.data_len = self.filesize
         self.name_to_id = {name: self.mav._dialect[name].id for name in self._counts}
         self.id_to_name = {number: name for name, number in self.name_to_id.items()}
-        if progress_callback is not None:
-            progress_callback(100)
 
     @property
     def counts(self) -> dict[int, int]:

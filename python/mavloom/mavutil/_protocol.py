@@ -46,6 +46,10 @@ class MAVLinkSigning:
         self.unsigned_count = 0
         self.reject_count = 0
 
+    def __repr__(self) -> str:
+        state = "off" if self.secret_key is None else "signs" if self.sign_outgoing else "verifies"
+        return f"<MAVLinkSigning {state}, link {self.link_id}, {self.goodsig_count} good, {self.reject_count} refused>"
+
     def next_timestamp(self) -> int:
         """The time of the next signature. Times never repeat, and follow the clock."""
         now = max(self.timestamp, signing_time())
@@ -100,13 +104,16 @@ class MAVLink:
         self.total_bytes_sent = 0
         self.total_packets_received = 0
         self.total_bytes_received = 0
-        self.total_receive_errors = 0
+        self._errors = 0  # that this object found; a link counts its own
         self.startup_time = time.time()
         self.signing = MAVLinkSigning()
         self._dialect = self._module.new_dialect()
         self._parser = MavutilParser(self._dialect)
         self._found: collections.deque[MAVLink_message | tuple[bytes, str]] = collections.deque()
         self._sending = threading.RLock()
+
+    def __repr__(self) -> str:
+        return f"<MAVLink {self.srcSystem}/{self.srcComponent} seq {self.seq} to {type(self.file).__name__}>"
 
     def _take_over(self, other: MAVLink) -> None:
         """Receives with the parser, signing and callbacks of another object, in its place."""
@@ -116,6 +123,19 @@ class MAVLink:
                                                                    other.callback_kwargs)
         self.send_callback, self.send_callback_args, self.send_callback_kwargs = (
             other.send_callback, other.send_callback_args, other.send_callback_kwargs)
+
+    @property
+    def total_receive_errors(self) -> int:
+        """Frames with a wrong checksum, and bytes that are no frame. A live connection counts only frames."""
+        return self._errors + self._errors_of_link()
+
+    @total_receive_errors.setter
+    def total_receive_errors(self, value: int) -> None:
+        self._errors = value - self._errors_of_link()
+
+    def _errors_of_link(self) -> int:
+        of_link: Callable[[], int] | None = getattr(self.file, "_damaged", None)
+        return 0 if of_link is None else of_link()
 
     # ---- sending
 
@@ -150,14 +170,15 @@ class MAVLink:
                                      0 if key is None else signing.next_timestamp())
         return frame
 
-    def __getattr__(self, call: str) -> Callable[..., Any]:
-        name, _, verb = call.rpartition("_")
-        dialect = type(self)._module.dialect
-        if verb not in ("send", "encode") or name.upper() not in dialect:
-            raise AttributeError(f"MAVLink has no {call}: use NAME_send or NAME_encode, for example heartbeat_send")
-        setattr(type(self), call, make_call(type(self)._module, name, verb, dialect[name.upper()].fields))
-        made: Callable[..., Any] = getattr(self, call)
-        return made
+    if not TYPE_CHECKING:  # the stub of each module has the calls
+        def __getattr__(self, call: str) -> Callable[..., Any]:
+            name, _, verb = call.rpartition("_")
+            dialect = type(self)._module.dialect
+            if verb not in ("send", "encode") or name.upper() not in dialect:
+                raise AttributeError(f"MAVLink has no {call}: use NAME_send or NAME_encode, for example heartbeat_send")
+            setattr(type(self), call, make_call(type(self)._module, name, verb, dialect[name.upper()].fields))
+            made: Callable[..., Any] = getattr(self, call)
+            return made
 
     def __dir__(self) -> list[str]:
         names = [name.lower() for name in type(self)._module.dialect.message_names]
@@ -193,7 +214,7 @@ class MAVLink:
             self.total_packets_received += 1
             return self._checked(found)
         data, reason = found
-        self.total_receive_errors += 1
+        self._errors += 1
         if not self.robust_parsing:
             raise MAVError(reason if reason != "Bad prefix" else f"invalid MAVLink prefix '{data[0]}'")
         return MAVLink_bad_data(data, reason)

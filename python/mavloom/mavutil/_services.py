@@ -6,6 +6,7 @@ import time
 from typing import Any
 
 from .. import _modes
+from .._errors import UsageError
 from . import _modes as tables
 from ._connection import Connection
 from ._helpers import location
@@ -17,6 +18,18 @@ MODE_MANUAL_ARMED, MODE_STABILIZE_ARMED = 192, 208
 PARAM_TYPE_REAL32 = 9  # MAV_PARAM_TYPE
 FORCE_REBOOT = 20190226  # ArduPilot reboots in flight with this in param6
 PARAM_LIST_PAUSE_S = 2.0  # the least time between two requests for all parameters
+
+
+def encoded(name: str | bytes) -> bytes:
+    """The bytes of a parameter's name. Raises UsageError for what is no text."""
+    if isinstance(name, (bytes, bytearray)):
+        return bytes(name)
+    if not isinstance(name, str):
+        raise UsageError(f"a parameter has a name, for example 'RTL_ALT', not {name!r:.60}")
+    try:
+        return name.encode()
+    except UnicodeEncodeError:
+        raise UsageError(f"the name of a parameter has a lone surrogate: {name!r:.60}") from None
 
 
 # Attributes of pymavlink's connections that have no meaning here, and the reason.
@@ -61,13 +74,13 @@ class mavfile(Connection):
 
     def mode_mapping(self) -> Any:
         """{name: mode} of the vehicle: numbers for ArduPilot, (base mode, main mode, sub mode) for PX4."""
-        if self.field("HEARTBEAT", "autopilot") == _modes.AUTOPILOT_PX4:
+        if self._target.mav_autopilot == _modes.AUTOPILOT_PX4:
             return tables.px4_map
         return tables.mode_mapping_byname(self.mav_type)
 
     def set_mode(self, mode: str | int, custom_mode: int = 0, custom_sub_mode: int = 0) -> None:
         """Requests a flight mode by name or number; of a PX4 also by its three numbers."""
-        if self.field("HEARTBEAT", "autopilot") == _modes.AUTOPILOT_PX4:
+        if self._target.mav_autopilot == _modes.AUTOPILOT_PX4:
             self.set_mode_px4(mode, custom_mode, custom_sub_mode)
         else:
             self.set_mode_apm(mode)
@@ -102,32 +115,41 @@ class mavfile(Connection):
         self._command(MISSION_START)
 
     def set_mode_rtl(self) -> None:
+        """Requests the return to the launch site."""
         self._command(NAV_RETURN_TO_LAUNCH)
 
     def set_mode_loiter(self) -> None:
+        """Requests circling or hovering at the present position, without a time limit."""
         self._command(NAV_LOITER_UNLIM)
 
     def set_mode_manual(self) -> None:
+        """Requests manual mode, with armed motors."""
         self._command(DO_SET_MODE, MODE_MANUAL_ARMED)
 
     def set_mode_fbwa(self) -> None:
+        """Requests stabilised flight, with armed motors."""
         self._command(DO_SET_MODE, MODE_STABILIZE_ARMED)
 
     # ---- commands
 
     def set_servo(self, channel: int, pwm: int) -> None:
+        """Sets an output to a pulse length in µs."""
         self._command(DO_SET_SERVO, channel, pwm)
 
     def set_relay(self, relay_pin: int = 0, state: bool = True) -> None:
+        """Switches a relay on or off."""
         self._command(DO_SET_RELAY, relay_pin, bool(state))
 
     def calibrate_level(self) -> None:
+        """Requests the calibration of gyroscope and magnetometer, as in pymavlink."""
         self._command(PREFLIGHT_CALIBRATION, 1, 1)
 
     def calibrate_pressure(self) -> None:
+        """Requests the calibration of the pressure on the ground."""
         self._command(PREFLIGHT_CALIBRATION, 0, 0, 1)
 
     def reboot_autopilot(self, hold_in_bootloader: bool = False, force: bool = False) -> None:
+        """Restarts the autopilot; `force`: an ArduPilot also in flight."""
         self._command(PREFLIGHT_REBOOT_SHUTDOWN, 3 if hold_in_bootloader else 1, 0, 0, 0, 0,
                       FORCE_REBOOT if force else 0)
 
@@ -138,6 +160,7 @@ class mavfile(Connection):
         self._command(COMPONENT_ARM_DISARM, 1)
 
     def arducopter_disarm(self) -> None:
+        """Requests that the motors are disarmed, of any autopilot."""
         self._command(COMPONENT_ARM_DISARM, 0)
 
     def motors_armed(self) -> int | bool:
@@ -188,15 +211,17 @@ class mavfile(Connection):
             self.mav.param_request_list_send(self.target_system, self.target_component)
 
     def param_fetch_one(self, name: str | bytes | int) -> None:
-        """Requests one parameter, by name or index."""
-        index = name if isinstance(name, int) else -1
-        text = b"" if isinstance(name, int) else name.encode() if isinstance(name, str) else name
+        """Requests one parameter, by name or index. A name that is a number, such as "5", is an index."""
+        text: Any = name
+        try:
+            index, text = int(name), b""
+        except (TypeError, ValueError, OverflowError):
+            index, text = -1, encoded(text)
         self.mav.param_request_read_send(self.target_system, self.target_component, text, index)
 
     def param_set_send(self, parm_name: str | bytes, parm_value: float, parm_type: int | None = None) -> None:
         """Sends a new value of a parameter. The type is REAL32 if it is not given."""
-        name = parm_name.encode() if isinstance(parm_name, str) else parm_name
-        self.mav.param_set_send(self.target_system, self.target_component, name, parm_value,
+        self.mav.param_set_send(self.target_system, self.target_component, encoded(parm_name), parm_value,
                                 PARAM_TYPE_REAL32 if parm_type is None else parm_type)
 
     def param(self, name: str, default: Any = None) -> Any:
@@ -206,15 +231,19 @@ class mavfile(Connection):
     # ---- waypoints
 
     def waypoint_request_list_send(self) -> None:
+        """Requests the number of waypoints; the vehicle answers with MISSION_COUNT."""
         self.mav.mission_request_list_send(self.target_system, self.target_component)
 
     def waypoint_clear_all_send(self) -> None:
+        """Requests that all waypoints are deleted."""
         self.mav.mission_clear_all_send(self.target_system, self.target_component)
 
     def waypoint_request_send(self, seq: int) -> None:
+        """Requests one waypoint; the vehicle answers with MISSION_ITEM."""
         self.mav.mission_request_send(self.target_system, self.target_component, seq)
 
     def waypoint_set_current_send(self, seq: int) -> None:
+        """Requests that the vehicle flies to this waypoint next."""
         self.mav.mission_set_current_send(self.target_system, self.target_component, seq)
 
     def waypoint_current(self) -> int:
@@ -224,6 +253,7 @@ class mavfile(Connection):
         return number
 
     def waypoint_count_send(self, seq: int) -> None:
+        """Begins an upload of `seq` waypoints; the vehicle requests each."""
         self.mav.mission_count_send(self.target_system, self.target_component, seq)
 
 

@@ -7,12 +7,18 @@ import os
 import re
 from dataclasses import dataclass
 
-from .._errors import NotFoundError, UsageError
+from .._errors import NotFoundError, SystemFailure, UsageError
 
 KINDS = ("udp", "udpin", "udpout", "udpbcast", "mcast", "tcp", "tcpin")
+LOOPBACK = "127.0.0.1"  # of localhost: pymavlink's sockets have no IPv6
+PROGRAM = "programs are not started here: start it yourself and connect to its port"
+PROGRAM_BEGINNINGS = (b"\x7fELF", b"#!")
 REFUSED = {
     "ws": "there is no web socket server here: use tcpin:HOST:PORT, and a web server of your own behind it",
     "wss": "there are no web sockets here: use tcp:HOST:PORT to a bridge, such as websocat",
+    "wsserver": "there is no web socket server here: use tcpin:HOST:PORT, and a web server of your own behind it",
+    "csv": "CSV files are not read here: use pymavlink's CSVReader, or pandas.read_csv()",
+    "unix": "there are no Unix stream sockets here: use tcp:HOST:PORT, or a ring, shm://NAME",
     "uds": "there are no Unix stream sockets here: use tcp:HOST:PORT, or a ring, shm://NAME",
 }
 
@@ -25,14 +31,23 @@ class Target:
     baud: int | None = None
 
 
-def host_and_port(device: str, what: str) -> tuple[str, int]:
-    """Splits HOST:PORT; the host may be an IPv6 address in brackets."""
+def host_and_port(device: str, what: str, default: str = "0.0.0.0") -> tuple[str, int]:
+    """Splits HOST:PORT; the host may be an IPv6 address in brackets. ":PORT" is a port of the default host."""
     host, colon, port = device.rpartition(":")
-    if not colon or not host:
+    host = LOOPBACK if host == "localhost" else host or default
+    if not colon:
         raise UsageError(f"{what} ports must be given as host:port, not {device!r}")
     if not re.fullmatch(r"\d{1,5}", port) or int(port) > 65535:
         raise UsageError(f"{device!r}: {port!r} is not a port, 0 to 65535")
     return host, int(port)
+
+
+def is_program(path: str) -> bool:
+    """Whether a file is a program or script. On some file systems, recordings are executable as well."""
+    if not os.path.isfile(path) or not os.access(path, os.X_OK):
+        return False
+    with open(path, "rb") as file:
+        return file.read(4).startswith(PROGRAM_BEGINNINGS)
 
 
 def target_of(device: str | os.PathLike[str]) -> Target:
@@ -53,8 +68,12 @@ def target_of(device: str | os.PathLike[str]) -> Target:
         return Target(kind, rest)
     if colon and kind in REFUSED:
         raise UsageError(f"{text}: {REFUSED[kind]}")
-    if text.lower().endswith(".elf"):
-        raise UsageError(f"{text}: programs are not started here: start it yourself and connect to its port")
+    if text.lower().endswith(".px4log"):
+        raise UsageError(f"{text}: old logs of PX4 are not read here: use pymavlink's DFReader")
+    if text.lower().endswith(".elf") or is_program(text):
+        raise UsageError(f"{text}: {PROGRAM}")
+    if os.path.isdir(text):
+        raise SystemFailure(errno.EISDIR, f"{text} is a folder, neither a recording nor a device")
     if os.path.isfile(text) or text.lower().endswith((".tlog", ".log", ".bin", ".ulg")):
         return Target("file", text)
     if colon and not text.startswith("/"):

@@ -2,6 +2,7 @@
 #include "mavutil/log.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -17,6 +18,21 @@ namespace mavloom::python {
 
 // ---- types
 
+namespace {
+
+// The id in "UNKNOWN_<id>", the name of a message without definition.
+std::optional<MessageId> unknown_id(std::string_view name) noexcept {
+    constexpr std::string_view beginning = "UNKNOWN_";
+    if (!name.starts_with(beginning)) return std::nullopt;
+    const auto digits = name.substr(beginning.size());
+    std::uint32_t id = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+    if (error != std::errc{} || end != digits.data() + digits.size() || id > 0xff'ff'ff) return std::nullopt;
+    return MessageId{id};
+}
+
+}  // namespace
+
 MavutilTypes::MavutilTypes(const PyDialect& dialect, const nb::iterable& names) {
     const auto& definitions = dialect.definitions->dialect();
     for (const nb::handle name : names) {
@@ -27,12 +43,14 @@ MavutilTypes::MavutilTypes(const PyDialect& dialect, const nb::iterable& names) 
         const std::string text = nb::cast<std::string>(name);
         bad_data_ = bad_data_ || text == "BAD_DATA";
         if (const auto* message = definitions.find(text)) ids_.push_back(message->id());
+        else if (const auto id = unknown_id(text)) unknown_.push_back(*id);
     }
 }
 
 bool MavutilTypes::takes(const MavutilMessage& message) const noexcept {
     if (message.base.size == 0) return bad_data_;
-    return message.base.definition != nullptr && std::ranges::find(ids_, message.base.definition->id()) != ids_.end();
+    const auto& ids = message.base.definition == nullptr ? unknown_ : ids_;
+    return std::ranges::find(ids, message.base.frame().id()) != ids.end();
 }
 
 // ---- reading
@@ -230,24 +248,39 @@ private:
     std::set<std::pair<const dialect::Message*, feed::Instance>> instances_;
 };
 
-// Reads the whole file without the GIL. Handles signals now and then.
-void add_all(record::TlogReader& file, Index& index) {
+int percent_of(const record::TlogReader& file) {
+    return file.size() == 0 ? 100 : static_cast<int>(100 * file.position() / file.size());
+}
+
+// Reads until signals must be handled or `percent` of the file are passed. Returns false at the end.
+bool add_some(record::TlogReader& file, Index& index, int percent) {
+    using Stop = record::TlogReader::Stop;
+    const WithoutGil outside;
+    for (std::size_t read = 0; read < 65'536 && percent_of(file) <= percent; ++read) {
+        const auto record = file.next(most_damage);
+        if (record) index.add(*record);
+        else if (record.error() != Stop::damage) return false;
+    }
+    return true;
+}
+
+// Reads the whole file. Calls `progress` with each percentage that is reached.
+void add_all(record::TlogReader& file, Index& index, const nb::object& progress) {
+    int percent = 0;
     for (bool more = true; more; check_signals()) {
-        const WithoutGil outside;
-        for (std::size_t read = 0; more && read < 65'536; ++read) {
-            const auto record = file.next(most_damage);
-            if (record) index.add(*record);
-            else more = record.error() == record::TlogReader::Stop::damage;
-        }
+        more = add_some(file, index, progress.is_none() ? 100 : percent);
+        const int reached = more ? percent_of(file) : 100;
+        if (!progress.is_none() && reached > percent) progress(reached);
+        percent = std::max(percent, reached);
     }
 }
 
 }  // namespace
 
-nb::dict MavutilLog::index(MavutilState& state, const nb::object& owner) {
+nb::dict MavutilLog::index(MavutilState& state, const nb::object& owner, const nb::object& progress) {
     Index index(origin_->dialect());
     auto file = value_or_raise(open());
-    add_all(file, index);
+    add_all(file, index, progress);
     for (const auto& first : index.firsts) {
         const nb::object message = make_mavutil_message(origin_, first.definition, first.time_ns, 0,
                                                         wire::FrameView::unchecked(first.frame), 0);
@@ -306,8 +339,9 @@ void bind_mavutil_log(nb::module_& module) {
             nb::arg("path"), nb::arg("dialect"), nb::arg("bad_data"),
             nb::sig("def __init__(self, path: str | os.PathLike[str], dialect: Dialect, bad_data: "
                     "collections.abc.Callable[[bytes, str], MavutilMessage]) -> None"))
-        .def("index", &MavutilLog::index, nb::arg("state"), nb::arg("owner"),
-             nb::sig("def index(self, state: MavutilState, owner: typing.Any) -> dict[str, int]"))
+        .def("index", &MavutilLog::index, nb::arg("state"), nb::arg("owner"), nb::arg("progress").none(),
+             nb::sig("def index(self, state: MavutilState, owner: typing.Any, "
+                     "progress: collections.abc.Callable[[int], object] | None) -> dict[str, int]"))
         .def("match", &MavutilLog::match, nb::arg("state"), nb::arg("owner"), nb::arg("types").none(),
              nb::sig(
                  "def match(self, state: MavutilState, owner: typing.Any, types: MavutilTypes | None) -> typing.Any"))

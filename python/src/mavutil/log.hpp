@@ -23,11 +23,12 @@ public:
     MavutilTypes(const PyDialect& dialect, const nb::iterable& names);
 
     [[nodiscard]] bool takes(const MavutilMessage& message) const noexcept;
-    // Whether the dialect has any of them. BAD_DATA is what a connection that verifies signatures returns.
-    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty(); }
+    // Whether any of them can arrive: those of the dialect, UNKNOWN_<id>, and BAD_DATA, which a connection returns that
+    // verifies signatures.
+    [[nodiscard]] bool has_any() const noexcept { return bad_data_ || !ids_.empty() || !unknown_.empty(); }
 
 private:
-    std::vector<MessageId> ids_;
+    std::vector<MessageId> ids_, unknown_;
     bool bad_data_ = false;
 };
 
@@ -38,8 +39,8 @@ public:
 
     // Reads the whole file: counts its messages, and notes the first one of each type in `state`, as pymavlink does
     // when it opens a file. These, and further instances, also become messages of the target. Calls owner._notice() for
-    // those that concern it. Returns {name: count}.
-    nb::dict index(MavutilState& state, const nb::object& owner);
+    // those that concern it, and progress(percent) unless it is None. Returns {name: count}.
+    nb::dict index(MavutilState& state, const nb::object& owner, const nb::object& progress);
     // Returns the next message; an invalid object at the end, until the file grows. Notes nothing.
     nb::object next();
     // Returns the next message of these types, or None at the end. Notes every message that it passes in `state`, and

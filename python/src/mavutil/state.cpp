@@ -10,6 +10,7 @@
 #include "mavloom/message/view.hpp"
 #include "mavloom/msg/gps_raw_int.hpp"
 #include "mavloom/msg/heartbeat.hpp"
+#include "mavloom/msg/high_latency2.hpp"
 #include "mavloom/msg/param_value.hpp"
 #include "strings.hpp"
 
@@ -20,7 +21,15 @@ namespace {
 constexpr Source radio{SystemId{'3'}, ComponentId{'D'}};
 
 bool concerns_connection(MessageId id) noexcept {
-    return id == msg::Heartbeat::id || id == msg::ParamValue::id || id == msg::GpsRawInt::id;
+    return id == msg::Heartbeat::id || id == msg::ParamValue::id || id == msg::GpsRawInt::id ||
+           id == msg::HighLatency2::id;
+}
+
+// On a slow link, a vehicle sends HIGH_LATENCY2 in place of heartbeats.
+bool is_from_vehicle(const wire::FrameView& frame) noexcept {
+    if (frame.id() != msg::HighLatency2::id) return feed::is_vehicle_heartbeat(frame);
+    const auto summary = msg::HighLatency2::decode(frame.payload());
+    return feed::is_vehicle(summary.type, summary.autopilot);
 }
 
 }  // namespace
@@ -37,8 +46,9 @@ bool MavutilState::note(const nb::object& message) {
     time_ns = given->base.time_ns;
     if (given->base.size == 0 || given->base.definition == nullptr) return true;
     const auto frame = given->base.frame();
-    if (target == 0 && feed::is_vehicle_heartbeat(frame)) target = frame.system().value;
+    if (target == 0 && is_from_vehicle(frame)) target = frame.system().value;
     add(messages(frame.system().value), message, *given);
+    if (frame.source() == radio) add_to_all(message, *given);
     note_uptime(*given);
     if (frame.source() != radio) note_sequence(frame);
     return concerns_connection(frame.id());
@@ -70,6 +80,12 @@ void MavutilState::add(const nb::dict& messages, const nb::object& message, cons
     if (const auto* instance = feed::instance_field(*of.base.definition))
         add_instance_of(messages, message, of, *instance);
     if (PyDict_SetItem(messages.ptr(), name.ptr(), message.ptr()) != 0) throw nb::python_error();
+}
+
+void MavutilState::add_to_all(const nb::object& message, const MavutilMessage& of) {
+    messages(0);
+    for (const auto& one : messages_)
+        if (one.is_valid()) add(nb::borrow<nb::dict>(one), message, of);
 }
 
 void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,

@@ -19,7 +19,7 @@ public:
     explicit MavutilState(nb::object messages_of) : messages_of_(std::move(messages_of)) {}
 
     // Notes a message. The first vehicle becomes the target. Returns true if the connection must look at it as well: a
-    // heartbeat, a parameter, a GPS position or a message without definition.
+    // heartbeat, a summary (HIGH_LATENCY2), a parameter, a GPS position or a message without definition.
     bool note(const nb::object& message);
     // Adds a message to those of the target, whatever its sender. Counts nothing.
     void add_to_target(const nb::object& message);
@@ -37,6 +37,8 @@ private:
     static constexpr Py_ssize_t most_messages = 4096;
 
     void add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of);
+    // Messages of a radio concern all systems behind it.
+    void add_to_all(const nb::object& message, const MavutilMessage& of);
     static void add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
                                 const dialect::Field& instance);
     void note_sequence(const wire::FrameView& frame);

@@ -48,6 +48,8 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
     // A single socket on :: serves both families. If each family has its own socket, the IPv6 one must not also take
     // IPv4.
     options.v6_only = addresses.size() > 1;
+    // The kernel gives two sockets that share addresses the same free port.
+    options.reuse_address = info.endpoint.options.reuse && info.endpoint.address.port != 0;
     for (const net::Address& address : addresses) {
         auto port = std::make_unique<UdpPort>(core_, *this, counters, info.endpoint.options.mtu_bytes);
         const bool any_port = address.port() == 0 && info.local_port != 0;

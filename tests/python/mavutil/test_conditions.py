@@ -9,10 +9,18 @@ from pymavlink import mavutil as theirs
 import mavloom
 from mavloom import mavutil
 
+
+
+def heartbeat():
+    mavlink = mavutil.mavlink
+    return mavlink.MAVLink(None).decode(mavlink.MAVLink_heartbeat_message(2, 3, 81, 4, 4, 3).pack(
+        mavlink.MAVLink(None, 7, 1)))
+
+
 MESSAGES = {
     "ATTITUDE": types.SimpleNamespace(roll=0.5, pitch=-0.25, text="abc", values=[1, 2, 3], _timestamp=7.5),
     "MAV": types.SimpleNamespace(flightmode="AUTO", armed=128), "x": 4,
-    "BATTERY_STATUS": {1: types.SimpleNamespace(id=1)},
+    "HEARTBEAT": heartbeat(), "BATTERY_STATUS": {1: types.SimpleNamespace(id=1)},
 }
 
 GOOD = [
@@ -23,7 +31,10 @@ GOOD = [
     "ATTITUDE._timestamp", "round(ATTITUDE.roll, 1)", "round(3.7)",
     "round(1234, -2)", "True", "0", "''", "None is None", "x and ATTITUDE.roll",
     "0 or x", " x > 1 ", "x{ATTITUDE.roll>0}", "x{ATTITUDE.roll>1}", "(1, 2)", "[x, 1]", "str(x) + 'a'",
-    "NO_SUCH.field > 1", "x / 0", "NO_SUCH", "atan2(1, x)", "int(3.7)", "min([3, 1])",
+    "NO_SUCH.field > 1", "x / 0", "NO_SUCH", "atan2(1, x)", "int(3.7)", "min([3, 1])", "pow(x, 2)", "pow(x, 0.5) == 2",
+    "ATTITUDE.text.startswith('ab')", "MAV.flightmode.endswith(('TO', 'X'))", "HEARTBEAT.get_srcSystem() == 7",
+    "HEARTBEAT.get_srcComponent() in (1, 2)", "HEARTBEAT.get_type().startswith('HEART')", "HEARTBEAT.get_seq()",
+    "HEARTBEAT.get_msgId()", "NO_SUCH.get_type()",
 ]
 
 
@@ -52,6 +63,11 @@ def test_no_condition_is_true():
     ("'%999999999d' % 1", "cannot format text"),
     ("ATTITUDE.rol > 1", "has no attribute 'rol'"), ("x[0]", "not subscriptable"),
     ("ATTITUDE.values[9]", "out of range"), ("'a' + 1", "can only concatenate"), ("sqrt(-1)", "math domain error"),
+    ("x.get_type()", r"int has no get_type\(\)"), ("ATTITUDE.get_srcSystem()", r"SimpleNamespace has no get_srcSystem"),
+    ("HEARTBEAT.to_dict()", "this call"), ("HEARTBEAT.pack(1)", "this call"), ("HEARTBEAT.get_type", "is not a field"),
+    ("HEARTBEAT.startswith('x')", "has no startswith"), ("'a'.startswith(1)", "first arg must be str"),
+    ("HEARTBEAT.get_type(1)", "incompatible|takes|argument"), ("HEARTBEAT.get_msgbuf()", "this call"),
+    ("'a'.startswith(*x)", "Starred is not possible"), ("pow(10, 999)", "math range error"), ("pow(1)", "expected 2"),
     ("await x", "no expression|Await"), ("x" * 20_000, "too long"),
     ("+".join(["1"] * 4000), "nested too deeply|no expression"), ("*x", "no expression|Starred"),
 ])

@@ -10,7 +10,6 @@ import threading
 import time
 
 import pytest
-from pymavlink import mavutil as theirs_module
 
 import mavloom
 from autopilot import Autopilot, Settings
@@ -20,26 +19,6 @@ from vehicles import Vehicle, until
 
 DEADLINE_S = 60
 T_US = 1_700_000_000_000_000
-
-
-@pytest.fixture(autouse=True)
-def as_imported(monkeypatch):
-    """mavutil.mavlink as it is when the module is imported, whatever earlier tests received."""
-    monkeypatch.delenv("MAVLINK20", raising=False)
-    before = mavutil.mavlink
-    mavutil._current.use(mavutil._current.module_of(mavloom.Dialect(), 1))
-    yield
-    mavutil._current.use(before)
-
-
-@pytest.fixture
-def their_mavutil(peer, monkeypatch):
-    """pymavlink's mavutil, with the module made from our definitions."""
-    for package in ("v10", "v20"):
-        monkeypatch.setitem(sys.modules, f"pymavlink.dialects.{package}.peer", peer)
-    monkeypatch.setattr(theirs_module, "mavlink", peer)
-    monkeypatch.setattr(theirs_module, "current_dialect", "peer")
-    return theirs_module
 
 
 def write_log(path, frames):
@@ -379,25 +358,10 @@ def test_a_program_may_parse_and_post_messages_itself(peer):
     connection.close()
 
 
-def test_two_connections_on_one_port_are_the_error_of_the_system():
-    first = mavutil.mavlink_connection("udpin:127.0.0.1:0")
-    for kind in ("udpin", "udp"):
-        with pytest.raises(OSError) as caught:
-            mavutil.mavlink_connection(f"{kind}:127.0.0.1:{first.link.port}")
-        assert caught.value.errno == 98
-    first.close()
-    again = mavutil.mavlink_connection(f"udpin:127.0.0.1:{first.link.port}")
-    again.close()
-
-
-def test_nothing_listens_on_a_tcp_port():
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        with pytest.raises(ConnectionRefusedError):
-            mavutil.mavlink_connection(f"tcp:127.0.0.1:{free.getsockname()[1]}")
-
-
 @pytest.mark.parametrize("device, text", [
+    ("wsserver:0.0.0.0:80", "there is no web socket server here"), ("unix:/run/x", "no Unix stream sockets here"),
+    ("csv:x.csv", "CSV files are not read here: use pymavlink's CSVReader"),
+    ("x.px4log", "old logs of PX4 are not read here: use pymavlink's DFReader"),
     ("wss:example.org:443", "there are no web sockets here: use tcp:HOST:PORT"),
     ("ws:0.0.0.0:80", "there is no web socket server here: use tcpin:HOST:PORT"),
     ("uds:/run/x", "there are no Unix stream sockets here"), ("sim.elf", "programs are not started here"),

@@ -269,7 +269,7 @@ TEST(ParseEndpoint, TakesEveryOptionOfAnAddress) {
             "udpin://127.0.0.1:14550?name=ground%20station&group=uplink&group_mode=best&mtu=0&idle=2&queue_bytes=64k"
             "&queue_age=500ms&max_rate=ATTITUDE:10,*:50&max_bytes=5000&in_allow=HEARTBEAT,30,sys:42&in_block=comp:100"
             "&out_allow=sys:1,sys:2&out_block=PING&tap=true&private=true&sign=%2Fkey&verify=key.hex&rcvbuf=1MiB"
-            "&max_peers=8&iface=eth0&ttl=4&low_latency=true&required=true")
+            "&max_peers=8&iface=eth0&ttl=4&low_latency=true&required=true&reuse=true")
             .options;
 
     EXPECT_EQ(options.name, "ground station");
@@ -300,6 +300,7 @@ TEST(ParseEndpoint, TakesEveryOptionOfAnAddress) {
     EXPECT_EQ(options.ttl, 4);
     EXPECT_TRUE(options.low_latency);
     EXPECT_TRUE(options.required);
+    EXPECT_TRUE(options.reuse);
 }
 
 TEST(ParseEndpoint, TakesTheOptionsOfOtherSchemes) {
@@ -428,7 +429,7 @@ TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
 }
 
 TEST(EndpointOptionNames, HoldWhatTheDesignLists) {
-    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(36));
+    EXPECT_THAT(endpoint_option_names(), testing::SizeIs(37));
     EXPECT_THAT(endpoint_option_names(),
                 testing::IsSupersetOf({"name", "mtu", "max_rate", "private", "rotate_every", "bind", "low_latency"}));
 }

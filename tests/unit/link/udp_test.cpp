@@ -434,6 +434,21 @@ TEST(LinksUdp, ListeningOnANameBindsAllItsAddresses) {
     ASSERT_TRUE(until([&] { return listener.recorder.frames.size() == 2; }, listener, four, six));
 }
 
+TEST(LinksUdp, TheNewestSocketOfASharedPortReceives) {
+    Node first;
+    const auto free = first.add("udpin://127.0.0.1:0?reuse=true");
+    const auto port = first.port(free);
+    first.links->remove(free);
+    first.add(to("udpin", port, "?reuse=true"));
+    Node second;
+    EXPECT_THAT(second.refused(to("udpin", port)).text, HasSubstr("cannot bind"));
+    second.add(to("udpin", port, "?reuse=true"));
+    const auto peer = PlainSocket::udp();
+    peer.send_to(port, heartbeat(1));
+    ASSERT_TRUE(until([&] { return second.recorder.frames.size() == 1; }, first, second));
+    EXPECT_THAT(first.recorder.frames, SizeIs(0));
+}
+
 TEST(LinksUdp, ManyPeersGetTheirFramesInOneTurn) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");

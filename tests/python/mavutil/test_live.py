@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+"""Opening live connections of mavloom.mavutil, and what they count, against pymavlink's."""
+import contextlib
+import socket
+import time
+
+import pytest
+
+import mavloom
+from mavloom import mavutil
+from tlogs import packer
+from vehicles import Vehicle, until
+
+DEADLINE_S = 60
+
+
+@pytest.fixture(params=["pymavlink", "mavloom"])
+def module(request, their_mavutil):
+    return mavutil if request.param == "mavloom" else their_mavutil
+
+
+# ---- TCP
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+@pytest.mark.parametrize("tries, options", [
+    (3, {}), (1, {"retries": 1}), (1, {"retries": 0}), (1, {"retries": -1}), (3, {"autoreconnect": True}),
+    (5, {"retries": 5, "reconnect_delay": 0.25})])
+def test_a_server_that_never_comes_is_tried_as_often_as_by_pymavlink(tries, options, module, monkeypatch, capsys):
+    pauses = []
+    monkeypatch.setattr(time, "sleep", pauses.append)
+    with pytest.raises(ConnectionRefusedError):
+        module.mavlink_connection(f"tcp:127.0.0.1:{free_port()}", **options)
+    assert pauses == [options.get("reconnect_delay", 1)] * (tries - 1)
+    assert capsys.readouterr().out == "[Errno 111] Connection refused sleeping\n" * (tries - 1)
+
+
+def test_a_server_that_comes_later_is_reached(module, monkeypatch):
+    port, pauses = free_port(), []
+    with contextlib.ExitStack() as servers:
+        def begin_to_listen(pause):
+            pauses.append(pause)
+            if len(pauses) == 2:
+                servers.enter_context(socket.create_server(("127.0.0.1", port)))
+        monkeypatch.setattr(time, "sleep", begin_to_listen)
+        module.mavlink_connection(f"tcp:127.0.0.1:{port}").close()
+    assert pauses == [1, 1]
+
+
+@pytest.mark.parametrize("pause", [-1, float("nan"), float("inf"), "1"])
+def test_pauses_that_are_none(pause):
+    with pytest.raises(mavloom.UsageError, match="reconnect_delay: .* is no number of seconds"):
+        mavutil.mavlink_connection(f"tcp:127.0.0.1:{free_port()}", reconnect_delay=pause)
+
+
+# ---- strings
+
+@pytest.mark.parametrize("listening, sending", [
+    ("udpin::{}", "udpout:127.0.0.1:{}"), (":{}", "udpout::{}"), ("udp::{}", "udpout:localhost:{}"),
+    ("tcpin::{}", "tcp:127.0.0.1:{}"), ("tcpin::{}", "tcp::{}")])
+def test_a_port_alone_is_a_place(listening, sending, module):
+    port = free_udp_port()
+    listener = module.mavlink_connection(listening.format(port))
+    sender = module.mavlink_connection(sending.format(port), source_system=7)
+    if listening.startswith("tcpin"):
+        until(lambda: (sender.mav.heartbeat_send(6, 8, 0, 0, 0), listener.recv_msg())[1] is not None)
+    sender.mav.heartbeat_send(6, 8, 0, 0, 0)
+    assert listener.recv_match(type="HEARTBEAT", blocking=True, timeout=DEADLINE_S).get_srcSystem() == 7
+    sender.close()
+    listener.close()
+
+
+def test_a_port_alone_is_one_of_pymavlinks_group():
+    port = free_udp_port()
+    for text, place in ((f"mcast:{port}", f"239.255.145.50:{port}"), ("mcast:", "239.255.145.50:14550"),
+                        (f"mcast:239.1.1.1:{port}", f"239.1.1.1:{port}")):
+        connection = mavutil.mavlink_connection(text)
+        assert connection.link.name == f"udpmcast://{place}"
+        connection.close()
+
+
+def test_programs_are_refused_and_executable_recordings_are_read(tmp_path, flight):
+    script, log = tmp_path / "sim", tmp_path / "log"
+    script.write_text("#!/bin/sh\n")
+    log.write_bytes(flight.read_bytes()[:4096])
+    for path in (script, log):
+        path.chmod(0o755)
+    for path in (script, "/bin/ls"):
+        with pytest.raises(mavloom.UsageError, match="programs are not started here: start it yourself"):
+            mavutil.mavlink_connection(path)
+    assert mavutil.mavlink_connection(log).recv_msg() is not None
+
+
+def test_a_folder_is_refused_by_name(tmp_path):
+    with pytest.raises(mavloom.SystemFailure, match="is a folder, neither") as caught:
+        mavutil.mavlink_connection(tmp_path)
+    assert caught.value.errno == 21
+
+
+# ---- waiting
+
+@pytest.mark.parametrize("call", [lambda c: c.recv_match(blocking=True, timeout=float("nan")),
+                                  lambda c: c.wait_heartbeat(timeout=float("nan")), lambda c: c.select(float("nan"))])
+def test_times_that_are_none_are_refused(call, module):
+    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_udp_port()}")
+    with pytest.raises(ValueError):
+        call(connection)
+    connection.close()
+
+
+def test_an_idle_link_is_not_ready(module, peer):
+    port = free_udp_port()
+    connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
+    assert not connection.select(0) and not connection.select(0.01)
+    for _ in range(2):
+        vehicle.send(vehicle.heartbeat())
+        assert connection.select(DEADLINE_S) and connection.select(0)
+        assert connection.recv_msg().get_type() == "HEARTBEAT"
+        assert not connection.select(0)
+    connection.close()
+
+
+def test_endless_time_outs(peer):
+    """pymavlink raises OverflowError."""
+    connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
+    vehicle = Vehicle(peer, connection.link.port)
+    vehicle.send(vehicle.heartbeat(), vehicle.attitude(1))
+    assert connection.select(float("inf"))
+    assert connection.recv_match(type="ATTITUDE", blocking=True, timeout=float("inf")) is not None
+    connection.close()
+
+
+def test_the_progress_of_opening_a_recording(module, flight):
+    percents = []
+    module.mavlink_connection(str(flight), progress_callback=percents.append)
+    assert percents == list(range(1, 101))
+
+
+# ---- several connections on one UDP port
+
+def free_udp_port():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+@pytest.mark.parametrize("kind", ["udpin", "udp"])
+def test_a_function_may_open_a_port_again_without_closing_it(kind, module, peer):
+    """The newest connection receives, as with pymavlink's sockets."""
+    port, left_open = free_udp_port(), []
+
+    def wait_for_a_heartbeat():
+        connection = module.mavlink_connection(f"{kind}:127.0.0.1:{port}")
+        left_open.append(connection)
+        vehicle = Vehicle(peer, port)
+        vehicle.send(vehicle.heartbeat())
+        return connection.wait_heartbeat(timeout=DEADLINE_S)
+    try:
+        assert all(wait_for_a_heartbeat() is not None for _ in range(3))
+    finally:
+        for connection in left_open:
+            connection.close()
+
+
+def test_a_port_of_another_program_is_in_use(module):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(("127.0.0.1", 0))
+        with pytest.raises(OSError) as caught:
+            module.mavlink_connection(f"udpin:127.0.0.1:{other.getsockname()[1]}")
+    assert caught.value.errno == 98
+
+
+# ---- damage
+
+def damaged(frame):
+    return frame[:-1] + bytes([frame[-1] ^ 1])
+
+
+def test_damaged_frames_are_counted(module, peer):
+    """pymavlink also returns them as BAD_DATA."""
+    port = free_udp_port()
+    connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
+    beat = packer(peer).pack(vehicle.heartbeat())
+    for frame in (beat, damaged(beat), damaged(beat), beat):
+        vehicle.socket.send(frame)
+    for _ in range(2):
+        assert connection.recv_match(type="HEARTBEAT", blocking=True, timeout=DEADLINE_S) is not None
+    until(lambda: connection.mav.total_receive_errors >= 2)
+    assert connection.mav.total_receive_errors == 2
+    connection.mav.total_receive_errors = 0
+    assert connection.mav.total_receive_errors == 0
+    assert connection.recv_match(type="BAD_DATA", blocking=True, timeout=0.01) is None
+    connection.close()
+
+
+def frame_of(peer, message_id):
+    """A MAVLink 2 frame of a message that has no definition here, but has one at its sender."""
+    body = bytes([2, 0, 0, 1, 1, 1]) + message_id.to_bytes(3, "little") + b"\1\2"
+    crc_extra = 77
+    return b"\xfd" + body + peer.x25crc(body + bytes([crc_extra])).crc.to_bytes(2, "little")
+
+
+def test_messages_without_definition_can_be_waited_for(module, peer):
+    port = free_udp_port()
+    connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
+    strange = frame_of(peer, 54321)
+    vehicle.send(vehicle.heartbeat())
+    vehicle.socket.send(strange)
+    found = connection.recv_match(type=["UNKNOWN_54321", "UNKNOWN_x"], blocking=True, timeout=DEADLINE_S)
+    assert (found.get_type(), bytes(found.get_msgbuf())) == ("UNKNOWN_54321", strange)
+    assert connection.recv_match(type="UNKNOWN_54322") is None
+    connection.close()
