@@ -477,3 +477,40 @@ def test_a_cancelled_task_leaves_the_vehicle_usable(peer):
         asyncio.run(cancel(vehicle.link.vehicle_async(1)))
         stub.settings.silent = frozenset()
         assert vehicle.command("DO_SET_SERVO").result == 0
+
+
+def test_a_cancelled_transfer_lets_the_next_one_begin(peer):
+    items = [mavloom.MissionItem.at(*place) for place in PLACES]
+
+    async def cancel(vehicle, stub):
+        first = asyncio.create_task(vehicle.mission.upload(items))
+        while not stub.messages:
+            await asyncio.sleep(0.01)
+        second, third = (asyncio.create_task(vehicle.mission.upload(items[:count])) for count in (2, 1))
+        await asyncio.sleep(0.05)
+        second.cancel()
+        first.cancel()
+        stub.settings.silent = frozenset()
+        await third
+        assert first.cancelled() and second.cancelled()
+
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT"})) as (vehicle, stub):
+        asyncio.run(cancel(vehicle.link.vehicle_async(1), stub))
+        assert len(stub.mission) == 1
+
+
+def test_a_call_does_not_wait_for_a_call_without_answers(peer, quick):
+    """Here the first call cannot go on before the second one returns."""
+    async def block(vehicle, stub):
+        first = asyncio.create_task(vehicle.link.vehicle_async(1).mission.upload([mavloom.MissionItem()]))
+        while not stub.messages:
+            await asyncio.sleep(0.01)
+        with pytest.raises(TimeoutError, match="transfer of a mission: another call that does the same has had no"):
+            vehicle.mission.download()
+        with pytest.raises(TimeoutError, match="no answer during the upload"):
+            await first
+
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT"})) as (vehicle, stub):
+        asyncio.run(block(vehicle, stub))
+        stub.settings.silent = frozenset()
+        assert vehicle.mission.download() == []

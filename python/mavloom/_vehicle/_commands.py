@@ -14,6 +14,7 @@ from .. import _modes, enums
 from .._core import Message
 from .._errors import CommandError, UsageError
 from ._exchange import Peer, Protocol, wait_until
+from ._turns import exclusive
 
 _T = TypeVar("_T")
 
@@ -56,20 +57,24 @@ def result_name(result: int) -> str:
 def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRIES) -> Protocol[Message]:
     """Sends a command until it is acknowledged. Returns the acknowledgement.
 
-    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer.
+    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer. An acknowledgement has only
+    the command's number, so a second command of one number waits for the end of the first.
     """
     if len(params) > 7:
         raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
+    return (yield from exclusive(peer, name_of(number), tries * ANSWER_S, acknowledged(peer, number, params, tries)))
+
+
+def acknowledged(peer: Peer, number: int, params: tuple[float, ...], tries: int) -> Protocol[Message]:
     fields = {f"param{place}": value for place, value in enumerate(params, 1)}
     for confirmation in range(tries):
         peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
-        acknowledged = yield from acknowledgement(peer, number)
-        if acknowledged is None:
+        answer = yield from acknowledgement(peer, number)
+        if answer is None:
             continue
-        if acknowledged["result"] != ACCEPTED:
-            raise CommandError(f"{peer}: {name_of(number)}: {result_name(acknowledged['result'])}",
-                               acknowledged["result"])
-        return acknowledged
+        if answer["result"] != ACCEPTED:
+            raise CommandError(f"{peer}: {name_of(number)}: {result_name(answer['result'])}", answer["result"])
+        return answer
     raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
 
 

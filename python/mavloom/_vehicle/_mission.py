@@ -13,7 +13,8 @@ from typing import Any
 from .. import enums
 from .._core import Message
 from .._errors import MissionError, UsageError
-from ._exchange import Peer, Protocol, wait_until
+from ._exchange import Peer, Protocol, T, wait_until
+from ._turns import exclusive
 
 ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK")
 ANSWER_S = 1.5
@@ -97,7 +98,15 @@ def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) ->
 
 def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> Protocol[None]:
     """Replaces the mission of the vehicle. Raises MissionError if the vehicle refuses it."""
-    wanted = checked(peer, items, kind)
+    return transfer(peer, items_sent(peer, checked(peer, items, kind), kind))
+
+
+def transfer(peer: Peer, protocol: Protocol[T]) -> Protocol[T]:
+    """Runs a transfer after those before it: a vehicle has one at a time, of whichever kind of mission."""
+    return exclusive(peer, "transfer of a mission", TRIES * ANSWER_S, protocol)
+
+
+def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[None]:
     last, furthest = len(wanted) - 1, -1  # of the items, and of those that the vehicle has requested
     message: dict[str, Any] = {"name": "MISSION_COUNT", "count": len(wanted), "mission_type": kind}
     peer.send(**message)
@@ -149,6 +158,10 @@ def check_kind(peer: Peer, kind: int) -> None:
 def download(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
     """Fetches the mission of the vehicle."""
     check_kind(peer, kind)
+    return transfer(peer, items_received(peer, kind))
+
+
+def items_received(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
     count = yield from request(peer, "MISSION_REQUEST_LIST", {}, ("MISSION_COUNT",), kind, None)
     items: list[MissionItem] = []
     for seq in range(count["count"]):
@@ -174,6 +187,10 @@ def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, .
 def clear(peer: Peer, kind: int) -> Protocol[None]:
     """Deletes the mission of the vehicle."""
     check_kind(peer, kind)
+    return transfer(peer, cleared(peer, kind))
+
+
+def cleared(peer: Peer, kind: int) -> Protocol[None]:
     for _ in range(TRIES):
         peer.send("MISSION_CLEAR_ALL", mission_type=kind)
         answer = yield from answer_of(peer, ("MISSION_ACK",), kind, time.monotonic() + ANSWER_S)

@@ -79,7 +79,11 @@ class Vehicle(_Common):
     """A vehicle on a link, from `link.vehicle()`. Its methods wait for the vehicle's answer.
 
     They repeat what is lost. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
-    refuses, and TimeoutError if it does not answer. Any thread may call them.
+    refuses, and TimeoutError if it does not answer.
+
+    Any thread may call them. Calls that the protocol would mix up take turns, on one link: transfers of missions,
+    fetches of all parameters, and commands of one number or writes of one parameter. A waiting call raises TimeoutError
+    if the vehicle does not answer the call before it either.
     """
 
     def __init__(self, link: Link, system: int, component: int) -> None:
