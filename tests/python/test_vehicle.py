@@ -302,7 +302,7 @@ PLACES = [(47.3977, 8.5456, 20), (47.3980, 8.5460, 25.5), (-33.8, 151.2, 30)]
 @pytest.mark.parametrize("request_int", [False, True])
 def test_missions_up_and_down(request_int, peer):
     items = [mavloom.MissionItem.at(*place, param1=float(i)) for i, place in enumerate(PLACES)]
-    with flown(peer, request_int=request_int) as (vehicle, stub):
+    with flown(peer, px4=True, request_int=request_int) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert [(m.seq, m.x, m.y, m.z, m.frame, m.param1) for m in stub.mission] == [
             (i, round(lat * 1e7), round(lon * 1e7), alt, 6, i) for i, (lat, lon, alt) in enumerate(PLACES)]
@@ -313,18 +313,32 @@ def test_missions_up_and_down(request_int, peer):
         vehicle.mission.upload([])
 
 
+def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
+    """Its item 0 is home, whatever is sent; jumps follow their targets."""
+    items = [*(mavloom.MissionItem.at(*place) for place in PLACES), mavloom.MissionItem(177, param1=1, param2=3)]
+    with flown(peer) as (vehicle, stub):
+        vehicle.mission.upload(items)
+        assert [(m.seq, m.command, m.z, m.param1) for m in stub.mission] == [
+            (0, 16, 0, 0), (1, 16, 20, 0), (2, 16, 25.5, 0), (3, 16, 30, 0), (4, 177, 0, 2)]
+        assert vehicle.mission.download() == items and items[3].param1 == 1
+        vehicle.mission.upload([])
+        assert stub.mission == [] == vehicle.mission.download()
+        vehicle.mission.upload(items[:2], 1)
+        assert [m.z for m in stub.mission] == [20, 25.5] and vehicle.mission.download(1) == items[:2]
+
+
 def test_items_as_mappings_and_messages(peer):
     dialect = mavloom.Dialect()
     items = [{"command": 22, "z": 10.0}, dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
              dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3)]
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert [(m.command, m.x, m.y, m.z) for m in stub.mission] == [(22, 0, 0, 10), (16, 1, 2, 3),
                                                                       (16, 475000000, 82500000, 3)]
 
 
 def test_an_item_that_cannot_be_sent_sends_nothing(peer):
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         for item, text in (({"colour": 1}, "has no 'colour'"), ({"x": 2**40}, "item 0 of the mission: .*x"),
                            (5, "is a MissionItem"), (mavloom.Dialect().message("HEARTBEAT"), "not HEARTBEAT")):
             with pytest.raises(mavloom.UsageError, match=text):
@@ -335,7 +349,7 @@ def test_an_item_that_cannot_be_sent_sends_nothing(peer):
 def test_lost_messages_of_a_mission_are_repeated(peer, quick):
     items = [mavloom.MissionItem.at(*place) for place in PLACES]
     lost = frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST", "MISSION_REQUEST_INT", "MISSION_CLEAR_ALL"})
-    with flown(peer, drop=lost) as (vehicle, stub):
+    with flown(peer, px4=True, drop=lost) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert vehicle.mission.download() == items
         vehicle.mission.clear()
@@ -344,7 +358,7 @@ def test_lost_messages_of_a_mission_are_repeated(peer, quick):
 
 def test_a_lost_acknowledgement_is_requested_again(peer, quick):
     """By the last item once more, which a PX4 then acknowledges."""
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         def acknowledge(message, result=0):
             if [m.get_type() for m in stub.messages].count("MISSION_ITEM_INT") == 4:
                 Autopilot.mission_ack(stub, message)
@@ -354,7 +368,7 @@ def test_a_lost_acknowledgement_is_requested_again(peer, quick):
 
 
 def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         def acknowledge_first(message):
             stub.mission_ack(message)
             Autopilot.on_mission_item_int(stub, message)
@@ -366,7 +380,7 @@ def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
 def test_an_upload_ends_whose_items_are_lost(peer, quick):
     def request_first(message):
         stub.send(peer.MAVLink_mission_request_message(message.get_srcSystem(), message.get_srcComponent(), 0, 0))
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         stub.on_mission_item_int = request_first
         with pytest.raises(TimeoutError, match="no answer during the upload"):
             vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
@@ -375,7 +389,7 @@ def test_an_upload_ends_whose_items_are_lost(peer, quick):
 def test_a_fence_needs_mavlink_2(peer):
     """MISSION_CLEAR_ALL of MAVLink 1 has no type, so it would delete the mission in place of the fence."""
     with (mavloom.connect("udpin://127.0.0.1:0", version=1) as link,
-          Autopilot(peer, connect_to=("127.0.0.1", link.port), v1=True) as stub):
+          Autopilot(peer, Settings(px4=True), connect_to=("127.0.0.1", link.port), v1=True) as stub):
         vehicle = link.vehicle(timeout=30)
         for call in (vehicle.mission.clear, vehicle.mission.download, lambda kind: vehicle.mission.upload([], kind)):
             with pytest.raises(mavloom.UsageError, match="fences and rally points need MAVLink 2"):
@@ -386,14 +400,14 @@ def test_a_fence_needs_mavlink_2(peer):
 
 
 def test_a_refused_mission_is_an_error_with_the_reason(peer):
-    with flown(peer, refuse_mission=4) as (vehicle, _):
+    with flown(peer, px4=True, refuse_mission=4) as (vehicle, _):
         with pytest.raises(mavloom.MissionError, match="upload of the mission: MAV_MISSION_NO_SPACE") as caught:
             vehicle.mission.upload([mavloom.MissionItem()])
         assert caught.value.result == 4
 
 
 def test_silence_during_a_mission_is_a_timeout(peer, quick):
-    with flown(peer, silent=frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST"})) as (vehicle, _):
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST"})) as (vehicle, _):
         with pytest.raises(TimeoutError, match="no answer during the upload"):
             vehicle.mission.upload([mavloom.MissionItem()])
         with pytest.raises(TimeoutError, match="no answer to MISSION_REQUEST_LIST after 5 tries"):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Services of vehicles, with the simulator of `mavloom sim` as a PX4 and as an ArduPilot."""
 import asyncio
+import dataclasses
 import threading
 
 import pytest
@@ -50,7 +51,7 @@ def test_uploads_of_several_threads_and_tasks_are_not_mixed(flying_link):
         errors = at_once(lambda: vehicles[0].mission.upload(items(1)), lambda: vehicles[1].mission.upload(items(2)),
                          lambda: vehicles[0].mission.download(), lambda: upload_with_asyncio(3, 4))
         assert errors == []
-        assert len(latitudes(vehicles[0].mission.download()[1:])) == 1
+        assert len(latitudes(vehicles[0].mission.download())) == 1
 
 
 def test_fetches_and_writes_of_several_threads(flying_link):
@@ -65,3 +66,17 @@ def test_fetches_and_writes_of_several_threads(flying_link):
         found.append(len(flying_link.vehicle(1).params.fetch()))
     assert at_once(fetch, fetch, lambda: write(40), lambda: write(50), lambda: write(60)) == []
     assert found == [count, count] and vehicle.params[name] in (40, 50, 60)
+
+
+def test_a_mission_comes_back_as_it_was_uploaded(flying_link):
+    """The item 0 of an ArduPilot is home. Neither side shows it."""
+    vehicle = flying_link.vehicle(1)
+    items = [mavloom.MissionItem.at(47.398, 8.546, 20), mavloom.MissionItem.at(47.399, 8.546, 25),
+             mavloom.MissionItem(177, frame=2, param1=0, param2=2)]
+    for count in (3, 1, 0):
+        vehicle.mission.upload(items[:count])
+        found = vehicle.mission.download()
+        assert [dataclasses.replace(item, current=0) for item in found] == items[:count]
+    vehicle.mission.upload(items)
+    vehicle.mission.clear()
+    assert vehicle.mission.download() == []

@@ -7,16 +7,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from .. import enums
+from .. import _modes, enums
 from .._core import Message
 from .._errors import MissionError, UsageError
+from ._commands import known_heartbeat
 from ._exchange import Peer, Protocol, T, wait_until
 from ._turns import exclusive
 
-ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK")
+ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK",
+           "HEARTBEAT")
 ANSWER_S = 1.5
 TRIES = 5
 ACCEPTED = 0  # MAV_MISSION_RESULT
@@ -24,7 +26,8 @@ MISSION = 0  # MAV_MISSION_TYPE
 GLOBAL_RELATIVE_ALT_INT = 6  # MAV_FRAME
 DEGREES = 1e7  # of latitude and longitude in x and y
 FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
-MOST_ITEMS = 65535
+DO_JUMP = 177  # MAV_CMD; param1 is the number of an item
+MOST_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPilot
 
 
 @dataclass
@@ -58,6 +61,7 @@ class MissionItem:
         return self.y / DEGREES
 
 
+HOME = MissionItem(frame=0)  # an ArduPilot puts its own home in its place
 FIELDS = tuple(MissionItem.__dataclass_fields__)
 
 
@@ -106,7 +110,22 @@ def transfer(peer: Peer, protocol: Protocol[T]) -> Protocol[T]:
     return exclusive(peer, "transfer of a mission", TRIES * ANSWER_S, protocol)
 
 
+def begins_with_home(peer: Peer, kind: int) -> Protocol[bool]:
+    """Whether the vehicle's item 0 is home, as that of an ArduPilot. Callers never see it: they count from the next."""
+    if kind != MISSION:
+        return False
+    heartbeat = yield from known_heartbeat(peer)
+    return bool(heartbeat["autopilot"] == _modes.AUTOPILOT_ARDUPILOT)
+
+
+def renumbered(items: list[MissionItem], by: int) -> list[MissionItem]:
+    """The items, with jumps to the numbers that their targets have when `by` items are put before them."""
+    return [replace(item, param1=item.param1 + by) if item.command == DO_JUMP else item for item in items]
+
+
 def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[None]:
+    if wanted and (yield from begins_with_home(peer, kind)):
+        wanted = [HOME, *renumbered(wanted, 1)]
     last, furthest = len(wanted) - 1, -1  # of the items, and of those that the vehicle has requested
     message: dict[str, Any] = {"name": "MISSION_COUNT", "count": len(wanted), "mission_type": kind}
     peer.send(**message)
@@ -162,13 +181,14 @@ def download(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
 
 
 def items_received(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
+    has_home = yield from begins_with_home(peer, kind)
     count = yield from request(peer, "MISSION_REQUEST_LIST", {}, ("MISSION_COUNT",), kind, None)
     items: list[MissionItem] = []
     for seq in range(count["count"]):
         item = yield from request(peer, "MISSION_REQUEST_INT", {"seq": seq}, ("MISSION_ITEM_INT",), kind, seq)
         items.append(item_of(item))
     peer.send("MISSION_ACK", type=ACCEPTED, mission_type=kind)
-    return items
+    return renumbered(items[1:], -1) if has_home else items
 
 
 def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, ...], kind: int,

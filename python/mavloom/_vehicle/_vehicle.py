@@ -198,7 +198,11 @@ class Params(MutableMapping[str, "int | float"]):
 
 
 class Mission:
-    """The mission of a vehicle. `mission_type` is a MAV_MISSION_TYPE: 0 the mission, 1 the fence, 2 rally points."""
+    """The mission of a vehicle. `mission_type` is a MAV_MISSION_TYPE: 0 the mission, 1 the fence, 2 rally points.
+
+    A mission has no home. ArduPilot keeps its home as item 0: `upload` adds that item, and `download` leaves it out.
+    The number of an item, in the parameters of DO_JUMP, is its index in the list.
+    """
 
     def __init__(self, peer: Peer) -> None:
         self._peer = peer
