@@ -28,6 +28,17 @@ Time = Union[int, datetime.datetime, np.datetime64]
 HEADER = ("time_ns", "sys", "comp")
 
 
+def flat(arrays: dict[str, Array]) -> dict[str, Array]:
+    """The columns, one for each element of an array field. They are views of the arrays."""
+    columns: dict[str, Array] = {}
+    for name, values in arrays.items():
+        if values.ndim == 2:
+            columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
+        else:
+            columns[name] = values
+    return columns
+
+
 class Columns(dict[str, Array]):
     """The rows of one message, in the order of the file, as numpy arrays. The columns cannot be exchanged.
 
@@ -45,13 +56,14 @@ class Columns(dict[str, Array]):
     columns of one dimension, as these libraries need: those of an array field are `voltages[0]`, `voltages[1]`, ...
     """
 
-    # A dict, because pandas.DataFrame takes columns from nothing else. Nothing is stored in the dict itself.
+    # A dict, because pandas.DataFrame takes columns from nothing else. It holds the columns of one dimension, because
+    # json and other compiled code looks into the dict itself.
 
     name: str
     junk_bytes: int  # bytes of the file that belong to no record: damaged, or cut off at the end
 
     def __init__(self, dialect: Dialect, name: str, arrays: dict[str, Array], junk_bytes: int) -> None:
-        super().__init__()
+        super().__init__(flat(arrays))
         self.name = name
         self.junk_bytes = junk_bytes
         self._dialect = dialect
@@ -72,7 +84,7 @@ class Columns(dict[str, Array]):
         return {field.name: field.enum for field in self._info.fields if field.enum}
 
     def __getitem__(self, column: str) -> Array:
-        """Returns a column. Raises KeyError, which suggests the nearest name, if there is none of this name."""
+        """Returns a column. Raises KeyError, which lists the columns, if there is none of this name."""
         found: Array | None = self.get(column)
         if found is None:
             raise KeyError(f"{self.name} has no column {column!r}; it has {', '.join(self._arrays)}")
@@ -88,24 +100,27 @@ class Columns(dict[str, Array]):
         """Iterates over the column names: time_ns, sys, comp, then the fields in the order of the definition."""
         return iter(self._arrays)
 
+    def __reversed__(self) -> Iterator[str]:
+        return reversed(list(self._arrays))
+
     def get(self, column: object, default: Any = None) -> Any:
         """Returns a column, or `default` if there is none of this name."""
         try:
-            return self._arrays[column] if column in self._arrays else self._flat.get(column, default)  # type: ignore
+            return self._arrays[column] if column in self._arrays else super().get(column, default)  # type: ignore
         except TypeError:  # a list, for example
             return default
 
     def keys(self) -> list[str]:  # type: ignore[override]
         """The names of the columns of one dimension."""
-        return list(self._flat)
+        return list(super().keys())
 
     def values(self) -> list[Array]:  # type: ignore[override]
         """The columns of one dimension."""
-        return list(self._flat.values())
+        return list(super().values())
 
     def items(self) -> list[tuple[str, Array]]:  # type: ignore[override]
         """The names and columns of one dimension."""
-        return list(self._flat.items())
+        return list(super().items())
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._arrays)
@@ -154,17 +169,6 @@ class Columns(dict[str, Array]):
             made[name] = values
         return made if dtype is None else made.astype(dtype)
 
-    @functools.cached_property
-    def _flat(self) -> dict[str, Array]:
-        """The columns, one for each element of an array field. They are views of the arrays."""
-        columns: dict[str, Array] = {}
-        for name, values in self._arrays.items():
-            if values.ndim == 2:
-                columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
-            else:
-                columns[name] = values
-        return columns
-
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """For libraries that take the Arrow C interface (polars, duckdb, pyarrow). Needs pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
@@ -210,7 +214,7 @@ class Columns(dict[str, Array]):
         except ImportError as error:
             raise ImportError("to_pandas() needs pandas: pip install 'mavloom[pandas]'") from error
         columns: dict[str, Any] = {}
-        for name, values in self._flat.items():
+        for name, values in self.items():
             if values.dtype.kind == "S":
                 columns[name] = np.char.decode(values, "utf-8", "replace")
             elif enums and self._has_names(name):

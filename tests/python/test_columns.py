@@ -3,6 +3,7 @@
 import contextlib
 import copy
 import datetime
+import json
 import os
 import pickle
 import signal
@@ -226,6 +227,16 @@ def test_the_columns_cannot_be_exchanged(flight):
             wrong()
     assert dict(att) == dict(att.items()) and att == att and att != dict(att) and len({att, att}) == 1
     assert "roll" in att and att.get("nothing") is None and [1] not in att.keys()
+
+
+def test_columns_in_reverse_order_and_as_json(flight):
+    targets = mavloom.columns(flight, "ATTITUDE_TARGET", fields=["q", "thrust"])
+    assert list(reversed(targets)) == ["thrust", "q", "comp", "sys", "time_ns"]
+    with pytest.raises(TypeError, match="ndarray is not JSON serializable"):
+        json.dumps(targets)
+    loaded = json.loads(json.dumps(targets, default=np.ndarray.tolist))
+    assert list(loaded) == ["time_ns", "sys", "comp", "q[0]", "q[1]", "q[2]", "q[3]", "thrust"] == targets.keys()
+    assert loaded["q[1]"] == targets["q"][:, 1].tolist() and {**targets}.keys() == loaded.keys()
 
 
 def test_several_files_follow_each_other(flight, tmp_path):
