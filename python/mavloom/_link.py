@@ -266,13 +266,19 @@ class Link(Sends):
 
     def field(self, type: str, field: str, default: Any = None) -> Any:
         """Returns the newest value of a field, or `default` if no such message arrived."""
-        message = self.messages.get(type)
+        message = self._newest(type)
         return default if message is None else message[field]
 
     def time_since(self, type: str) -> float:
         """Returns the seconds since the newest message of this type arrived; infinity if none did."""
-        message = self.messages.get(type)
+        message = self._newest(type)
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
+
+    def _newest(self, type: str) -> Message | None:
+        """Raises UsageError, which suggests the nearest name, if there is no message of this name."""
+        with contextlib.suppress(KeyError):
+            return self.messages[type]
+        return None
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
         """Returns the percentage of frames lost before they arrived, 0 to 100, from all sources or the selected ones.
@@ -280,8 +286,8 @@ class Link(Sends):
         Late and duplicate frames do not count as lost. `stats.sources` has the figures of each source.
         """
         for what, number in (("system", system), ("component", component)):
-            if number is not None and not 0 <= number <= 255:
-                raise UsageError(f"{what}: {number} is out of range, 0 to 255")
+            if number is not None and (not isinstance(number, int) or not 0 <= number <= 255):
+                raise UsageError(f"{what}: {number!r} is out of range, 0 to 255")
         chosen = [source for source in self.stats.sources
                   if system in (None, source.sys) and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
@@ -295,6 +301,9 @@ class Latest(Mapping[str, Message]):
         self._link = link
 
     def __getitem__(self, key: str) -> Message:
+        """Raises KeyError if no such message arrived, and UsageError if there is no message of this name."""
+        if not isinstance(key, str):
+            raise UsageError(f"messages are found by their names, such as \"ATTITUDE\", not by {key!r}")
         name, bracket, rest = key.partition("[")
         instance: int | str | None = rest.rstrip("]") if bracket else None
         if instance is not None and not any(field.instance and field.type == "char"
@@ -305,6 +314,16 @@ class Latest(Mapping[str, Message]):
         if message is None:
             raise KeyError(key)
         return message
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Returns the newest message, or `default` if none arrived or if there is no message of this name."""
+        try:
+            return self[key]
+        except (KeyError, UsageError):
+            return default
+
+    def __contains__(self, key: object) -> bool:
+        return self.get(key) is not None  # type: ignore[arg-type]
 
     def __iter__(self) -> Iterator[str]:
         system = self._link.target_system or None
@@ -370,7 +389,7 @@ def check_url(url: object) -> None:
 
 
 def target_id(what: str, number: int) -> int:
-    if not isinstance(number, int) or not 1 <= number <= 255:
+    if not isinstance(number, int) or isinstance(number, bool) or not 1 <= number <= 255:
         raise UsageError(f"{what}: {number!r} is out of range, 1 to 255")
     return number
 

@@ -80,6 +80,16 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
         link.wait_vehicle(timeout=0.01)
 
 
+def test_the_newest_messages_are_a_mapping(link):
+    for key in ("ATITUDE", "ATTITUDE", "ATTITUDE[1]", "", 5, None):
+        assert key not in link.messages and link.messages.get(key) is None and link.messages.get(key, 7) == 7
+    for call in (link.messages.__getitem__, link.time_since, lambda name: link.field(name, "roll")):
+        with pytest.raises(mavloom.UsageError, match="'ATITUDE', did you mean 'ATTITUDE'"):
+            call("ATITUDE")
+        with pytest.raises(mavloom.UsageError, match='found by their names, such as "ATTITUDE", not by 5'):
+            call(5)
+
+
 @pytest.mark.parametrize("spelling, name", [
     ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"),
     ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"), ("/dev/absent,57600", "serial:///dev/absent")])
