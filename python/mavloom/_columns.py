@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _views
-from ._core import Dialect, MessageInfo, read_columns, read_tables
+from ._core import Dialect, Message, MessageInfo, read_columns, read_tables
 from ._errors import UsageError
 from ._types import MessageTypes
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 Array = npt.NDArray[Any]
 Path = Union[str, "os.PathLike[str]"]
 Paths = Union[Path, Iterable[Path]]
+Name = Union[str, "type[Message]"]
+Names = Union["list[str]", "list[type[Message]]", "tuple[Name, ...]", "set[Name]", "frozenset[Name]"]
 # A point in time: Unix time in ns, an aware datetime, or anything that numpy.datetime64 takes.
 Time = Union[int, datetime.datetime, np.datetime64]
 HEADER = ("time_ns", "sys", "comp")
@@ -240,26 +242,26 @@ class Columns(dict[str, Array]):
 
 
 @overload
-def columns(path: Paths, name: str, *, system: int | None = None, component: int | None = None,
+def columns(path: Paths, name: str | type[Message], *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> Columns: ...
 
 
 @overload
-def columns(path: Paths, name: list[str] | tuple[str, ...] | set[str] | frozenset[str], *,
+def columns(path: Paths, name: Names, *,
             system: int | None = None, component: int | None = None, instance: int | str | None = None,
             start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> dict[str, Columns]: ...
 
 
-def columns(path: Paths, name: str | Iterable[str], *, system: int | None = None, component: int | None = None,
+def columns(path: Paths, name: str | type[Message] | Names, *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None,
             dialect: Dialect | None = None) -> Columns | dict[str, Columns]:
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
-    `path` may be a list of files, whose rows follow each other. `name` may be a list of messages: the result is then
-    {name: Columns}, as that of `tables`.
+    `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages, or a
+    list of these: the result is then {name: Columns}, as that of `tables`.
 
     - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
       sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
@@ -275,6 +277,8 @@ def columns(path: Paths, name: str | Iterable[str], *, system: int | None = None
     definitions = Dialect() if dialect is None else dialect
     files, begin, before = paths_of(path), time_ns_of("start", start), time_ns_of("end", end)
     wanted = None if fields is None else list_of_names("fields", fields)
+    if isinstance(name, type):
+        name = name.__name__
     if not isinstance(name, str):
         names = list_of_names("name", name)
         if instance is None and wanted is None:
@@ -312,10 +316,12 @@ def paths_of(path: Paths) -> list[Path]:
     return files
 
 
-def list_of_names(what: str, given: Iterable[str]) -> list[str]:
+def list_of_names(what: str, given: Iterable[Any]) -> list[str]:
     if isinstance(given, str):
         return [given]
     names: list[Any] = list(given) if isinstance(given, Iterable) else [given]
+    if what == "name":
+        names = [one.__name__ if isinstance(one, type) else one for one in names]
     for one in names:
         if not isinstance(one, str):
             raise UsageError(f"{what}= takes a name or a list of names, not {one!r}")
@@ -332,6 +338,8 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
         return given
     if isinstance(given, np.integer):
         return int(given)
+    if given != given:  # numpy's or pandas' NaT
+        raise UsageError(f"{what}: {given} is no time")
     if isinstance(given, datetime.datetime):
         if given.tzinfo is None:
             raise UsageError(f"{what}: {given} has no time zone; for example, datetime(..., tzinfo=timezone.utc)")
@@ -340,7 +348,7 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
             return nanoseconds
         since = given - datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc)
         return (since.days * 86400 + since.seconds) * 10**9 + since.microseconds * 1000
-    if isinstance(given, np.datetime64) and not np.isnat(given):
+    if isinstance(given, np.datetime64):
         return int(given.astype("datetime64[ns]").astype("int64"))
     raise UsageError(f"{what}: a time is Unix time in ns, an aware datetime or a numpy.datetime64, not {given!r}")
 

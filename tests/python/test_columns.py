@@ -15,6 +15,7 @@ import pytest
 
 import mavloom
 import pymavlink_vectors as vectors
+from mavloom import messages
 from tlogs import frames_of, packer, record, write
 
 NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4",
@@ -110,6 +111,8 @@ def test_row_9_instances(peer, tmp_path):
     assert len(mavloom.columns(path, "BATTERY_STATUS", instance=7)) == 0
     with pytest.raises(ValueError, match="no field that distinguishes instances"):
         mavloom.columns(path, "HEARTBEAT", instance=0)
+    with pytest.raises(mavloom.UsageError, match=r"instance: BATTERY_STATUS\.id is a number, not text"):
+        mavloom.columns(path, "BATTERY_STATUS", instance="1")
 
 
 def test_row_9_instances_that_are_text(peer, tmp_path):
@@ -121,7 +124,9 @@ def test_row_9_instances_that_are_text(peer, tmp_path):
         assert list(mavloom.columns(path, "NAMED_VALUE_FLOAT",
                                     instance=name.decode())["time_boot_ms"]) == [number, number + 3, number + 6]
     assert len(mavloom.columns(path, "NAMED_VALUE_FLOAT",
-                               instance="n00")) == len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)) == 0
+                               instance="n00")) == 0
+    with pytest.raises(mavloom.UsageError, match=r"instance: NAMED_VALUE_FLOAT\.name is text, not a number"):
+        mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)
 
 
 def test_row_3_systems_and_components(flight):
@@ -262,8 +267,12 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
     assert len(mavloom.tables(flight, start=first, end=last)["ATTITUDE"]) == 200
     with pytest.raises(mavloom.UsageError, match="no field 'rol', did you mean 'roll'"):
         mavloom.columns(flight, "ATTITUDE", fields=["rol"])
-    with pytest.raises(mavloom.UsageError, match="start: a time is .*, not np.datetime64"):
-        mavloom.columns(flight, "ATTITUDE", start=np.datetime64("NaT"))
+    with pytest.raises(mavloom.UsageError, match="start: a time is .*, not '20"):
+        mavloom.columns(flight, "ATTITUDE", start=at.isoformat())
+    for none in (np.datetime64("NaT"), np.datetime64("NaT", "ns"), pytest.importorskip("pandas").NaT):
+        for limit in ("start", "end"):
+            with pytest.raises(mavloom.UsageError, match=f"{limit}: NaT is no time"):
+                mavloom.columns(flight, "ATTITUDE", **{limit: none})
     with pytest.raises(mavloom.UsageError, match="has no time zone"):
         mavloom.columns(flight, "ATTITUDE", start=datetime.datetime(2026, 1, 1))
     with pytest.raises(mavloom.UsageError, match="start: a time is Unix time in ns"):
@@ -277,6 +286,16 @@ def test_several_messages_are_a_dictionary(flight):
     for wrong in (None, 3, ["ATTITUDE", 3]):
         with pytest.raises(mavloom.UsageError, match="name= takes a name or a list of names"):
             mavloom.columns(flight, wrong)
+
+
+def test_messages_are_named_by_their_classes_too(flight):
+    attitude = mavloom.columns(flight, messages.ATTITUDE)
+    assert attitude.name == "ATTITUDE" and len(attitude) == len(mavloom.columns(flight, "ATTITUDE"))
+    assert list(mavloom.columns(flight, [messages.VFR_HUD, "ATTITUDE"], fields=["roll"])) == ["VFR_HUD", "ATTITUDE"]
+    with pytest.raises(mavloom.UsageError, match="unknown message 'int'"):
+        mavloom.columns(flight, int)
+    with pytest.raises(mavloom.UsageError, match="fields= takes a name or a list of names, not"):
+        mavloom.columns(flight, "ATTITUDE", fields=[messages.VFR_HUD])
 
 
 def test_tables_take_at_most_twice_the_memory_of_their_result(flight, child_environment):

@@ -369,7 +369,13 @@ def test_row_4_instances_that_are_text(link, vehicle, peer):
             link.messages["NAMED_VALUE_FLOAT"].value) == (0, 7, 7)
     for key in ("NAMED_VALUE_FLOAT[n]", "BATTERY_STATUS[x]", "ATTITUDE[1]"):
         assert key not in link.messages
-    assert link.latest("NAMED_VALUE_FLOAT", instance=7) is None
+    for name, instance, text in (("NAMED_VALUE_FLOAT", 7, r"instance: NAMED_VALUE_FLOAT\.name is text, not a number"),
+                                 ("BATTERY_STATUS", "7", r"instance: BATTERY_STATUS\.id is a number, not text"),
+                                 ("ATTITUDE", 7, "ATTITUDE has no field that distinguishes instances")):
+        with pytest.raises(mavloom.UsageError, match=text):
+            link.latest(name, instance=instance)
+    with pytest.raises(TypeError, match=r"instance= takes a number or text, not 1\.5"):
+        link.latest("BATTERY_STATUS", instance=1.5)
 
 
 def test_subscriptions_take_nothing_away(link, vehicle):

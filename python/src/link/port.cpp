@@ -117,11 +117,14 @@ public:
     }
 
     nb::object latest(const nb::object& type, const OptionalInteger& system, const OptionalInteger& component,
-                      const std::optional<feed::Instance>& instance, const nb::object& max_age) {
+                      const nb::object& instance, const nb::object& max_age) {
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
+        const auto wanted = instance_from(instance);
+        if (wanted && filter.ids)
+            for (const auto id : *filter.ids) check_instance(*origin_->dialect().find(id), *wanted);
         const auto not_before = max_age.is_none() ? MonoTime::min() : mono_now() - duration_of("max_age", max_age);
-        const auto found = feed_.channel->latest(filter, instance, not_before);
+        const auto found = feed_.channel->latest(filter, wanted, not_before);
         if (!found) return nb::none();
         const auto frame = found->frame();
         return make_message(origin_, origin_->dialect().find(frame.id()), found->head.time_ns, found->head.link, frame,
