@@ -346,6 +346,27 @@ def test_an_item_that_cannot_be_sent_sends_nothing(peer):
         assert stub.messages == []
 
 
+def test_places_and_altitudes_that_are_none(peer):
+    nan, item = math.nan, mavloom.MissionItem
+    assert item.at(1, 2, nan, command="NAV_LAND").command == 21  # PX4 takes NaN for "as it is"
+    message = mavloom.Dialect().message("MISSION_ITEM", x=nan, y=8.25)
+    with flown(peer, px4=True) as (vehicle, stub):
+        for call, text in ((lambda: item.at(nan, 2, 3), "^lat: nan is no coordinate"),
+                           (lambda: item.at(1, math.inf, 3), "^lon: inf is no coordinate"),
+                           (lambda: item.at("a", 2, 3), "^lat: a number, not 'a'"),
+                           (lambda: item.at(1, 2, None), "^alt: a number, not None"),
+                           (lambda: item.at(1, 2, 3, command="DANCE"), "^unknown command 'DANCE'"),
+                           (lambda: vehicle.mission.upload([message]), "^x: nan is no coordinate"),
+                           (lambda: vehicle.takeoff("x"), "^altitude: a number, not 'x'"),
+                           (lambda: vehicle.takeoff(nan), "^altitude: nan is no altitude"),
+                           (lambda: vehicle.link.vehicle(True), "^system: True is out of range, 1 to 255"),
+                           (lambda: vehicle.link.vehicle(1, "x"), "^component: 'x' is out of range, 1 to 255"),
+                           (lambda: vehicle.link.packet_loss("x"), "^system: 'x' is out of range, 0 to 255")):
+            with pytest.raises(mavloom.UsageError, match=text):
+                call()
+        assert stub.messages == []
+
+
 def test_lost_messages_of_a_mission_are_repeated(peer, quick):
     items = [mavloom.MissionItem.at(*place) for place in PLACES]
     lost = frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST", "MISSION_REQUEST_INT", "MISSION_CLEAR_ALL"})

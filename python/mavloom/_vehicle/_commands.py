@@ -44,6 +44,16 @@ def number_of(command: int | str) -> int:
     raise UsageError(f"unknown command {command!r}; see mavloom.enums.MAV_CMD")
 
 
+def checked_number(what: str, value: float) -> float:
+    """The value as float. Raises UsageError for what is no number."""
+    if isinstance(value, (str, bytes, bool)):
+        raise UsageError(f"{what}: a number, not {value!r}")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise UsageError(f"{what}: a number, not {value!r}") from None
+
+
 def name_of(command: int) -> str:
     names = {int(member): name for name, member in enums.MAV_CMD.__members__.items()}
     return names.get(command, f"command {command}")
@@ -153,6 +163,8 @@ def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
 
 def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
     """Requests a take-off to `altitude` m above the present place. An ArduPilot is put into mode GUIDED first."""
+    if not math.isfinite(checked_number("altitude", altitude)):
+        raise UsageError(f"altitude: {altitude} is no altitude")
     heartbeat = yield from known_heartbeat(peer)
     if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
         here = yield from present_place(peer)

@@ -5,6 +5,7 @@ Source: https://mavlink.io/en/services/mission.html
 """
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, replace
@@ -13,7 +14,7 @@ from typing import Any
 from .. import _modes, enums
 from .._core import Message
 from .._errors import MissionError, UsageError
-from ._commands import known_heartbeat
+from ._commands import checked_number, known_heartbeat, number_of
 from ._exchange import Peer, Protocol, T, wait_until
 from ._turns import exclusive
 
@@ -28,6 +29,14 @@ DEGREES = 1e7  # of latitude and longitude in x and y
 FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
 DO_JUMP = 177  # MAV_CMD; param1 is the number of an item
 MOST_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPilot
+
+
+def scaled(name: str, value: float, scale: float) -> int:
+    """A coordinate as the integer that is sent. Raises UsageError for what is none."""
+    number = checked_number(name, value)
+    if not math.isfinite(number):
+        raise UsageError(f"{name}: {number} is no coordinate")
+    return round(number * scale)
 
 
 @dataclass
@@ -46,9 +55,10 @@ class MissionItem:
     autocontinue: int = 1
 
     @classmethod
-    def at(cls, lat: float, lon: float, alt: float, command: int = 16, **fields: Any) -> MissionItem:
+    def at(cls, lat: float, lon: float, alt: float, command: int | str = 16, **fields: Any) -> MissionItem:
         """An item at a place in degrees, `alt` m above home: MissionItem.at(47.398, 8.546, 20)."""
-        return cls(int(command), round(lat * DEGREES), round(lon * DEGREES), float(alt), **fields)
+        x, y = (scaled(name, value, DEGREES) for name, value in (("lat", lat), ("lon", lon)))
+        return cls(number_of(command), x, y, checked_number("alt", alt), **fields)
 
     @property
     def lat(self) -> float:
@@ -75,7 +85,7 @@ def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
         fields = {name: given[name] for name in FIELDS}
         if given.name == "MISSION_ITEM":
             scale = DEGREES if given["frame"] in FRAMES_IN_DEGREES else 1e4
-            fields.update(x=round(given["x"] * scale), y=round(given["y"] * scale))
+            fields.update({name: scaled(name, given[name], scale) for name in ("x", "y")})
         return MissionItem(**fields)
     if not isinstance(given, Mapping):
         raise UsageError(f"an item is a MissionItem, a MISSION_ITEM_INT or a mapping, not {given!r}")
