@@ -300,7 +300,9 @@ def test_a_writer_whose_file_went_at_the_end_keeps_what_it_buffers(tmp_path):
 
 @pytest.mark.parametrize("start, text", [
     (b"\xa3\x95\x80\x80\x59FMT", "a DataFlash log of ArduPilot"), (b"ULog\x01\x12\x35\x01", "a ULog of PX4"),
-    (b"\x1f\x8b\x08\x00", "a gzip file"), (b"\xd4\xc3\xb2\xa1\x02\x00", "a pcap capture")])
+    (b"\x1f\x8b\x08\x00", "a gzip file"), (b"\xd4\xc3\xb2\xa1\x02\x00", "a pcap capture"),
+    (b"SQLite format 3\0\x10\0", "an SQLite database"), (b"\x89HDF\r\n\x1a\n\0", "an HDF5 file"),
+    (b'[{"time": 1}' + b',{"time": 2}' * 400 + b"]", "JSON"), (b"time,roll\r\n" + b"1,2\r\n" * 1000, "text")])
 def test_files_of_other_formats_are_refused_by_name(start, text, tmp_path):
     path = pathlib.Path(tmp_path / "log")
     path.write_bytes(start + bytes(1000))
