@@ -296,6 +296,14 @@ def test_a_writer_whose_file_went_at_the_end_keeps_what_it_buffers(tmp_path):
     assert log.records == 1 and [m.time_boot_ms for m in mavloom.read(path)] == [7]
 
 
+def test_times_before_1970_are_refused(flight, tmp_path):
+    """A tlog has no sign: -1 was stored as 0."""
+    with mavloom.write(tmp_path / "x.tlog") as out:
+        with pytest.raises(mavloom.UsageError, match="time_ns: -1 is out of range, 0 to"):
+            out.write(mavloom.read(flight).recv(), time_ns=-1)
+        assert out.records == 0
+
+
 # ---- files of other formats
 
 @pytest.mark.parametrize("start, text", [
