@@ -176,7 +176,7 @@ class Columns(dict[str, Array]):
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_arrow(self) -> pyarrow.Table:
-        """Converts the columns to a pyarrow table. Needs pyarrow: the extra [arrow].
+        """Converts the columns to a pyarrow table. Needs pyarrow.
 
         `time_ns` becomes timestamp[ns, UTC]. Text becomes UTF-8, with U+FFFD for invalid bytes. Array fields become
         lists of fixed size. Fields carry the metadata `unit` and `enum`. Parquet keeps all of it.
@@ -184,7 +184,7 @@ class Columns(dict[str, Array]):
         try:
             import pyarrow
         except ImportError as error:
-            raise ImportError("to_arrow() needs pyarrow: pip install 'mavloom[arrow]'") from error
+            raise ImportError("to_arrow() needs pyarrow: pip install pyarrow") from error
         arrays = [self._arrow_array(pyarrow, name) for name in self._arrays]
         fields = [pyarrow.field(name, array.type, metadata=self._metadata(name))
                   for name, array in zip(self._arrays, arrays)]
@@ -205,7 +205,7 @@ class Columns(dict[str, Array]):
         return pyarrow.array(values)
 
     def to_pandas(self, *, enums: bool = False) -> pandas.DataFrame:
-        """Converts the columns to a pandas data frame. Needs pandas: the extra [pandas].
+        """Converts the columns to a pandas data frame. Needs pandas.
 
         The times become the index (UTC, datetime64[ns]). An array field becomes one column for each element:
         `voltages[0]`, ... Text becomes str. With `enums`, values of an enum become categories with the names of its
@@ -214,7 +214,7 @@ class Columns(dict[str, Array]):
         try:
             import pandas
         except ImportError as error:
-            raise ImportError("to_pandas() needs pandas: pip install 'mavloom[pandas]'") from error
+            raise ImportError("to_pandas() needs pandas: pip install pandas") from error
         columns: dict[str, Any] = {}
         for name, values in self.items():
             if values.dtype.kind == "S":
