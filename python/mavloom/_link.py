@@ -129,6 +129,8 @@ class Link(Sends):
         Works in C++ without the GIL. Returns the number of frames written. `recv` does not return these frames. A
         subscription has its own `pump`.
         """
+        if not isinstance(writer, RingWriter):
+            raise UsageError(f"pump() takes a RingWriter, not {writer!r}")
         return self._reader.pump(writer, timeout)
 
     # ---- sending
@@ -149,6 +151,8 @@ class Link(Sends):
         frames, and `stats.unheard_answers` those for which there was no peer. Closing the link closes the inlet. Raises
         SystemFailure if another process serves the socket, and UsageError for a second inlet of one link.
         """
+        if not isinstance(ring, str):
+            raise UsageError(f"serve_inlet() takes the name of a ring, not {ring!r}")
         self._port.serve_inlet(ring, mode)
 
     # ---- recording

@@ -374,7 +374,7 @@ def test_row_4_instances_that_are_text(link, vehicle, peer):
                                  ("ATTITUDE", 7, "ATTITUDE has no field that distinguishes instances")):
         with pytest.raises(mavloom.UsageError, match=text):
             link.latest(name, instance=instance)
-    with pytest.raises(TypeError, match=r"instance= takes a number or text, not 1\.5"):
+    with pytest.raises(TypeError, match=r"instance: an integer, not 1\.5"):
         link.latest("BATTERY_STATUS", instance=1.5)
 
 

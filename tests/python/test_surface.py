@@ -304,6 +304,28 @@ def test_times_before_1970_are_refused(flight, tmp_path):
         assert out.records == 0
 
 
+@pytest.mark.parametrize("call, text", [
+    (lambda link: link.subscribe(system="x"), "system: an integer, not 'x'"),
+    (lambda link: link.recv_match(component=1.5), r"component: an integer, not 1\.5"),
+    (lambda link: link.latest("ATTITUDE", system=1.5), r"system: an integer, not 1\.5"),
+    (lambda link: setattr(link.mav, "srcSystem", "x"), "source_system: an integer, not 'x'"),
+    (lambda link: setattr(link.mav, "seq", None), "seq.*: an integer, not None"),
+    (lambda link: mavloom.connect("udpin://127.0.0.1:0", buffer="x"), "buffer: an integer, not 'x'"),
+    (lambda link: mavloom.connect("udpin://127.0.0.1:0", version=None), "version: an integer, not None"),
+    (lambda link: mavloom.Dialect().encode("HEARTBEAT", frame_seq="x"), "frame_seq: an integer, not 'x'")])
+def test_arguments_that_are_no_integers_are_named(call, text):
+    with mavloom.connect("udpin://127.0.0.1:0") as link, pytest.raises(TypeError, match=f"^{text}$"):
+        call(link)
+
+
+def test_what_is_no_ring_is_named():
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        with pytest.raises(mavloom.UsageError, match=r"serve_inlet\(\) takes the name of a ring, not 5"):
+            link.serve_inlet(5)
+        with pytest.raises(mavloom.UsageError, match=r"pump\(\) takes a RingWriter, not 'px4'"):
+            link.pump("px4")
+
+
 # ---- files of other formats
 
 @pytest.mark.parametrize("start, text", [

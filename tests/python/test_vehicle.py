@@ -535,7 +535,7 @@ def test_a_cancelled_transfer_lets_the_next_one_begin(peer):
 
 
 def test_a_call_does_not_wait_for_a_call_without_answers(peer, quick):
-    """Here the first call cannot go on before the second one returns."""
+    """Here the first call cannot continue before the second one returns."""
     async def block(vehicle, stub):
         first = asyncio.create_task(vehicle.link.vehicle_async(1).mission.upload([mavloom.MissionItem()]))
         while not stub.messages:

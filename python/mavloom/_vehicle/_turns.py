@@ -17,7 +17,7 @@ LOOK_S = 0.01  # how often a waiting exchange looks whether it is its turn
 
 
 class Turns:
-    """Who waits for which kind of exchange, in order. The first of a queue has its turn."""
+    """The queues of exchanges, one for each kind. The first of a queue has its turn."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -120,6 +120,7 @@ class Vehicle(_Common):
         run(self._peer, _commands.ANSWERS, _commands.land(self._peer))
 
     def return_to_launch(self) -> None:
+        """Returns to the launch place, and lands there if the vehicle is set up to. Does not wait until it is there."""
         self.command(_commands.RETURN_TO_LAUNCH)
 
 
@@ -257,6 +258,7 @@ class AsyncVehicle(_Common):
         await run_async(self._peer, _commands.ANSWERS, _commands.land(self._peer))
 
     async def return_to_launch(self) -> None:
+        """See Vehicle.return_to_launch."""
         await self.command(_commands.RETURN_TO_LAUNCH)
 
 

@@ -40,10 +40,7 @@ std::optional<feed::Instance> instance_from(const nb::object& given) {
     if (given.is_none()) return std::nullopt;
     if (PyUnicode_Check(given.ptr())) return nb::cast<std::string>(given);
     Integer number;
-    if (!number.take(given)) {
-        PyErr_Format(PyExc_TypeError, "instance= takes a number or text, not %R", given.ptr());
-        throw nb::python_error();
-    }
+    number.take(given);
     return number.in<std::int64_t>("instance");
 }
 

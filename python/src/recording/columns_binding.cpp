@@ -104,9 +104,9 @@ RowsQuery query_of(const OptionalInteger& system, const OptionalInteger& compone
 }
 
 nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const OptionalInteger& system,
-                          const OptionalInteger& component, const nb::object& instance,
-                          const OptionalInteger& begin, const OptionalInteger& end,
-                          const std::optional<std::vector<std::string>>& fields, const nb::object& dialect) {
+                          const OptionalInteger& component, const nb::object& instance, const OptionalInteger& begin,
+                          const OptionalInteger& end, const std::optional<std::vector<std::string>>& fields,
+                          const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = *value_or_raise(definitions->dialect().message(name));
     auto query = query_of(system, component, begin, end);
