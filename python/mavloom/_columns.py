@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _views
-from ._core import Dialect, MessageInfo, read_columns, read_tables
+from ._core import Dialect, Message, MessageInfo, read_columns, read_tables
 from ._errors import UsageError
 from ._types import MessageTypes
 
@@ -23,9 +23,22 @@ if TYPE_CHECKING:
 Array = npt.NDArray[Any]
 Path = Union[str, "os.PathLike[str]"]
 Paths = Union[Path, Iterable[Path]]
+Name = Union[str, "type[Message]"]
+Names = Union["list[str]", "list[type[Message]]", "tuple[Name, ...]", "set[Name]", "frozenset[Name]"]
 # A point in time: Unix time in ns, an aware datetime, or anything that numpy.datetime64 takes.
 Time = Union[int, datetime.datetime, np.datetime64]
 HEADER = ("time_ns", "sys", "comp")
+
+
+def flat(arrays: dict[str, Array]) -> dict[str, Array]:
+    """The columns, one for each element of an array field. They are views of the arrays."""
+    columns: dict[str, Array] = {}
+    for name, values in arrays.items():
+        if values.ndim == 2:
+            columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
+        else:
+            columns[name] = values
+    return columns
 
 
 class Columns(dict[str, Array]):
@@ -45,13 +58,14 @@ class Columns(dict[str, Array]):
     columns of one dimension, as these libraries need: those of an array field are `voltages[0]`, `voltages[1]`, ...
     """
 
-    # A dict, because pandas.DataFrame takes columns from nothing else. Nothing is stored in the dict itself.
+    # A dict, because pandas.DataFrame takes columns from nothing else. It holds the columns of one dimension, because
+    # json and other compiled code looks into the dict itself.
 
     name: str
     junk_bytes: int  # bytes of the file that belong to no record: damaged, or cut off at the end
 
     def __init__(self, dialect: Dialect, name: str, arrays: dict[str, Array], junk_bytes: int) -> None:
-        super().__init__()
+        super().__init__(flat(arrays))
         self.name = name
         self.junk_bytes = junk_bytes
         self._dialect = dialect
@@ -72,7 +86,7 @@ class Columns(dict[str, Array]):
         return {field.name: field.enum for field in self._info.fields if field.enum}
 
     def __getitem__(self, column: str) -> Array:
-        """Returns a column. Raises KeyError, which suggests the nearest name, if there is none of this name."""
+        """Returns a column. Raises KeyError, which lists the columns, if there is none of this name."""
         found: Array | None = self.get(column)
         if found is None:
             raise KeyError(f"{self.name} has no column {column!r}; it has {', '.join(self._arrays)}")
@@ -88,24 +102,27 @@ class Columns(dict[str, Array]):
         """Iterates over the column names: time_ns, sys, comp, then the fields in the order of the definition."""
         return iter(self._arrays)
 
+    def __reversed__(self) -> Iterator[str]:
+        return reversed(list(self._arrays))
+
     def get(self, column: object, default: Any = None) -> Any:
         """Returns a column, or `default` if there is none of this name."""
         try:
-            return self._arrays[column] if column in self._arrays else self._flat.get(column, default)  # type: ignore
+            return self._arrays[column] if column in self._arrays else super().get(column, default)  # type: ignore
         except TypeError:  # a list, for example
             return default
 
     def keys(self) -> list[str]:  # type: ignore[override]
         """The names of the columns of one dimension."""
-        return list(self._flat)
+        return list(super().keys())
 
     def values(self) -> list[Array]:  # type: ignore[override]
         """The columns of one dimension."""
-        return list(self._flat.values())
+        return list(super().values())
 
     def items(self) -> list[tuple[str, Array]]:  # type: ignore[override]
         """The names and columns of one dimension."""
-        return list(self._flat.items())
+        return list(super().items())
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._arrays)
@@ -154,23 +171,12 @@ class Columns(dict[str, Array]):
             made[name] = values
         return made if dtype is None else made.astype(dtype)
 
-    @functools.cached_property
-    def _flat(self) -> dict[str, Array]:
-        """The columns, one for each element of an array field. They are views of the arrays."""
-        columns: dict[str, Array] = {}
-        for name, values in self._arrays.items():
-            if values.ndim == 2:
-                columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
-            else:
-                columns[name] = values
-        return columns
-
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """For libraries that take the Arrow C interface (polars, duckdb, pyarrow). Needs pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_arrow(self) -> pyarrow.Table:
-        """Converts the columns to a pyarrow table. Needs pyarrow: the extra [arrow].
+        """Converts the columns to a pyarrow table. Needs pyarrow.
 
         `time_ns` becomes timestamp[ns, UTC]. Text becomes UTF-8, with U+FFFD for invalid bytes. Array fields become
         lists of fixed size. Fields carry the metadata `unit` and `enum`. Parquet keeps all of it.
@@ -178,7 +184,7 @@ class Columns(dict[str, Array]):
         try:
             import pyarrow
         except ImportError as error:
-            raise ImportError("to_arrow() needs pyarrow: pip install 'mavloom[arrow]'") from error
+            raise ImportError("to_arrow() needs pyarrow: pip install pyarrow") from error
         arrays = [self._arrow_array(pyarrow, name) for name in self._arrays]
         fields = [pyarrow.field(name, array.type, metadata=self._metadata(name))
                   for name, array in zip(self._arrays, arrays)]
@@ -199,7 +205,7 @@ class Columns(dict[str, Array]):
         return pyarrow.array(values)
 
     def to_pandas(self, *, enums: bool = False) -> pandas.DataFrame:
-        """Converts the columns to a pandas data frame. Needs pandas: the extra [pandas].
+        """Converts the columns to a pandas data frame. Needs pandas.
 
         The times become the index (UTC, datetime64[ns]). An array field becomes one column for each element:
         `voltages[0]`, ... Text becomes str. With `enums`, values of an enum become categories with the names of its
@@ -208,9 +214,9 @@ class Columns(dict[str, Array]):
         try:
             import pandas
         except ImportError as error:
-            raise ImportError("to_pandas() needs pandas: pip install 'mavloom[pandas]'") from error
+            raise ImportError("to_pandas() needs pandas: pip install pandas") from error
         columns: dict[str, Any] = {}
-        for name, values in self._flat.items():
+        for name, values in self.items():
             if values.dtype.kind == "S":
                 columns[name] = np.char.decode(values, "utf-8", "replace")
             elif enums and self._has_names(name):
@@ -236,26 +242,26 @@ class Columns(dict[str, Array]):
 
 
 @overload
-def columns(path: Paths, name: str, *, system: int | None = None, component: int | None = None,
+def columns(path: Paths, name: str | type[Message], *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> Columns: ...
 
 
 @overload
-def columns(path: Paths, name: list[str] | tuple[str, ...] | set[str] | frozenset[str], *,
+def columns(path: Paths, name: Names, *,
             system: int | None = None, component: int | None = None, instance: int | str | None = None,
             start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None, dialect: Dialect | None = None) -> dict[str, Columns]: ...
 
 
-def columns(path: Paths, name: str | Iterable[str], *, system: int | None = None, component: int | None = None,
+def columns(path: Paths, name: str | type[Message] | Names, *, system: int | None = None, component: int | None = None,
             instance: int | str | None = None, start: Time | None = None, end: Time | None = None,
             fields: Sequence[str] | None = None,
             dialect: Dialect | None = None) -> Columns | dict[str, Columns]:
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
-    `path` may be a list of files, whose rows follow each other. `name` may be a list of messages: the result is then
-    {name: Columns}, as that of `tables`.
+    `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages, or a
+    list of these: the result is then {name: Columns}, as that of `tables`.
 
     - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
       sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
@@ -271,6 +277,8 @@ def columns(path: Paths, name: str | Iterable[str], *, system: int | None = None
     definitions = Dialect() if dialect is None else dialect
     files, begin, before = paths_of(path), time_ns_of("start", start), time_ns_of("end", end)
     wanted = None if fields is None else list_of_names("fields", fields)
+    if isinstance(name, type):
+        name = name.__name__
     if not isinstance(name, str):
         names = list_of_names("name", name)
         if instance is None and wanted is None:
@@ -308,10 +316,12 @@ def paths_of(path: Paths) -> list[Path]:
     return files
 
 
-def list_of_names(what: str, given: Iterable[str]) -> list[str]:
+def list_of_names(what: str, given: Iterable[Any]) -> list[str]:
     if isinstance(given, str):
         return [given]
     names: list[Any] = list(given) if isinstance(given, Iterable) else [given]
+    if what == "name":
+        names = [one.__name__ if isinstance(one, type) else one for one in names]
     for one in names:
         if not isinstance(one, str):
             raise UsageError(f"{what}= takes a name or a list of names, not {one!r}")
@@ -328,6 +338,8 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
         return given
     if isinstance(given, np.integer):
         return int(given)
+    if given != given:  # numpy's or pandas' NaT
+        raise UsageError(f"{what}: {given} is no time")
     if isinstance(given, datetime.datetime):
         if given.tzinfo is None:
             raise UsageError(f"{what}: {given} has no time zone; for example, datetime(..., tzinfo=timezone.utc)")
@@ -336,7 +348,7 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
             return nanoseconds
         since = given - datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc)
         return (since.days * 86400 + since.seconds) * 10**9 + since.microseconds * 1000
-    if isinstance(given, np.datetime64) and not np.isnat(given):
+    if isinstance(given, np.datetime64):
         return int(given.astype("datetime64[ns]").astype("int64"))
     raise UsageError(f"{what}: a time is Unix time in ns, an aware datetime or a numpy.datetime64, not {given!r}")
 

@@ -13,7 +13,7 @@ from ._core import Dialect, LinkRecorder, LinkStats, Message, Port, RingWriter, 
 from ._errors import ClosedError, UsageError
 from ._sends import Calls, Sends
 from ._types import MessageTypes
-from ._vehicle import AsyncVehicle, Vehicle
+from ._vehicle import AsyncVehicle, Turns, Vehicle
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -43,7 +43,7 @@ class Link(Sends):
     of its own.
     """
 
-    __slots__ = ("_reader", "mav", "__weakref__")
+    __slots__ = ("_reader", "_turns", "mav", "__weakref__")
 
     def __init__(self, url: str, *, source_system: int = DEFAULT_SOURCE[0], source_component: int = DEFAULT_SOURCE[1],
                  dialect: Dialect | None = None, buffer: int = DEFAULT_BUFFER_BYTES, version: int = 2) -> None:
@@ -57,6 +57,7 @@ class Link(Sends):
         check_url(url)
         super().__init__(Port(url, source_system, source_component, dialect, buffer, version))
         self._reader: Subscription = self._port.reader
+        self._turns = Turns()
         self.mav = Sender(self._port)
 
     # ---- receiving
@@ -129,6 +130,8 @@ class Link(Sends):
         Works in C++ without the GIL. Returns the number of frames written. `recv` does not return these frames. A
         subscription has its own `pump`.
         """
+        if not isinstance(writer, RingWriter):
+            raise UsageError(f"pump() takes a RingWriter, not {writer!r}")
         return self._reader.pump(writer, timeout)
 
     # ---- sending
@@ -149,6 +152,8 @@ class Link(Sends):
         frames, and `stats.unheard_answers` those for which there was no peer. Closing the link closes the inlet. Raises
         SystemFailure if another process serves the socket, and UsageError for a second inlet of one link.
         """
+        if not isinstance(ring, str):
+            raise UsageError(f"serve_inlet() takes the name of a ring, not {ring!r}")
         self._port.serve_inlet(ring, mode)
 
     # ---- recording
@@ -266,13 +271,19 @@ class Link(Sends):
 
     def field(self, type: str, field: str, default: Any = None) -> Any:
         """Returns the newest value of a field, or `default` if no such message arrived."""
-        message = self.messages.get(type)
+        message = self._newest(type)
         return default if message is None else message[field]
 
     def time_since(self, type: str) -> float:
         """Returns the seconds since the newest message of this type arrived; infinity if none did."""
-        message = self.messages.get(type)
+        message = self._newest(type)
         return float("inf") if message is None else time.time() - message.time_ns * 1e-9
+
+    def _newest(self, type: str) -> Message | None:
+        """Raises UsageError, which suggests the nearest name, if there is no message of this name."""
+        with contextlib.suppress(KeyError):
+            return self.messages[type]
+        return None
 
     def packet_loss(self, system: int | None = None, component: int | None = None) -> float:
         """Returns the percentage of frames lost before they arrived, 0 to 100, from all sources or the selected ones.
@@ -280,8 +291,8 @@ class Link(Sends):
         Late and duplicate frames do not count as lost. `stats.sources` has the figures of each source.
         """
         for what, number in (("system", system), ("component", component)):
-            if number is not None and not 0 <= number <= 255:
-                raise UsageError(f"{what}: {number} is out of range, 0 to 255")
+            if number is not None and (not isinstance(number, int) or not 0 <= number <= 255):
+                raise UsageError(f"{what}: {number!r} is out of range, 0 to 255")
         chosen = [source for source in self.stats.sources
                   if system in (None, source.sys) and component in (None, source.comp)]
         lost = sum(source.lost for source in chosen)
@@ -295,6 +306,9 @@ class Latest(Mapping[str, Message]):
         self._link = link
 
     def __getitem__(self, key: str) -> Message:
+        """Raises KeyError if no such message arrived, and UsageError if there is no message of this name."""
+        if not isinstance(key, str):
+            raise UsageError(f"messages are found by their names, such as \"ATTITUDE\", not by {key!r}")
         name, bracket, rest = key.partition("[")
         instance: int | str | None = rest.rstrip("]") if bracket else None
         if instance is not None and not any(field.instance and field.type == "char"
@@ -305,6 +319,16 @@ class Latest(Mapping[str, Message]):
         if message is None:
             raise KeyError(key)
         return message
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Returns the newest message, or `default` if none arrived or if there is no message of this name."""
+        try:
+            return self[key]
+        except (KeyError, UsageError):
+            return default
+
+    def __contains__(self, key: object) -> bool:
+        return self.get(key) is not None  # type: ignore[arg-type]
 
     def __iter__(self) -> Iterator[str]:
         system = self._link.target_system or None
@@ -370,7 +394,7 @@ def check_url(url: object) -> None:
 
 
 def target_id(what: str, number: int) -> int:
-    if not isinstance(number, int) or not 1 <= number <= 255:
+    if not isinstance(number, int) or isinstance(number, bool) or not 1 <= number <= 255:
         raise UsageError(f"{what}: {number!r} is out of range, 1 to 255")
     return number
 

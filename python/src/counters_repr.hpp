@@ -9,7 +9,8 @@
 
 namespace mavloom::python {
 
-// A __repr__ for objects that consist of properties: Name(frames=12, lost=3). Omits values that are 0 or empty.
+// A __repr__ for objects that consist of properties: Name(frames=12, lost=3). Omits values that are 0 or empty; if all
+// are, it is Name(all 0).
 [[nodiscard]] inline std::string counters_repr(nanobind::handle self) {
     namespace nb = nanobind;
     const nb::object type = nb::borrow(self.type());
@@ -23,7 +24,7 @@ namespace mavloom::python {
         text += before + name + "=" + escaped(nb::repr(value));
         before = ", ";
     }
-    return text + (*before == '(' ? "()" : ")");
+    return text + (*before == '(' ? "(all 0)" : ")");
 }
 
 }  // namespace mavloom::python

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Integer: an integer argument of any size. It is checked against a range when it is used. A number that does not fit
-// raises a UsageError that states the range. nanobind's own casters would reject it as an argument of the wrong type.
+// raises a UsageError that states the range, and anything else a TypeError that names the argument. nanobind's own
+// casters would reject both with a text about all arguments of the C++ function.
 // Call with the GIL held.
 #pragma once
 
@@ -35,23 +36,33 @@ public:
     }
     template <class T>
     [[nodiscard]] T in(const char* what, std::int64_t least, std::int64_t most) const {
+        if (!is_integer_) raise_no_integer(what);
         if (!fits_ || value_ < least || value_ > most)
             raise_usage(fmt::format("{}: {} is out of range, {} to {}", what, digits_of(number_), least, most));
         return static_cast<T>(value_);
     }
-    // Returns false, with a Python error set, if `given` is not an integer.
-    [[nodiscard]] bool take(nb::handle given) noexcept {
+    void take(nb::handle given) noexcept {
         number_ = nb::steal(PyNumber_Index(given.ptr()));
-        if (!number_.is_valid()) return false;
+        is_integer_ = number_.is_valid();
+        if (!is_integer_) {
+            PyErr_Clear();  // `in` raises it with the name of the argument
+            number_ = nb::borrow(given);
+            return;
+        }
         int overflow = 0;
         value_ = PyLong_AsLongLongAndOverflow(number_.ptr(), &overflow);
         fits_ = overflow == 0;
-        return true;
     }
 
 private:
+    [[noreturn]] void raise_no_integer(const char* what) const {
+        PyErr_Format(PyExc_TypeError, "%s: an integer, not %R", what, number_.ptr());
+        throw nb::python_error();
+    }
+
     nb::object number_;
     std::int64_t value_ = 0;
+    bool is_integer_ = true;
     bool fits_ = true;
 };
 
@@ -68,8 +79,7 @@ template <>
 struct nanobind::detail::type_caster<mavloom::python::Integer> {
     NB_TYPE_CASTER(mavloom::python::Integer, const_name("int"))
     bool from_python(handle source, std::uint8_t, cleanup_list*) noexcept {
-        if (value.take(source)) return true;
-        PyErr_Clear();  // nanobind raises TypeError instead
-        return false;
+        value.take(source);
+        return true;
     }
 };

@@ -40,6 +40,8 @@ constexpr Signature signatures[] = {
     {"\x89MCAP0\r\n"sv, {"an MCAP file", "read it with the package mcap"}},
     {"#ROSBAG V2.0"sv, {"a ROS bag", "read it with the package rosbags"}},
     {"PAR1"sv, {"a Parquet file", "read it with pyarrow"}},
+    {"SQLite format 3\0"sv, {"an SQLite database", "read it with Python's sqlite3"}},
+    {"\x89HDF\r\n\x1a\n"sv, {"an HDF5 file", "read it with the package h5py"}},
 };
 
 // Returns the length of an intact frame of known id at the front; 0 if there is none.
@@ -59,6 +61,17 @@ bool is_stream(ByteView bytes, const wire::MessageTable& table) noexcept {
     return first != 0 && (first == bytes.size() || intact_frame(bytes.subspan(first), table) != 0);
 }
 
+constexpr bool is_text(std::uint8_t byte) noexcept {
+    return (byte >= 0x20 && byte < 0x7f) || byte == '\t' || byte == '\n' || byte == '\r';
+}
+
+// Text has no signature. So much of it holds no frame, and is more than damage of a tlog.
+std::optional<ForeignFormat> text_format(ByteView first_bytes) noexcept {
+    if (first_bytes.size() < foreign_format_bytes || !std::ranges::all_of(first_bytes, is_text)) return std::nullopt;
+    if (first_bytes[0] == '{' || first_bytes[0] == '[') return ForeignFormat{"JSON", "read it with Python's json"};
+    return ForeignFormat{"text", "if it is CSV, read it with Python's csv or with pandas.read_csv"};
+}
+
 }  // namespace
 
 std::optional<ForeignFormat> foreign_format(ByteView first_bytes, const wire::MessageTable& table) noexcept {
@@ -67,7 +80,7 @@ std::optional<ForeignFormat> foreign_format(ByteView first_bytes, const wire::Me
     if (found != std::end(signatures)) return found->format;
     if (is_stream(first_bytes, table))
         return ForeignFormat{"a MAVLink stream without times", "in Python, mavloom.Parser().feed() reads its bytes"};
-    return std::nullopt;
+    return text_format(first_bytes);
 }
 
 }  // namespace mavloom::record

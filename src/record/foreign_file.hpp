@@ -18,7 +18,8 @@ struct ForeignFormat {
 };
 
 // How many bytes of a file `foreign_format` looks at.
-inline constexpr std::size_t foreign_format_bytes = 2 * wire::max_frame_length;
+inline constexpr std::size_t foreign_format_bytes = 4096;
+static_assert(foreign_format_bytes >= 2 * wire::max_frame_length);
 
 // Returns nothing if the bytes may begin a tlog, even a damaged one. `table` has the checksums of frames.
 [[nodiscard]] std::optional<ForeignFormat> foreign_format(ByteView first_bytes,

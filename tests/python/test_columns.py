@@ -3,6 +3,7 @@
 import contextlib
 import copy
 import datetime
+import json
 import os
 import pickle
 import signal
@@ -14,6 +15,7 @@ import pytest
 
 import mavloom
 import pymavlink_vectors as vectors
+from mavloom import messages
 from tlogs import frames_of, packer, record, write
 
 NUMPY = {"uint8_t": "u1", "int8_t": "i1", "uint16_t": "u2", "int16_t": "i2", "uint32_t": "u4", "int32_t": "i4",
@@ -109,6 +111,8 @@ def test_row_9_instances(peer, tmp_path):
     assert len(mavloom.columns(path, "BATTERY_STATUS", instance=7)) == 0
     with pytest.raises(ValueError, match="no field that distinguishes instances"):
         mavloom.columns(path, "HEARTBEAT", instance=0)
+    with pytest.raises(mavloom.UsageError, match=r"instance: BATTERY_STATUS\.id is a number, not text"):
+        mavloom.columns(path, "BATTERY_STATUS", instance="1")
 
 
 def test_row_9_instances_that_are_text(peer, tmp_path):
@@ -120,7 +124,9 @@ def test_row_9_instances_that_are_text(peer, tmp_path):
         assert list(mavloom.columns(path, "NAMED_VALUE_FLOAT",
                                     instance=name.decode())["time_boot_ms"]) == [number, number + 3, number + 6]
     assert len(mavloom.columns(path, "NAMED_VALUE_FLOAT",
-                               instance="n00")) == len(mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)) == 0
+                               instance="n00")) == 0
+    with pytest.raises(mavloom.UsageError, match=r"instance: NAMED_VALUE_FLOAT\.name is text, not a number"):
+        mavloom.columns(path, "NAMED_VALUE_FLOAT", instance=110)
 
 
 def test_row_3_systems_and_components(flight):
@@ -228,6 +234,16 @@ def test_the_columns_cannot_be_exchanged(flight):
     assert "roll" in att and att.get("nothing") is None and [1] not in att.keys()
 
 
+def test_columns_in_reverse_order_and_as_json(flight):
+    targets = mavloom.columns(flight, "ATTITUDE_TARGET", fields=["q", "thrust"])
+    assert list(reversed(targets)) == ["thrust", "q", "comp", "sys", "time_ns"]
+    with pytest.raises(TypeError, match="ndarray is not JSON serializable"):
+        json.dumps(targets)
+    loaded = json.loads(json.dumps(targets, default=np.ndarray.tolist))
+    assert list(loaded) == ["time_ns", "sys", "comp", "q[0]", "q[1]", "q[2]", "q[3]", "thrust"] == targets.keys()
+    assert loaded["q[1]"] == targets["q"][:, 1].tolist() and {**targets}.keys() == loaded.keys()
+
+
 def test_several_files_follow_each_other(flight, tmp_path):
     records = list(frames_of(flight))
     parts = [write(tmp_path / f"{i}.tlog", [frame for _, frame in part]) for i, part in
@@ -251,8 +267,12 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
     assert len(mavloom.tables(flight, start=first, end=last)["ATTITUDE"]) == 200
     with pytest.raises(mavloom.UsageError, match="no field 'rol', did you mean 'roll'"):
         mavloom.columns(flight, "ATTITUDE", fields=["rol"])
-    with pytest.raises(mavloom.UsageError, match="start: a time is .*, not np.datetime64"):
-        mavloom.columns(flight, "ATTITUDE", start=np.datetime64("NaT"))
+    with pytest.raises(mavloom.UsageError, match="start: a time is .*, not '20"):
+        mavloom.columns(flight, "ATTITUDE", start=at.isoformat())
+    for none in (np.datetime64("NaT"), np.datetime64("NaT", "ns"), pytest.importorskip("pandas").NaT):
+        for limit in ("start", "end"):
+            with pytest.raises(mavloom.UsageError, match=f"{limit}: NaT is no time"):
+                mavloom.columns(flight, "ATTITUDE", **{limit: none})
     with pytest.raises(mavloom.UsageError, match="has no time zone"):
         mavloom.columns(flight, "ATTITUDE", start=datetime.datetime(2026, 1, 1))
     with pytest.raises(mavloom.UsageError, match="start: a time is Unix time in ns"):
@@ -266,6 +286,16 @@ def test_several_messages_are_a_dictionary(flight):
     for wrong in (None, 3, ["ATTITUDE", 3]):
         with pytest.raises(mavloom.UsageError, match="name= takes a name or a list of names"):
             mavloom.columns(flight, wrong)
+
+
+def test_messages_are_named_by_their_classes_too(flight):
+    attitude = mavloom.columns(flight, messages.ATTITUDE)
+    assert attitude.name == "ATTITUDE" and len(attitude) == len(mavloom.columns(flight, "ATTITUDE"))
+    assert list(mavloom.columns(flight, [messages.VFR_HUD, "ATTITUDE"], fields=["roll"])) == ["VFR_HUD", "ATTITUDE"]
+    with pytest.raises(mavloom.UsageError, match="unknown message 'int'"):
+        mavloom.columns(flight, int)
+    with pytest.raises(mavloom.UsageError, match="fields= takes a name or a list of names, not"):
+        mavloom.columns(flight, "ATTITUDE", fields=[messages.VFR_HUD])
 
 
 def test_tables_take_at_most_twice_the_memory_of_their_result(flight, child_environment):
@@ -359,13 +389,12 @@ def test_example_9_pandas(flight, tmp_path):
     assert [name for name in quaternion if name.startswith("q[")] == ["q[0]", "q[1]", "q[2]", "q[3]"]
 
 
-@pytest.mark.parametrize("method, module, extra",
-                         [("to_pandas", "pandas", "mavloom[pandas]"), ("to_arrow", "pyarrow", "mavloom[arrow]")])
-def test_what_is_missing_is_named_with_its_extra(flight, method, module, extra, child_environment):
+@pytest.mark.parametrize("method, module", [("to_pandas", "pandas"), ("to_arrow", "pyarrow")])
+def test_what_is_missing_is_named_with_how_to_install_it(flight, method, module, child_environment):
     code = (f"import sys, mavloom\nsys.modules[{module!r}] = None\n"
             f"mavloom.columns({str(flight)!r}, 'ATTITUDE').{method}()")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=child_environment)
-    assert done.returncode == 1 and f"pip install '{extra}'" in done.stderr
+    assert done.returncode == 1 and f"{method}() needs {module}: pip install {module}\n" in done.stderr
 
 
 def test_row_27_only_numpy_is_needed(child_environment):

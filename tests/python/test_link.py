@@ -80,6 +80,16 @@ def test_row_2_example_2_old_habits(link, vehicle, peer):
         link.wait_vehicle(timeout=0.01)
 
 
+def test_the_newest_messages_are_a_mapping(link):
+    for key in ("ATITUDE", "ATTITUDE", "ATTITUDE[1]", "", 5, None):
+        assert key not in link.messages and link.messages.get(key) is None and link.messages.get(key, 7) == 7
+    for call in (link.messages.__getitem__, link.time_since, lambda name: link.field(name, "roll")):
+        with pytest.raises(mavloom.UsageError, match="'ATITUDE', did you mean 'ATTITUDE'"):
+            call("ATITUDE")
+        with pytest.raises(mavloom.UsageError, match='found by their names, such as "ATTITUDE", not by 5'):
+            call(5)
+
+
 @pytest.mark.parametrize("spelling, name", [
     ("tcpin:127.0.0.1:0", "tcpin://127.0.0.1:{port}"), ("udpout:127.0.0.1:9", "udpout://127.0.0.1:9"),
     ("tcp:127.0.0.1:9", "tcpout://127.0.0.1:9"), ("/dev/absent,57600", "serial:///dev/absent")])
@@ -359,7 +369,13 @@ def test_row_4_instances_that_are_text(link, vehicle, peer):
             link.messages["NAMED_VALUE_FLOAT"].value) == (0, 7, 7)
     for key in ("NAMED_VALUE_FLOAT[n]", "BATTERY_STATUS[x]", "ATTITUDE[1]"):
         assert key not in link.messages
-    assert link.latest("NAMED_VALUE_FLOAT", instance=7) is None
+    for name, instance, text in (("NAMED_VALUE_FLOAT", 7, r"instance: NAMED_VALUE_FLOAT\.name is text, not a number"),
+                                 ("BATTERY_STATUS", "7", r"instance: BATTERY_STATUS\.id is a number, not text"),
+                                 ("ATTITUDE", 7, "ATTITUDE has no field that distinguishes instances")):
+        with pytest.raises(mavloom.UsageError, match=text):
+            link.latest(name, instance=instance)
+    with pytest.raises(TypeError, match=r"instance: an integer, not 1\.5"):
+        link.latest("BATTERY_STATUS", instance=1.5)
 
 
 def test_subscriptions_take_nothing_away(link, vehicle):

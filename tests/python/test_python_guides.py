@@ -41,6 +41,8 @@ def test_examples_run(page, flight, tmp_path, child_environment):
     for written, used in (("14550", str(port)), ('"px4"', f'"{ring}"'), ("shm://px4", f"shm://{ring}"),
                           ("/run/mavloom/px4.in", inlet)):
         script = script.replace(written, used)
+    if inlet in script:
+        script += """send_to_inlet(dialect.encode("HEARTBEAT", source_system=255, source_component=193))\n"""
     with (vehicle_at(port, flight),
           contextlib.ExitStack() as at_the_end,
           socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as router):

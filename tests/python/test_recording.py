@@ -129,7 +129,7 @@ print(left, os.waitpid(pid, 0)[1])
 
 def test_counters_are_shown(flight):
     log, parser, dialect = mavloom.read(flight), mavloom.Parser(), mavloom.Dialect()
-    assert (repr(log.stats), repr(parser)) == ("RecordingStats()", "Parser()")
+    assert (repr(log.stats), repr(parser)) == ("RecordingStats(all 0)", "Parser(all 0)")
     for _ in log:
         pass
     assert repr(log.stats) == f"RecordingStats(records={FRAMES}, record_bytes={flight.stat().st_size})"
@@ -137,6 +137,8 @@ def test_counters_are_shown(flight):
     assert repr(parser) == "Parser(frames=1, junk_bytes=4)"
     with (mavloom.connect("udpin://127.0.0.1:0") as receiver,
           mavloom.connect(f"udpout://127.0.0.1:{receiver.port}") as sender):
+        assert repr(receiver.stats) == "LinkStats(all 0)"
+        assert repr(receiver._port) == f"<Port of the Link {receiver.name}>"
         sender.send("HEARTBEAT")
         receiver.recv(timeout=10)
         assert repr(receiver.stats).startswith("LinkStats(peers=1, frames_in=1, bytes_in=21, ")

@@ -298,11 +298,43 @@ def test_a_writer_whose_file_went_at_the_end_keeps_what_it_buffers(tmp_path):
     assert log.records == 1 and [m.time_boot_ms for m in mavloom.read(path)] == [7]
 
 
+def test_times_before_1970_are_refused(flight, tmp_path):
+    """A tlog has no sign: -1 was stored as 0."""
+    with mavloom.write(tmp_path / "x.tlog") as out:
+        with pytest.raises(mavloom.UsageError, match="time_ns: -1 is out of range, 0 to"):
+            out.write(mavloom.read(flight).recv(), time_ns=-1)
+        assert out.records == 0
+
+
+@pytest.mark.parametrize("call, text", [
+    (lambda link: link.subscribe(system="x"), "system: an integer, not 'x'"),
+    (lambda link: link.recv_match(component=1.5), r"component: an integer, not 1\.5"),
+    (lambda link: link.latest("ATTITUDE", system=1.5), r"system: an integer, not 1\.5"),
+    (lambda link: setattr(link.mav, "srcSystem", "x"), "source_system: an integer, not 'x'"),
+    (lambda link: setattr(link.mav, "seq", None), "seq.*: an integer, not None"),
+    (lambda link: mavloom.connect("udpin://127.0.0.1:0", buffer="x"), "buffer: an integer, not 'x'"),
+    (lambda link: mavloom.connect("udpin://127.0.0.1:0", version=None), "version: an integer, not None"),
+    (lambda link: mavloom.Dialect().encode("HEARTBEAT", frame_seq="x"), "frame_seq: an integer, not 'x'")])
+def test_arguments_that_are_no_integers_are_named(call, text):
+    with mavloom.connect("udpin://127.0.0.1:0") as link, pytest.raises(TypeError, match=f"^{text}$"):
+        call(link)
+
+
+def test_what_is_no_ring_is_named():
+    with mavloom.connect("udpin://127.0.0.1:0") as link:
+        with pytest.raises(mavloom.UsageError, match=r"serve_inlet\(\) takes the name of a ring, not 5"):
+            link.serve_inlet(5)
+        with pytest.raises(mavloom.UsageError, match=r"pump\(\) takes a RingWriter, not 'px4'"):
+            link.pump("px4")
+
+
 # ---- files of other formats
 
 @pytest.mark.parametrize("start, text", [
     (b"\xa3\x95\x80\x80\x59FMT", "a DataFlash log of ArduPilot"), (b"ULog\x01\x12\x35\x01", "a ULog of PX4"),
-    (b"\x1f\x8b\x08\x00", "a gzip file"), (b"\xd4\xc3\xb2\xa1\x02\x00", "a pcap capture")])
+    (b"\x1f\x8b\x08\x00", "a gzip file"), (b"\xd4\xc3\xb2\xa1\x02\x00", "a pcap capture"),
+    (b"SQLite format 3\0\x10\0", "an SQLite database"), (b"\x89HDF\r\n\x1a\n\0", "an HDF5 file"),
+    (b'[{"time": 1}' + b',{"time": 2}' * 400 + b"]", "JSON"), (b"time,roll\r\n" + b"1,2\r\n" * 1000, "text")])
 def test_files_of_other_formats_are_refused_by_name(start, text, tmp_path):
     path = pathlib.Path(tmp_path / "log")
     path.write_bytes(start + bytes(1000))

@@ -302,7 +302,7 @@ PLACES = [(47.3977, 8.5456, 20), (47.3980, 8.5460, 25.5), (-33.8, 151.2, 30)]
 @pytest.mark.parametrize("request_int", [False, True])
 def test_missions_up_and_down(request_int, peer):
     items = [mavloom.MissionItem.at(*place, param1=float(i)) for i, place in enumerate(PLACES)]
-    with flown(peer, request_int=request_int) as (vehicle, stub):
+    with flown(peer, px4=True, request_int=request_int) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert [(m.seq, m.x, m.y, m.z, m.frame, m.param1) for m in stub.mission] == [
             (i, round(lat * 1e7), round(lon * 1e7), alt, 6, i) for i, (lat, lon, alt) in enumerate(PLACES)]
@@ -313,18 +313,32 @@ def test_missions_up_and_down(request_int, peer):
         vehicle.mission.upload([])
 
 
+def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
+    """Its item 0 is home, whatever is sent; jumps follow their targets."""
+    items = [*(mavloom.MissionItem.at(*place) for place in PLACES), mavloom.MissionItem(177, param1=1, param2=3)]
+    with flown(peer) as (vehicle, stub):
+        vehicle.mission.upload(items)
+        assert [(m.seq, m.command, m.z, m.param1) for m in stub.mission] == [
+            (0, 16, 0, 0), (1, 16, 20, 0), (2, 16, 25.5, 0), (3, 16, 30, 0), (4, 177, 0, 2)]
+        assert vehicle.mission.download() == items and items[3].param1 == 1
+        vehicle.mission.upload([])
+        assert stub.mission == [] == vehicle.mission.download()
+        vehicle.mission.upload(items[:2], 1)
+        assert [m.z for m in stub.mission] == [20, 25.5] and vehicle.mission.download(1) == items[:2]
+
+
 def test_items_as_mappings_and_messages(peer):
     dialect = mavloom.Dialect()
     items = [{"command": 22, "z": 10.0}, dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
              dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3)]
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert [(m.command, m.x, m.y, m.z) for m in stub.mission] == [(22, 0, 0, 10), (16, 1, 2, 3),
                                                                       (16, 475000000, 82500000, 3)]
 
 
 def test_an_item_that_cannot_be_sent_sends_nothing(peer):
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         for item, text in (({"colour": 1}, "has no 'colour'"), ({"x": 2**40}, "item 0 of the mission: .*x"),
                            (5, "is a MissionItem"), (mavloom.Dialect().message("HEARTBEAT"), "not HEARTBEAT")):
             with pytest.raises(mavloom.UsageError, match=text):
@@ -332,10 +346,31 @@ def test_an_item_that_cannot_be_sent_sends_nothing(peer):
         assert stub.messages == []
 
 
+def test_places_and_altitudes_that_are_none(peer):
+    nan, item = math.nan, mavloom.MissionItem
+    assert item.at(1, 2, nan, command="NAV_LAND").command == 21  # PX4 takes NaN for "as it is"
+    message = mavloom.Dialect().message("MISSION_ITEM", x=nan, y=8.25)
+    with flown(peer, px4=True) as (vehicle, stub):
+        for call, text in ((lambda: item.at(nan, 2, 3), "^lat: nan is no coordinate"),
+                           (lambda: item.at(1, math.inf, 3), "^lon: inf is no coordinate"),
+                           (lambda: item.at("a", 2, 3), "^lat: a number, not 'a'"),
+                           (lambda: item.at(1, 2, None), "^alt: a number, not None"),
+                           (lambda: item.at(1, 2, 3, command="DANCE"), "^unknown command 'DANCE'"),
+                           (lambda: vehicle.mission.upload([message]), "^x: nan is no coordinate"),
+                           (lambda: vehicle.takeoff("x"), "^altitude: a number, not 'x'"),
+                           (lambda: vehicle.takeoff(nan), "^altitude: nan is no altitude"),
+                           (lambda: vehicle.link.vehicle(True), "^system: True is out of range, 1 to 255"),
+                           (lambda: vehicle.link.vehicle(1, "x"), "^component: 'x' is out of range, 1 to 255"),
+                           (lambda: vehicle.link.packet_loss("x"), "^system: 'x' is out of range, 0 to 255")):
+            with pytest.raises(mavloom.UsageError, match=text):
+                call()
+        assert stub.messages == []
+
+
 def test_lost_messages_of_a_mission_are_repeated(peer, quick):
     items = [mavloom.MissionItem.at(*place) for place in PLACES]
     lost = frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST", "MISSION_REQUEST_INT", "MISSION_CLEAR_ALL"})
-    with flown(peer, drop=lost) as (vehicle, stub):
+    with flown(peer, px4=True, drop=lost) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert vehicle.mission.download() == items
         vehicle.mission.clear()
@@ -344,7 +379,7 @@ def test_lost_messages_of_a_mission_are_repeated(peer, quick):
 
 def test_a_lost_acknowledgement_is_requested_again(peer, quick):
     """By the last item once more, which a PX4 then acknowledges."""
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         def acknowledge(message, result=0):
             if [m.get_type() for m in stub.messages].count("MISSION_ITEM_INT") == 4:
                 Autopilot.mission_ack(stub, message)
@@ -354,7 +389,7 @@ def test_a_lost_acknowledgement_is_requested_again(peer, quick):
 
 
 def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         def acknowledge_first(message):
             stub.mission_ack(message)
             Autopilot.on_mission_item_int(stub, message)
@@ -366,7 +401,7 @@ def test_an_acknowledgement_of_something_earlier_does_not_end_an_upload(peer):
 def test_an_upload_ends_whose_items_are_lost(peer, quick):
     def request_first(message):
         stub.send(peer.MAVLink_mission_request_message(message.get_srcSystem(), message.get_srcComponent(), 0, 0))
-    with flown(peer) as (vehicle, stub):
+    with flown(peer, px4=True) as (vehicle, stub):
         stub.on_mission_item_int = request_first
         with pytest.raises(TimeoutError, match="no answer during the upload"):
             vehicle.mission.upload([mavloom.MissionItem.at(*place) for place in PLACES])
@@ -375,7 +410,7 @@ def test_an_upload_ends_whose_items_are_lost(peer, quick):
 def test_a_fence_needs_mavlink_2(peer):
     """MISSION_CLEAR_ALL of MAVLink 1 has no type, so it would delete the mission in place of the fence."""
     with (mavloom.connect("udpin://127.0.0.1:0", version=1) as link,
-          Autopilot(peer, connect_to=("127.0.0.1", link.port), v1=True) as stub):
+          Autopilot(peer, Settings(px4=True), connect_to=("127.0.0.1", link.port), v1=True) as stub):
         vehicle = link.vehicle(timeout=30)
         for call in (vehicle.mission.clear, vehicle.mission.download, lambda kind: vehicle.mission.upload([], kind)):
             with pytest.raises(mavloom.UsageError, match="fences and rally points need MAVLink 2"):
@@ -386,14 +421,14 @@ def test_a_fence_needs_mavlink_2(peer):
 
 
 def test_a_refused_mission_is_an_error_with_the_reason(peer):
-    with flown(peer, refuse_mission=4) as (vehicle, _):
+    with flown(peer, px4=True, refuse_mission=4) as (vehicle, _):
         with pytest.raises(mavloom.MissionError, match="upload of the mission: MAV_MISSION_NO_SPACE") as caught:
             vehicle.mission.upload([mavloom.MissionItem()])
         assert caught.value.result == 4
 
 
 def test_silence_during_a_mission_is_a_timeout(peer, quick):
-    with flown(peer, silent=frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST"})) as (vehicle, _):
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT", "MISSION_REQUEST_LIST"})) as (vehicle, _):
         with pytest.raises(TimeoutError, match="no answer during the upload"):
             vehicle.mission.upload([mavloom.MissionItem()])
         with pytest.raises(TimeoutError, match="no answer to MISSION_REQUEST_LIST after 5 tries"):
@@ -477,3 +512,40 @@ def test_a_cancelled_task_leaves_the_vehicle_usable(peer):
         asyncio.run(cancel(vehicle.link.vehicle_async(1)))
         stub.settings.silent = frozenset()
         assert vehicle.command("DO_SET_SERVO").result == 0
+
+
+def test_a_cancelled_transfer_lets_the_next_one_begin(peer):
+    items = [mavloom.MissionItem.at(*place) for place in PLACES]
+
+    async def cancel(vehicle, stub):
+        first = asyncio.create_task(vehicle.mission.upload(items))
+        while not stub.messages:
+            await asyncio.sleep(0.01)
+        second, third = (asyncio.create_task(vehicle.mission.upload(items[:count])) for count in (2, 1))
+        await asyncio.sleep(0.05)
+        second.cancel()
+        first.cancel()
+        stub.settings.silent = frozenset()
+        await third
+        assert first.cancelled() and second.cancelled()
+
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT"})) as (vehicle, stub):
+        asyncio.run(cancel(vehicle.link.vehicle_async(1), stub))
+        assert len(stub.mission) == 1
+
+
+def test_a_call_does_not_wait_for_a_call_without_answers(peer, quick):
+    """Here the first call cannot continue before the second one returns."""
+    async def block(vehicle, stub):
+        first = asyncio.create_task(vehicle.link.vehicle_async(1).mission.upload([mavloom.MissionItem()]))
+        while not stub.messages:
+            await asyncio.sleep(0.01)
+        with pytest.raises(TimeoutError, match="transfer of a mission: another call that does the same has had no"):
+            vehicle.mission.download()
+        with pytest.raises(TimeoutError, match="no answer during the upload"):
+            await first
+
+    with flown(peer, px4=True, silent=frozenset({"MISSION_COUNT"})) as (vehicle, stub):
+        asyncio.run(block(vehicle, stub))
+        stub.settings.silent = frozenset()
+        assert vehicle.mission.download() == []

@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""The far side of a link: pymavlink's frames on a socket."""
+"""The far side of a link: pymavlink's frames on a socket, or the simulator of `mavloom sim`."""
 import contextlib
+import os
+import re
 import socket
+import subprocess
+import tempfile
 import threading
 import time
 
+import mavloom
+from places import PROGRAM
 from tlogs import packer
 
 DEADLINE_S = 60
+SPEED = 10  # of the simulator's time
 
 
 def until(condition):
@@ -70,3 +77,29 @@ def flood(vehicle):
         with contextlib.suppress(ConnectionRefusedError):
             vehicle.send(vehicle.heartbeat())
     return again_and_again(send)
+
+
+@contextlib.contextmanager
+def simulator(autopilot):
+    """A quadrotor that can be armed. Yields the port of a TCP server."""
+    with tempfile.TemporaryDirectory() as folder:
+        process = subprocess.Popen([PROGRAM, "sim", "--autopilot", autopilot, "--speed", str(SPEED), "--listen",
+                                    "tcpin://127.0.0.1:0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, "MAVLOOM_RUN": folder})
+        try:
+            port = next(int(found[1]) for line in process.stderr
+                        if (found := re.search(r"listening on port (\d+)", line)))
+            with mavloom.connect(f"tcpout://127.0.0.1:{port}") as link:
+                vehicle = link.vehicle(timeout=DEADLINE_S)
+                until(lambda: is_armed(vehicle))
+                vehicle.disarm()
+            yield port
+        finally:
+            process.terminate()
+            process.communicate(timeout=30)
+
+
+def is_armed(vehicle):
+    with contextlib.suppress(mavloom.CommandError):
+        vehicle.arm()
+        return True

@@ -14,6 +14,7 @@ from .. import _modes, enums
 from .._core import Message
 from .._errors import CommandError, UsageError
 from ._exchange import Peer, Protocol, wait_until
+from ._turns import exclusive
 
 _T = TypeVar("_T")
 
@@ -43,6 +44,16 @@ def number_of(command: int | str) -> int:
     raise UsageError(f"unknown command {command!r}; see mavloom.enums.MAV_CMD")
 
 
+def checked_number(what: str, value: float) -> float:
+    """The value as float. Raises UsageError for what is no number."""
+    if isinstance(value, (str, bytes, bool)):
+        raise UsageError(f"{what}: a number, not {value!r}")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise UsageError(f"{what}: a number, not {value!r}") from None
+
+
 def name_of(command: int) -> str:
     names = {int(member): name for name, member in enums.MAV_CMD.__members__.items()}
     return names.get(command, f"command {command}")
@@ -56,20 +67,24 @@ def result_name(result: int) -> str:
 def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRIES) -> Protocol[Message]:
     """Sends a command until it is acknowledged. Returns the acknowledgement.
 
-    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer.
+    Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer. An acknowledgement has only
+    the command's number, so a second command of one number waits for the end of the first.
     """
     if len(params) > 7:
         raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
+    return (yield from exclusive(peer, name_of(number), tries * ANSWER_S, acknowledged(peer, number, params, tries)))
+
+
+def acknowledged(peer: Peer, number: int, params: tuple[float, ...], tries: int) -> Protocol[Message]:
     fields = {f"param{place}": value for place, value in enumerate(params, 1)}
     for confirmation in range(tries):
         peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
-        acknowledged = yield from acknowledgement(peer, number)
-        if acknowledged is None:
+        answer = yield from acknowledgement(peer, number)
+        if answer is None:
             continue
-        if acknowledged["result"] != ACCEPTED:
-            raise CommandError(f"{peer}: {name_of(number)}: {result_name(acknowledged['result'])}",
-                               acknowledged["result"])
-        return acknowledged
+        if answer["result"] != ACCEPTED:
+            raise CommandError(f"{peer}: {name_of(number)}: {result_name(answer['result'])}", answer["result"])
+        return answer
     raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
 
 
@@ -148,6 +163,8 @@ def set_mode(peer: Peer, mode: str | int) -> Protocol[None]:
 
 def takeoff(peer: Peer, altitude: float) -> Protocol[None]:
     """Requests a take-off to `altitude` m above the present place. An ArduPilot is put into mode GUIDED first."""
+    if not math.isfinite(checked_number("altitude", altitude)):
+        raise UsageError(f"altitude: {altitude} is no altitude")
     heartbeat = yield from known_heartbeat(peer)
     if heartbeat["autopilot"] == _modes.AUTOPILOT_PX4:
         here = yield from present_place(peer)

@@ -5,17 +5,21 @@ Source: https://mavlink.io/en/services/mission.html
 """
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from .. import enums
+from .. import _modes, enums
 from .._core import Message
 from .._errors import MissionError, UsageError
-from ._exchange import Peer, Protocol, wait_until
+from ._commands import checked_number, known_heartbeat, number_of
+from ._exchange import Peer, Protocol, T, wait_until
+from ._turns import exclusive
 
-ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK")
+ANSWERS = ("MISSION_COUNT", "MISSION_REQUEST", "MISSION_REQUEST_INT", "MISSION_ITEM_INT", "MISSION_ACK",
+           "HEARTBEAT")
 ANSWER_S = 1.5
 TRIES = 5
 ACCEPTED = 0  # MAV_MISSION_RESULT
@@ -23,7 +27,16 @@ MISSION = 0  # MAV_MISSION_TYPE
 GLOBAL_RELATIVE_ALT_INT = 6  # MAV_FRAME
 DEGREES = 1e7  # of latitude and longitude in x and y
 FRAMES_IN_DEGREES = frozenset({0, 3, 5, 6, 10, 11})  # MAV_FRAMEs whose x and y are latitude and longitude
-MOST_ITEMS = 65535
+DO_JUMP = 177  # MAV_CMD; param1 is the number of an item
+MOST_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPilot
+
+
+def scaled(name: str, value: float, scale: float) -> int:
+    """A coordinate as the integer that is sent. Raises UsageError for what is none."""
+    number = checked_number(name, value)
+    if not math.isfinite(number):
+        raise UsageError(f"{name}: {number} is no coordinate")
+    return round(number * scale)
 
 
 @dataclass
@@ -42,9 +55,10 @@ class MissionItem:
     autocontinue: int = 1
 
     @classmethod
-    def at(cls, lat: float, lon: float, alt: float, command: int = 16, **fields: Any) -> MissionItem:
+    def at(cls, lat: float, lon: float, alt: float, command: int | str = 16, **fields: Any) -> MissionItem:
         """An item at a place in degrees, `alt` m above home: MissionItem.at(47.398, 8.546, 20)."""
-        return cls(int(command), round(lat * DEGREES), round(lon * DEGREES), float(alt), **fields)
+        x, y = (scaled(name, value, DEGREES) for name, value in (("lat", lat), ("lon", lon)))
+        return cls(number_of(command), x, y, checked_number("alt", alt), **fields)
 
     @property
     def lat(self) -> float:
@@ -57,6 +71,7 @@ class MissionItem:
         return self.y / DEGREES
 
 
+HOME = MissionItem(frame=0)  # an ArduPilot puts its own home in its place
 FIELDS = tuple(MissionItem.__dataclass_fields__)
 
 
@@ -70,7 +85,7 @@ def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
         fields = {name: given[name] for name in FIELDS}
         if given.name == "MISSION_ITEM":
             scale = DEGREES if given["frame"] in FRAMES_IN_DEGREES else 1e4
-            fields.update(x=round(given["x"] * scale), y=round(given["y"] * scale))
+            fields.update({name: scaled(name, given[name], scale) for name in ("x", "y")})
         return MissionItem(**fields)
     if not isinstance(given, Mapping):
         raise UsageError(f"an item is a MissionItem, a MISSION_ITEM_INT or a mapping, not {given!r}")
@@ -97,7 +112,30 @@ def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) ->
 
 def upload(peer: Peer, items: Iterable[MissionItem | Message | Mapping[str, Any]], kind: int) -> Protocol[None]:
     """Replaces the mission of the vehicle. Raises MissionError if the vehicle refuses it."""
-    wanted = checked(peer, items, kind)
+    return transfer(peer, items_sent(peer, checked(peer, items, kind), kind))
+
+
+def transfer(peer: Peer, protocol: Protocol[T]) -> Protocol[T]:
+    """Runs a transfer after those before it: a vehicle has one at a time, of whichever kind of mission."""
+    return exclusive(peer, "transfer of a mission", TRIES * ANSWER_S, protocol)
+
+
+def begins_with_home(peer: Peer, kind: int) -> Protocol[bool]:
+    """Whether the vehicle's item 0 is home, as that of an ArduPilot. Callers never see it: they count from the next."""
+    if kind != MISSION:
+        return False
+    heartbeat = yield from known_heartbeat(peer)
+    return bool(heartbeat["autopilot"] == _modes.AUTOPILOT_ARDUPILOT)
+
+
+def renumbered(items: list[MissionItem], by: int) -> list[MissionItem]:
+    """The items, with jumps to the numbers that their targets have when `by` items are put before them."""
+    return [replace(item, param1=item.param1 + by) if item.command == DO_JUMP else item for item in items]
+
+
+def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[None]:
+    if wanted and (yield from begins_with_home(peer, kind)):
+        wanted = [HOME, *renumbered(wanted, 1)]
     last, furthest = len(wanted) - 1, -1  # of the items, and of those that the vehicle has requested
     message: dict[str, Any] = {"name": "MISSION_COUNT", "count": len(wanted), "mission_type": kind}
     peer.send(**message)
@@ -149,13 +187,18 @@ def check_kind(peer: Peer, kind: int) -> None:
 def download(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
     """Fetches the mission of the vehicle."""
     check_kind(peer, kind)
+    return transfer(peer, items_received(peer, kind))
+
+
+def items_received(peer: Peer, kind: int) -> Protocol[list[MissionItem]]:
+    has_home = yield from begins_with_home(peer, kind)
     count = yield from request(peer, "MISSION_REQUEST_LIST", {}, ("MISSION_COUNT",), kind, None)
     items: list[MissionItem] = []
     for seq in range(count["count"]):
         item = yield from request(peer, "MISSION_REQUEST_INT", {"seq": seq}, ("MISSION_ITEM_INT",), kind, seq)
         items.append(item_of(item))
     peer.send("MISSION_ACK", type=ACCEPTED, mission_type=kind)
-    return items
+    return renumbered(items[1:], -1) if has_home else items
 
 
 def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, ...], kind: int,
@@ -174,6 +217,10 @@ def request(peer: Peer, name: str, fields: dict[str, int], answers: tuple[str, .
 def clear(peer: Peer, kind: int) -> Protocol[None]:
     """Deletes the mission of the vehicle."""
     check_kind(peer, kind)
+    return transfer(peer, cleared(peer, kind))
+
+
+def cleared(peer: Peer, kind: int) -> Protocol[None]:
     for _ in range(TRIES):
         peer.send("MISSION_CLEAR_ALL", mission_type=kind)
         answer = yield from answer_of(peer, ("MISSION_ACK",), kind, time.monotonic() + ANSWER_S)

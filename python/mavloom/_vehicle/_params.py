@@ -15,6 +15,7 @@ from .._core import Message
 from .._errors import ParameterError, UsageError
 from ._commands import known_heartbeat
 from ._exchange import Peer, Protocol, wait_until
+from ._turns import exclusive
 
 ANSWERS = ("PARAM_VALUE", "PARAM_ERROR", "HEARTBEAT")
 ANSWER_S = 1.0
@@ -115,6 +116,10 @@ def write(peer: Peer, name: str, value: float, known: Value | None) -> Protocol[
     check_name(name)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise UsageError(f"parameter {name}: a value is a number, not {value!r}")
+    return exclusive(peer, f"parameter {name}", TRIES * ANSWER_S, written(peer, name, value, known))
+
+
+def written(peer: Peer, name: str, value: float, known: Value | None) -> Protocol[Value]:
     heartbeat = yield from known_heartbeat(peer)
     bytewise = encodes_bytewise(peer, heartbeat)
     before = known if known is not None else (yield from read(peer, name))
@@ -147,6 +152,10 @@ def is_taken(sent: float, now: Value) -> bool:
 
 def fetch(peer: Peer) -> Protocol[dict[str, Value]]:
     """Fetches all parameters. Missing ones are requested one by one."""
+    return exclusive(peer, "all parameters", TRIES * QUIET_S, fetched(peer))
+
+
+def fetched(peer: Peer) -> Protocol[dict[str, Value]]:
     heartbeat = yield from known_heartbeat(peer)
     bytewise = encodes_bytewise(peer, heartbeat)
     found: dict[str, Value] = {}

@@ -79,7 +79,11 @@ class Vehicle(_Common):
     """A vehicle on a link, from `link.vehicle()`. Its methods wait for the vehicle's answer.
 
     They repeat what is lost. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
-    refuses, and TimeoutError if it does not answer. Any thread may call them.
+    refuses, and TimeoutError if it does not answer.
+
+    Any thread may call them. Calls that the protocol would mix up take turns, on one link: transfers of missions,
+    fetches of all parameters, and commands of one number or writes of one parameter. A waiting call raises TimeoutError
+    if the vehicle does not answer the call before it either.
     """
 
     def __init__(self, link: Link, system: int, component: int) -> None:
@@ -116,6 +120,7 @@ class Vehicle(_Common):
         run(self._peer, _commands.ANSWERS, _commands.land(self._peer))
 
     def return_to_launch(self) -> None:
+        """Returns to the launch place, and lands there if the vehicle is set up to. Does not wait until it is there."""
         self.command(_commands.RETURN_TO_LAUNCH)
 
 
@@ -194,7 +199,11 @@ class Params(MutableMapping[str, "int | float"]):
 
 
 class Mission:
-    """The mission of a vehicle. `mission_type` is a MAV_MISSION_TYPE: 0 the mission, 1 the fence, 2 rally points."""
+    """The mission of a vehicle. `mission_type` is a MAV_MISSION_TYPE: 0 the mission, 1 the fence, 2 rally points.
+
+    A mission has no home. ArduPilot keeps its home as item 0: `upload` adds that item, and `download` leaves it out.
+    The number of an item, in the parameters of DO_JUMP, is its index in the list.
+    """
 
     def __init__(self, peer: Peer) -> None:
         self._peer = peer
@@ -249,6 +258,7 @@ class AsyncVehicle(_Common):
         await run_async(self._peer, _commands.ANSWERS, _commands.land(self._peer))
 
     async def return_to_launch(self) -> None:
+        """See Vehicle.return_to_launch."""
         await self.command(_commands.RETURN_TO_LAUNCH)
 
 

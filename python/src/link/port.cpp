@@ -117,11 +117,14 @@ public:
     }
 
     nb::object latest(const nb::object& type, const OptionalInteger& system, const OptionalInteger& component,
-                      const std::optional<feed::Instance>& instance, const nb::object& max_age) {
+                      const nb::object& instance, const nb::object& max_age) {
         check();
         const auto filter = make_filter(origin_->dialect(), type, system, component);
+        const auto wanted = instance_from(instance);
+        if (wanted && filter.ids)
+            for (const auto id : *filter.ids) check_instance(*origin_->dialect().find(id), *wanted);
         const auto not_before = max_age.is_none() ? MonoTime::min() : mono_now() - duration_of("max_age", max_age);
-        const auto found = feed_.channel->latest(filter, instance, not_before);
+        const auto found = feed_.channel->latest(filter, wanted, not_before);
         if (!found) return nb::none();
         const auto frame = found->frame();
         return make_message(origin_, origin_->dialect().find(frame.id()), found->head.time_ns, found->head.link, frame,
@@ -251,10 +254,11 @@ void bind_link(nb::module_& module) {
     nb::class_<Port>(module, "Port", nb::is_final())
         .def(nb::init<const std::string&, const Integer&, const Integer&, const nb::object&, const Integer&,
                       const Integer&>(),
-             nb::arg("url"), nb::arg("source_system"), nb::arg("source_component"), nb::arg("dialect").none(),
-             nb::arg("buffer"), nb::arg("version"),
+             nb::arg("url"), nb::arg("source_system").none(), nb::arg("source_component").none(),
+             nb::arg("dialect").none(), nb::arg("buffer").none(), nb::arg("version").none(),
              nb::sig("def __init__(self, url: str, source_system: int, source_component: int, dialect: Dialect | None, "
                      "buffer: int, version: int) -> None"))
+        .def("__repr__", [](const Port& port) { return "<Port of the Link " + port.name() + ">"; })
         .def("close", &Port::close)
         .def("send", &Port::send, nb::arg(), nb::arg("fields"),
              nb::sig("def send(self, message: str | Message, /, **fields: typing.Any) -> int"))
@@ -272,11 +276,12 @@ void bind_link(nb::module_& module) {
                      "Subscription"))
         .def("record", &Port::record, nb::arg("path"),
              nb::sig("def record(self, path: str | os.PathLike[str]) -> LinkRecorder"))
-        .def_prop_rw("source_system", &Port::source_system, &Port::set_source_system,
+        .def_prop_rw("source_system", &Port::source_system, &Port::set_source_system, nb::for_setter(nb::arg().none()),
                      nb::for_setter(nb::sig("def source_system(self, value: int, /) -> None")))
         .def_prop_rw("source_component", &Port::source_component, &Port::set_source_component,
+                     nb::for_setter(nb::arg().none()),
                      nb::for_setter(nb::sig("def source_component(self, value: int, /) -> None")))
-        .def_prop_rw("sequence", &Port::sequence, &Port::set_sequence,
+        .def_prop_rw("sequence", &Port::sequence, &Port::set_sequence, nb::for_setter(nb::arg().none()),
                      nb::for_setter(nb::sig("def sequence(self, value: int, /) -> None")))
         .def_prop_ro("stats", &Port::stats)
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))

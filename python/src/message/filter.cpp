@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "message/filter.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
+#include <variant>
 
 #include "errors.hpp"
 #include "strings.hpp"
@@ -31,6 +34,23 @@ feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type
         for (const nb::handle one : nb::iter(type)) ids.push_back(id_of(dialect, one));
     }
     return filter;
+}
+
+std::optional<feed::Instance> instance_from(const nb::object& given) {
+    if (given.is_none()) return std::nullopt;
+    if (PyUnicode_Check(given.ptr())) return nb::cast<std::string>(given);
+    Integer number;
+    number.take(given);
+    return number.in<std::int64_t>("instance");
+}
+
+void check_instance(const dialect::Message& message, const feed::Instance& instance) {
+    const auto* field = feed::instance_field(message);
+    if (field == nullptr) raise_usage(fmt::format("{} has no field that distinguishes instances", message.name));
+    const bool has_text = field->type == dialect::FieldType::char8;
+    if (has_text != std::holds_alternative<std::string>(instance))
+        raise_usage(fmt::format("instance: {}.{} is {}", message.name, field->name,
+                                has_text ? "text, not a number" : "a number, not text"));
 }
 
 void check_condition(const nb::object& condition) {

@@ -5,9 +5,12 @@
 
 #include <nanobind/nanobind.h>
 
+#include <optional>
+
 #include "integer.hpp"
 #include "mavloom/dialect/dialect.hpp"
 #include "mavloom/feed/filter.hpp"
+#include "mavloom/feed/instance.hpp"
 
 namespace mavloom::python {
 
@@ -17,6 +20,11 @@ namespace nb = nanobind;
 // which suggests the nearest one.
 [[nodiscard]] feed::Filter make_filter(const dialect::Dialect& dialect, const nb::object& type,
                                        const OptionalInteger& system, const OptionalInteger& component);
+
+// The argument `instance=`: None, a number or text. Raises TypeError for anything else.
+[[nodiscard]] std::optional<feed::Instance> instance_from(const nb::object& given);
+// Raises UsageError if these messages have no instances, or numbers where `instance` is text, or the reverse.
+void check_instance(const dialect::Message& message, const feed::Instance& instance);
 
 // Raises TypeError unless `condition` is None or callable. Text for eval(), which pymavlink accepts, is rejected.
 void check_condition(const nb::object& condition);

@@ -104,15 +104,14 @@ RowsQuery query_of(const OptionalInteger& system, const OptionalInteger& compone
 }
 
 nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const OptionalInteger& system,
-                          const OptionalInteger& component, std::optional<feed::Instance> instance,
-                          const OptionalInteger& begin, const OptionalInteger& end,
-                          const std::optional<std::vector<std::string>>& fields, const nb::object& dialect) {
+                          const OptionalInteger& component, const nb::object& instance, const OptionalInteger& begin,
+                          const OptionalInteger& end, const std::optional<std::vector<std::string>>& fields,
+                          const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = *value_or_raise(definitions->dialect().message(name));
-    if (instance && feed::instance_field(message) == nullptr)
-        raise_usage(fmt::format("{} has no field that distinguishes instances", name));
     auto query = query_of(system, component, begin, end);
-    query.instance = std::move(instance);
+    query.instance = instance_from(instance);
+    if (query.instance) check_instance(message, *query.instance);
     Table table(message, places_of(definitions->dialect(), message, fields));
     std::uint64_t lost_bytes = 0;
     for (const nb::handle path : paths) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 
+#include <limits>
 #include <mutex>
 #include <optional>
 
@@ -18,6 +19,8 @@
 namespace mavloom::python {
 namespace {
 
+constexpr auto latest_time = std::numeric_limits<std::int64_t>::max();  // in ns; a tlog has no times before 1970
+
 class RecordingWriter {
 public:
     RecordingWriter(std::string path, const nb::object& dialect)
@@ -31,7 +34,7 @@ public:
 
     // A Message has a time; bytes of a frame are written with the present time, unless one is given.
     void write(const nb::object& message, const OptionalInteger& time_ns) {
-        const auto given = time_ns ? std::optional(time_ns->in<std::int64_t>("time_ns")) : std::nullopt;
+        const auto given = time_ns ? std::optional(time_ns->in<std::int64_t>("time_ns", 0, latest_time)) : std::nullopt;
         if (nb::isinstance<Message>(message)) {
             const auto& of = *nb::inst_ptr<Message>(message);
             return put(of.frame(), given.value_or(of.time_ns));

@@ -1,50 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Link.vehicle, and scripts on both sides, with the simulator of `mavloom sim` as the vehicle."""
 import asyncio
-import contextlib
-import os
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import threading
 
 import pytest
 
 import both
 import mavloom
-from places import PROGRAM, ROOT
-from vehicles import DEADLINE_S, until
+from places import ROOT
+from vehicles import DEADLINE_S, simulator, until
 
 HOME = (47.397742, 8.545594)
-SPEED = 10
-
-
-@contextlib.contextmanager
-def simulator(autopilot):
-    """A quadrotor that can be armed. Yields the port of a TCP server."""
-    with tempfile.TemporaryDirectory() as folder:
-        process = subprocess.Popen([PROGRAM, "sim", "--autopilot", autopilot, "--speed", str(SPEED), "--listen",
-                                    "tcpin://127.0.0.1:0"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                   env={**os.environ, "MAVLOOM_RUN": folder})
-        try:
-            port = next(int(found[1]) for line in process.stderr
-                        if (found := re.search(r"listening on port (\d+)", line)))
-            with mavloom.connect(f"tcpout://127.0.0.1:{port}") as link:
-                vehicle = link.vehicle(timeout=DEADLINE_S)
-                until(lambda: is_armed(vehicle))
-                vehicle.disarm()
-            yield port
-        finally:
-            process.terminate()
-            process.communicate(timeout=30)
-
-
-def is_armed(vehicle):
-    with contextlib.suppress(mavloom.CommandError):
-        vehicle.arm()
-        return True
 
 
 @pytest.mark.parametrize("autopilot, mode", [("px4", "LOITER"), ("ardupilot", "GUIDED")])
@@ -78,10 +48,10 @@ def test_parameters_and_missions(autopilot, name):
         with pytest.raises(KeyError):
             vehicle.params["NO_SUCH"]
         vehicle.mission.upload(items)
-        assert [(one.x, one.y, one.z) for one in vehicle.mission.download()][1:] == [
-            (one.x, one.y, one.z) for one in items][1:]  # ArduPilot's first item is its home
+        assert [(one.x, one.y, one.z) for one in vehicle.mission.download()] == [
+            (one.x, one.y, one.z) for one in items]
         vehicle.mission.clear()
-        assert len(vehicle.mission.download()) <= 1
+        assert vehicle.mission.download() == []
 
 
 def test_tasks_use_a_vehicle():

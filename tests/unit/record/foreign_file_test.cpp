@@ -34,6 +34,16 @@ TEST(ForeignFile, KnowsOtherFormatsByTheirFirstBytes) {
     EXPECT_EQ(name_of("\xd4\xc3\xb2\xa1\x02\x00"s), "a pcap capture");
     EXPECT_EQ(name_of("\x0a\x0d\x0d\x0a\x1c"s), "a pcapng capture");
     EXPECT_EQ(name_of("PK\x03\x04\x14"s), "a zip file");
+    EXPECT_EQ(name_of("SQLite format 3\0\x10"s), "an SQLite database");
+    EXPECT_EQ(name_of("\x89HDF\r\n\x1a\n\0"s), "an HDF5 file");
+}
+
+TEST(ForeignFile, KnowsTextByItsFirst4096Bytes) {
+    const std::string rows(4096, ',');
+    EXPECT_EQ(name_of("{\"a\":\t1}\r\n" + rows), "JSON");
+    EXPECT_EQ(name_of("time" + rows), "text");
+    EXPECT_EQ(name_of("time" + rows.substr(5)), "");
+    for (const char other : {'\0', '\x1b', '\x7f', '\xfd', '\xfe'}) EXPECT_EQ(name_of(rows.substr(1) + other), "");
 }
 
 TEST(ForeignFile, KnowsFramesWithoutTimes) {

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Exclusive exchanges: transfers with one vehicle that would be mixed up if two ran at once take turns.
+
+The turns of a link are shared by all its Vehicle and AsyncVehicle objects, and by all threads and tasks.
+"""
+from __future__ import annotations
+
+import threading
+import time
+from collections import defaultdict, deque
+from collections.abc import Hashable
+
+from .._core import Message
+from ._exchange import Peer, Protocol, T
+
+LOOK_S = 0.01  # how often a waiting exchange looks whether it is its turn
+
+
+class Turns:
+    """The queues of exchanges, one for each kind. The first of a queue has its turn."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._queues: dict[Hashable, deque[object]] = defaultdict(deque)
+        self._progress: dict[Hashable, float] = {}
+
+    def join(self, key: Hashable, ticket: object) -> None:
+        with self._lock:
+            self._queues[key].append(ticket)
+
+    def leave(self, key: Hashable, ticket: object) -> None:
+        with self._lock:
+            self._queues[key].remove(ticket)
+            if not self._queues[key]:
+                del self._queues[key]
+                self._progress.pop(key, None)
+
+    def is_first(self, key: Hashable, ticket: object) -> bool:
+        with self._lock:
+            return self._queues[key][0] is ticket
+
+    def note_progress(self, key: Hashable) -> None:
+        self._progress[key] = time.monotonic()
+
+    def progress(self, key: Hashable) -> float:
+        """When the vehicle last answered the exchange that has its turn (time.monotonic()); 0 if never."""
+        return self._progress.get(key, 0.0)
+
+
+def exclusive(peer: Peer, what: str, patience_s: float, protocol: Protocol[T]) -> Protocol[T]:
+    """Runs a protocol when no other exchange of this kind runs with the vehicle.
+
+    Raises TimeoutError if the vehicle answers none of those before it for `patience_s`.
+    """
+    turns, key, ticket = peer.link._turns, (peer.system, peer.component, what), object()
+    turns.join(key, ticket)
+    try:
+        yield from turn_of(peer, turns, key, ticket, patience_s)
+        answer: Message | None = None
+        while True:
+            answer = yield protocol.send(answer)
+            if answer is not None and answer.name != "HEARTBEAT":
+                turns.note_progress(key)
+    except StopIteration as end:
+        result: T = end.value
+        return result
+    finally:
+        protocol.close()
+        turns.leave(key, ticket)
+
+
+def turn_of(peer: Peer, turns: Turns, key: tuple[int, int, str], ticket: object, patience_s: float) -> Protocol[None]:
+    """Waits for the turn, then drops the answers to those before it."""
+    begin = time.monotonic()
+    waited = False
+    while not turns.is_first(key, ticket):
+        waited = True
+        if time.monotonic() > max(begin, turns.progress(key)) + patience_s:
+            raise TimeoutError(f"{peer}: {key[2]}: another call that does the same has had no answer for "
+                               f"{patience_s:g} s")
+        yield LOOK_S
+    while waited and (yield 0.0) is not None:
+        pass
