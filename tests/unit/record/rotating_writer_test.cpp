@@ -191,7 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
                              test::write_file(file, {});
                          }},
                     Lost{"Renamed", [](const auto& file) { std::filesystem::rename(file, file.string() + ".away"); }}),
-    [](const auto& info) { return info.param.what; });
+    [](const auto& given) { return given.param.what; });
 
 TEST_P(LosesItsFile, WhatIsBufferedGoesToTheNewFile) {
     const TempDir dir;
