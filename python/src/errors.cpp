@@ -67,8 +67,9 @@ std::string path_of(nb::handle path) {
         const auto bytes = nb::steal<nb::bytes>(encoded);
         return {bytes.c_str(), bytes.size()};
     }
-    nb::python_error error;
-    if (!error.matches(PyExc_ValueError)) throw error;  // else a NUL or what the file system's encoding lacks
+    // ValueError: a NUL, or what the file system's encoding lacks.
+    if (PyErr_ExceptionMatches(PyExc_ValueError) == 0) throw nb::python_error();
+    PyErr_Clear();
     const nb::object shown = nb::repr(path);
     raise_usage(escaped(shown) + " cannot be the path of a file");
 }
