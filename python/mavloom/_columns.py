@@ -277,10 +277,9 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
     definitions = Dialect() if dialect is None else dialect
     files, begin, before = paths_of(path), time_ns_of("start", start), time_ns_of("end", end)
     wanted = None if fields is None else list_of_names("fields", fields)
-    if isinstance(name, type):
-        name = name.__name__
+    name = name_of(name)
     if not isinstance(name, str):
-        names = list_of_names("name", name)
+        names = list_of_names("name", map(name_of, name if isinstance(name, Iterable) else [name]))
         if instance is None and wanted is None:
             found = tables(files, names, system=system, component=component, start=begin, end=before,
                            dialect=definitions)
@@ -316,12 +315,15 @@ def paths_of(path: Paths) -> list[Path]:
     return files
 
 
+def name_of(given: Any) -> Any:
+    """The name of a class of mavloom.messages; anything else as it is."""
+    return given.__name__ if isinstance(given, type) else given
+
+
 def list_of_names(what: str, given: Iterable[Any]) -> list[str]:
     if isinstance(given, str):
         return [given]
     names: list[Any] = list(given) if isinstance(given, Iterable) else [given]
-    if what == "name":
-        names = [one.__name__ if isinstance(one, type) else one for one in names]
     for one in names:
         if not isinstance(one, str):
             raise UsageError(f"{what}= takes a name or a list of names, not {one!r}")

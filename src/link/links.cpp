@@ -221,11 +221,13 @@ std::vector<LinkId> Links::link_ids() const {
 }
 
 std::vector<LinkInfo> Links::links(std::span<const LinkId> ids) const {
-    core_->endpoints.each([](OpenEndpoint& endpoint) { endpoint.settle_sent(); });
     std::vector<LinkInfo> infos;
-    for (const LinkId id : ids)
-        if (const Link* const l = core_->links.find(id))
-            infos.push_back({l->id, l->endpoint, l->name, l->up, &l->counters});
+    for (const LinkId id : ids) {
+        const Link* const l = core_->links.find(id);
+        if (l == nullptr) continue;
+        if (auto* const endpoint = core_->endpoints.find(l->endpoint)) endpoint->settle_sent();
+        infos.push_back({l->id, l->endpoint, l->name, l->up, &l->counters});
+    }
     return infos;
 }
 

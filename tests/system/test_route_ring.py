@@ -780,7 +780,21 @@ def test_a_readers_lock_does_not_keep_the_next_writer_out(tapped):
         assert frame in [r.data for r in again.sent_by(again.vehicle, heartbeat(), frame)]
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+of_two_users = pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+
+
+def routed_by_another_user(program, ring, run_folder):
+    """The finished process of a router that user 12345 ran for 2 s."""
+    run_folder.chmod(0o1777)
+    for folder in list(run_folder.parents)[:3]:
+        folder.chmod(0o755)
+    return subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring,
+                           "--for", "2s", f"udpin://127.0.0.1:{routers.udp_port()}"],
+                          capture_output=True, text=True, timeout=60,
+                          env=harness.environment({"MAVLOOM_RUN": str(run_folder)}))
+
+
+@of_two_users
 @pytest.mark.parametrize("trusted", [False, True])
 def test_a_ring_of_another_user_is_read_only_on_request(run, ring, trusted):
     """Unless that user owns the folder of the sockets, as the user of the service does."""
@@ -832,7 +846,7 @@ def remove(path):
     path.rmdir() if path.is_dir() else path.unlink(missing_ok=True)
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@of_two_users
 @pytest.mark.parametrize("kind", ["file", "folder", "link"])
 def test_a_counter_page_that_another_user_took_costs_root_nothing(tapped, ring, kind):
     squat(kind, shared(ring, ".stat"))
@@ -844,17 +858,11 @@ def test_a_counter_page_that_another_user_took_costs_root_nothing(tapped, ring, 
         remove(shared(ring, ".stat.aside"))
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@of_two_users
 @pytest.mark.parametrize("kind", ["folder", "link"])
 def test_a_counter_page_that_another_user_took_costs_no_ring(ring, program, spawn, tmp_path, kind):
     squat(kind, shared(ring, ".stat"))
-    tmp_path.chmod(0o1777)
-    for folder in list(tmp_path.parents)[:3]:
-        folder.chmod(0o755)
-    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring,
-                           "--for", "2s", f"udpin://127.0.0.1:{routers.udp_port()}"],
-                          capture_output=True, text=True, timeout=60,
-                          env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
+    done = routed_by_another_user(program, ring, tmp_path)
     remove(shared(ring, ".stat"))
 
     assert done.returncode == 0 and f"no counter page for ring {ring}" in done.stderr, done
@@ -881,7 +889,7 @@ def test_who_may_write_the_ring_keeps_no_router_down(tapped, tmp_path, what, sai
         again.ground.until(frame)
 
 
-@pytest.mark.skipif(os.geteuid() != 0, reason="two users need root")
+@of_two_users
 @pytest.mark.parametrize("what, said", [("", "the router runs without a ring"), (".stat", "no counter page for ring"),
                                         (".in", "belongs to another user (id 12344); remove it; programs cannot send")])
 def test_a_name_that_another_user_took_keeps_no_router_down(ring, program, tmp_path, what, said):
@@ -889,13 +897,7 @@ def test_a_name_that_another_user_took_keeps_no_router_down(ring, program, tmp_p
     place = tmp_path / f"{ring}.in" if what == ".in" else shared(ring, what)
     place.write_bytes(b"")
     os.chown(place, 12344, 12344)
-    tmp_path.chmod(0o1777)
-    for folder in list(tmp_path.parents)[:3]:
-        folder.chmod(0o755)
-    done = subprocess.run(["setpriv", "--reuid=12345", "--clear-groups", program, "route", "--ring", ring,
-                           "--for", "2s", f"udpin://127.0.0.1:{routers.udp_port()}"],
-                          capture_output=True, text=True, timeout=60,
-                          env=harness.environment({"MAVLOOM_RUN": str(tmp_path)}))
+    done = routed_by_another_user(program, ring, tmp_path)
     left = place.stat().st_uid
     place.unlink()
 

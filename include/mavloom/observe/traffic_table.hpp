@@ -3,6 +3,7 @@
 // One owner thread. Allocates for a new row (at most `max_rows`), never for a known one.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -48,12 +49,12 @@ public:
     // Removes the rows of all links for which `is_there(LinkId)` returns false.
     template <class IsThere>
     void forget_links_unless(IsThere&& is_there) {
-        for (auto& place : places_) {
-            if (place == nullptr || is_there(place->link)) continue;
-            rows_.erase(key_of(*place));
-            place = nullptr;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (places_[i] == nullptr || is_there(places_[i]->link)) continue;
+            rows_.erase(key_of(*places_[i]));
+            places_[i] = nullptr;
+            refill_from_ = std::min(refill_from_, i);
         }
-        refill_from_ = 0;
     }
 
     // An unsorted copy of the rows. Faster than `sorted`.
