@@ -858,12 +858,12 @@ with mavloom.connect(f"shm://{ring}") as link, mavloom.RingWriter(ring) as write
 def test_a_file_of_another_user_that_shrinks_meanwhile_ends_no_process(start, ring, suffix, code):
     """Without foreign=True, nothing in it is read, so its owner cannot end this process by SIGBUS."""
     mavloom.RingWriter(ring).close()
-    process = start(code, ring)
-    assert process.stdout.readline() == "ready\n"
     path = path_of(ring, suffix)
     path.write_bytes(path_of(ring).read_bytes())
     os.chown(path, NOBODY, NOBODY)
     size = path.stat().st_size
+    process = start(code, ring)
+    assert process.stdout.readline() == "ready\n"
     while process.poll() is None:
         os.truncate(path, 0)
         os.truncate(path, size)

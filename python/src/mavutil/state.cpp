@@ -83,7 +83,7 @@ void MavutilState::add(const nb::dict& messages, const nb::object& message, cons
 }
 
 void MavutilState::add_to_all(const nb::object& message, const MavutilMessage& of) {
-    messages(0);
+    static_cast<void>(messages(0));  // makes it
     for (const auto& one : messages_)
         if (one.is_valid()) add(nb::borrow<nb::dict>(one), message, of);
 }
