@@ -14,10 +14,10 @@
 #include <memory>
 #include <vector>
 
+#include "flight/firmware/firmware.hpp"
+#include "flight/flight.hpp"
 #include "mavloom/sim/vehicle.hpp"
 #include "sim/command/commands.hpp"
-#include "sim/firmware/firmware.hpp"
-#include "sim/flight/flight.hpp"
 #include "sim/payload/servo_outputs.hpp"
 #include "sim/radio/radio.hpp"
 #include "sim/service/announcer.hpp"

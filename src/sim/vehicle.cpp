@@ -46,12 +46,6 @@ std::vector<StreamInfo> stream_infos() {
     return infos;
 }
 
-Home moved(const Home& home, double north_m, double east_m) {
-    const LocalFrame frame({home.latitude_deg, home.longitude_deg, home.altitude_m});
-    const GeoPoint place = frame.to_geo({north_m, east_m, 0});
-    return {place.latitude, place.longitude, home.altitude_m, home.heading_deg};
-}
-
 Vehicle::Vehicle(const VehicleOptions& options, Sink& sink, Moment now)
     : parts_(std::make_unique<Parts>(options, sink, now)) {}
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "mavloom/sim/moment.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::simserve {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "mavloom/sim/moment.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::simserve {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mavloom/base/result.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::simserve {
 

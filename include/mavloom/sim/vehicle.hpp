@@ -19,11 +19,9 @@
 
 #include "mavloom/base/ids.hpp"
 #include "mavloom/base/result.hpp"
-#include "mavloom/sim/moment.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "mavloom/sim/report.hpp"
 #include "mavloom/sim/sink.hpp"
-#include "mavloom/sim/status.hpp"
 #include "mavloom/wire/frame.hpp"
 #include "mavloom/wire/message_table.hpp"
 

@@ -14,13 +14,15 @@
 #include <span>
 #include <vector>
 
-#include "sim/firmware/known_by.hpp"
-#include "sim/flight/orders.hpp"
-#include "sim/flight/plan.hpp"
+#include "flight/firmware/known_by.hpp"
+#include "flight/orders.hpp"
+#include "flight/plan.hpp"
 #include "sim/radio/client.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
+
+using flight::Result;  // and not mavloom::Result
 
 struct Parts;
 

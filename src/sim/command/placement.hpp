@@ -2,8 +2,8 @@
 // Positions in commands, and what several commands and messages do with them. Private to module sim.
 #pragma once
 
+#include "flight/physics/geodesy.hpp"
 #include "sim/command/commands.hpp"
-#include "sim/physics/geodesy.hpp"
 
 namespace mavloom::sim {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "flight/firmware/firmware.hpp"
 #include "mavloom/msg/enums/mav_type.hpp"
-#include "sim/firmware/firmware.hpp"
 #include "sim/metadata/event_catalog.hpp"
 
 namespace mavloom::sim {

@@ -8,9 +8,11 @@
 #include <string>
 #include <string_view>
 
-namespace mavloom::sim {
-
+namespace mavloom::flight {
 class Firmware;
+}
+
+namespace mavloom::sim {
 
 // COMP_METADATA_TYPE
 enum class MetadataType : std::uint8_t { general = 0, parameter = 1, events = 4, actuators = 5 };

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "sim/checksum.hpp"
-#include "sim/firmware/firmware.hpp"
+#include "flight/firmware/firmware.hpp"
+#include "mavloom/wire/crc32.hpp"
 #include "sim/metadata/documents.hpp"
 #include "sim/metadata/xz.hpp"
 
@@ -30,12 +30,12 @@ struct MetadataFiles {
         files[2] = compress_xz(event_document(firmware));
         files[3] = compress_xz(actuator_document(firmware));
         const auto listed = [&](MetadataType type, std::size_t i) {
-            return ListedMetadata{type, paths[i], crc32(0, files[i])};
+            return ListedMetadata{type, paths[i], wire::crc32(0, files[i])};
         };
         const std::array list{listed(MetadataType::parameter, 1), listed(MetadataType::events, 2),
                               listed(MetadataType::actuators, 3)};
         const std::string general = general_document(list);
-        general_crc = crc32(0, bytes_of(general));
+        general_crc = wire::crc32(0, bytes_of(general));
         files[0] = compress_xz(general);
     }
 

@@ -13,9 +13,11 @@
 
 #include "mavloom/base/bytes.hpp"
 
-namespace mavloom::sim {
-
+namespace mavloom::flight {
 class Firmware;
+}
+
+namespace mavloom::sim {
 
 // The general file, which lists the others, as COMPONENT_METADATA and COMPONENT_INFORMATION report it.
 struct GeneralMetadata {

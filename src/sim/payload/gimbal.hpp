@@ -5,7 +5,7 @@
 // One client has primary control; orders of others are refused. As in PX4, any client may take control.
 #pragma once
 
-#include "sim/flight/flight.hpp"
+#include "flight/flight.hpp"
 #include "sim/payload/gimbal_motion.hpp"
 #include "sim/service/service.hpp"
 

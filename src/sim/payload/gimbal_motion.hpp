@@ -5,7 +5,8 @@
 // limited rate. Angles are in radians.
 #pragma once
 
-#include "sim/physics/rotation.hpp"
+#include "flight/physics/rotation.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

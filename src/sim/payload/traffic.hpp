@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "sim/physics/geodesy.hpp"
-#include "sim/physics/random.hpp"
+#include "flight/physics/geodesy.hpp"
+#include "flight/physics/random.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mavloom/sim/moment.hpp"
-#include "sim/flight/flight.hpp"
+#include "flight/flight.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "sim/radio/radio.hpp"
 
 namespace mavloom::sim {

@@ -10,10 +10,12 @@
 #include <array>
 #include <string_view>
 
-#include "sim/flight/orders.hpp"
+#include "flight/orders.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {
+
+using flight::Result;  // and not mavloom::Result
 
 struct Parts;
 

@@ -9,7 +9,7 @@
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/ids.hpp"
-#include "mavloom/sim/moment.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "sim/radio/client.hpp"
 
 namespace mavloom::sim {

@@ -9,7 +9,7 @@
 #include "mavloom/msg/enums/mav_ftp_err.hpp"
 #include "mavloom/msg/enums/mav_ftp_opcode.hpp"
 #include "mavloom/msg/file_transfer_protocol.hpp"
-#include "sim/checksum.hpp"
+#include "mavloom/wire/crc32.hpp"
 #include "sim/parts.hpp"
 #include "sim/store/log_service.hpp"
 #include "sim/store/parameter_pack.hpp"
@@ -62,7 +62,7 @@ void FileService::receive(const Client& from, MessageId /*id*/, ByteView payload
         Peer stranger{.client = from};
         return send(stranger, request.header, {.error = {MAV_FTP_ERR_NOSESSIONSAVAILABLE}});
     }
-    const std::uint32_t identity = crc32(0, message.payload);
+    const std::uint32_t identity = wire::crc32(0, message.payload);
     const bool repeats = peer->answered == identity && now.real - peer->used < repeat_window;
     peer->used = now.real;
     if (!repeats) {

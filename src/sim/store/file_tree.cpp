@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "mavloom/msg/enums/mav_ftp_err.hpp"
-#include "sim/checksum.hpp"
+#include "mavloom/wire/crc32.hpp"
 #include "sim/metadata/metadata.hpp"
 
 namespace mavloom::sim {
@@ -154,7 +154,7 @@ std::uint32_t FileTree::checksum(const FileRef& file) const {
     std::array<std::uint8_t, 4096> piece;
     std::uint32_t crc = 0, offset = 0;
     while (const std::size_t length = read(file, offset, piece)) {
-        crc = crc32(crc, ByteView(piece).first(length));
+        crc = wire::crc32(crc, ByteView(piece).first(length));
         offset += static_cast<std::uint32_t>(length);
     }
     return crc;

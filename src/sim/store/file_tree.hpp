@@ -14,12 +14,14 @@
 #include <tl/expected.hpp>
 
 #include "mavloom/base/bytes.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "sim/store/recorded_logs.hpp"
 
-namespace mavloom::sim {
-
+namespace mavloom::flight {
 class Firmware;
+}
+
+namespace mavloom::sim {
 
 // A refusal in the terms of MAVLink FTP: MAV_FTP_ERR, and the error number of POSIX for MAV_FTP_ERR_FAILERRNO.
 struct FileError {

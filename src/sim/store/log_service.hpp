@@ -7,12 +7,14 @@
 
 #include <vector>
 
-#include "sim/flight/orders.hpp"
+#include "flight/orders.hpp"
 #include "sim/service/service.hpp"
 #include "sim/store/log_stream.hpp"
 #include "sim/store/recorded_logs.hpp"
 
 namespace mavloom::sim {
+
+using flight::Result;  // and not mavloom::Result
 
 struct Parts;
 

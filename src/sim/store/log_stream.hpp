@@ -9,13 +9,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "mavloom/sim/moment.hpp"
-#include "sim/flight/orders.hpp"
+#include "flight/orders.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "sim/radio/client.hpp"
 #include "sim/radio/radio.hpp"
 #include "sim/store/recorded_logs.hpp"
 
 namespace mavloom::sim {
+
+using flight::Result;  // and not mavloom::Result
 
 class LogStreams {
 public:

@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/firmware/parameters.hpp"
+#include "flight/firmware/parameters.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/firmware/parameters.hpp"
+#include "flight/firmware/parameters.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {

@@ -9,9 +9,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "flight/plan.hpp"
 #include "mavloom/msg/mission_item.hpp"
 #include "mavloom/msg/mission_item_int.hpp"
-#include "sim/flight/plan.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

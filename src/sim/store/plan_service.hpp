@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "flight/plan.hpp"
 #include "mavloom/msg/mission_count.hpp"
-#include "sim/flight/plan.hpp"
 #include "sim/service/service.hpp"
 
 namespace mavloom::sim {

@@ -11,7 +11,7 @@
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/clock.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

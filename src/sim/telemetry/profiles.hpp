@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "mavloom/base/ids.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

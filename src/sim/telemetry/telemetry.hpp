@@ -8,14 +8,13 @@
 #include <span>
 #include <string_view>
 
+#include "flight/firmware/firmware.hpp"
+#include "flight/firmware/known_by.hpp"
+#include "flight/flight.hpp"
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/clock.hpp"
-#include "mavloom/sim/moment.hpp"
-#include "mavloom/sim/options.hpp"
+#include "mavloom/sim/flight.hpp"
 #include "mavloom/wire/message_table.hpp"
-#include "sim/firmware/firmware.hpp"
-#include "sim/firmware/known_by.hpp"
-#include "sim/flight/flight.hpp"
 
 namespace mavloom::sim {
 

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "sim/physics/rotation.hpp"
+#include "flight/physics/rotation.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/physics/sensors.hpp"
+#include "flight/physics/sensors.hpp"
 
 #include "mavloom/msg/distance_sensor.hpp"
 #include "mavloom/msg/enums/highres_imu_updated_flags.hpp"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "flight/firmware/firmware.hpp"
 #include "mavloom/msg/command_long.hpp"
 #include "mavloom/msg/current_event_sequence.hpp"
 #include "mavloom/msg/enums/mav_cmd.hpp"
@@ -16,7 +17,6 @@
 #include "mavloom/msg/request_event.hpp"
 #include "mavloom/msg/response_event_error.hpp"
 #include "mavloom/msg/statustext.hpp"
-#include "sim/firmware/firmware.hpp"
 #include "sim/metadata/event_catalog.hpp"
 #include "unit/sim/rig.hpp"
 

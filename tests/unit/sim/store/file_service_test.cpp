@@ -9,7 +9,7 @@
 #include "mavloom/msg/enums/mav_ftp_err.hpp"
 #include "mavloom/msg/enums/mav_ftp_opcode.hpp"
 #include "mavloom/msg/file_transfer_protocol.hpp"
-#include "sim/checksum.hpp"
+#include "mavloom/wire/crc32.hpp"
 #include "unit/sim/rig.hpp"
 
 namespace mavloom::sim::file_tests {
@@ -443,7 +443,7 @@ TEST_F(FileService, StoresWhatAClientWrites) {
 
     EXPECT_EQ(ftp.download("notes.txt"), content);
     EXPECT_THAT(ftp.list("/"), Contains("Fnotes.txt\t1000"));
-    EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/notes.txt").value(), crc32(0, content));
+    EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/notes.txt").value(), wire::crc32(0, content));
     FtpClient other(rig, {LinkId{1}, {SystemId{245}, ComponentId{190}}});
     EXPECT_EQ(other.download("/notes.txt"), content) << "files belong to the vehicle";
     ftp.upload("/notes.txt", {1, 2});
@@ -452,7 +452,7 @@ TEST_F(FileService, StoresWhatAClientWrites) {
 
 TEST_F(FileService, ChecksumIsTheOneOfTheFtpSpecification) {
     // CRC-32 without inversions of "123456789": pymavlink's mavutil.x25crc is another; this is Python's
-    // zlib.crc32(b"123456789", 0xffffffff) ^ 0xffffffff.
+    // zlib.wire::crc32(b"123456789", 0xffffffff) ^ 0xffffffff.
     ftp.upload("/digits", bytes_of("123456789"));
 
     EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/digits").value(), 0x2dfd2d88u);

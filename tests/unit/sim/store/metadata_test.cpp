@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sim/checksum.hpp"
-#include "sim/firmware/firmware.hpp"
+#include "flight/firmware/firmware.hpp"
+#include "mavloom/wire/crc32.hpp"
 #include "sim/metadata/event_catalog.hpp"
 #include "sim/metadata/metadata.hpp"
 
@@ -45,7 +45,7 @@ TEST(Metadata, GeneralFileListsTheOthersWithTheirChecksums) {
     ASSERT_TRUE(general);
     EXPECT_EQ(general->uri, "mftp://etc/extras/component_general.json.xz");
     const std::string text = text_of("component_general");
-    EXPECT_EQ(general->file_crc, crc32(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+    EXPECT_EQ(general->file_crc, wire::crc32(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
 
     const Json json = Json::parse(text);
     EXPECT_EQ(json["version"], 1);
@@ -58,7 +58,7 @@ TEST(Metadata, GeneralFileListsTheOthersWithTheirChecksums) {
         for (std::size_t i = 0; i < paths.size(); ++i) {
             if (uri != "mftp://" + std::string(paths[i])) continue;
             found = true;
-            EXPECT_EQ(entry["fileCrc"].get<std::uint32_t>(), crc32(0, metadata_file(px4(), i)));
+            EXPECT_EQ(entry["fileCrc"].get<std::uint32_t>(), wire::crc32(0, metadata_file(px4(), i)));
         }
         EXPECT_TRUE(found) << uri;
     }

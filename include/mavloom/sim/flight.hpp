@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The values of module flight, as names of sim: sim::Kind, sim::Home, sim::Moment.
+#pragma once
+
+#include "mavloom/flight/moment.hpp"   // IWYU pragma: export
+#include "mavloom/flight/options.hpp"  // IWYU pragma: export
+#include "mavloom/flight/status.hpp"   // IWYU pragma: export
+
+namespace mavloom::sim {
+
+using namespace flight;
+
+}  // namespace mavloom::sim

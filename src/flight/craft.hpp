@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The body of a vehicle: airframe, battery, sensors, the wind around it, and its place on earth. Private to flight;
+// single owner; `step` allocates nothing. Craft moves; it decides nothing.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "flight/physics/battery.hpp"
+#include "flight/physics/geodesy.hpp"
+#include "flight/physics/sensors.hpp"
+#include "flight/physics/wind.hpp"
+#include "mavloom/flight/moment.hpp"
+#include "mavloom/flight/options.hpp"
+
+namespace mavloom::flight {
+
+class Craft {
+public:
+    explicit Craft(const VehicleOptions& options);
+
+    // Advances by one step of 4 ms.
+    void step(const Setpoint& setpoint, bool armed);
+    // Puts the vehicle at rest at a place of the local frame, which may be in the air.
+    void place(const Vector3& position, double heading);
+    // The vehicle boots again where it stands.
+    void reboot();
+
+    [[nodiscard]] Kind kind() const noexcept { return kind_; }
+    [[nodiscard]] FlightTime since_boot() const noexcept { return time_; }
+    [[nodiscard]] const Airframe& airframe() const noexcept { return *airframe_; }
+    [[nodiscard]] const Kinematics& truth() const noexcept { return airframe_->motion(); }
+    [[nodiscard]] const Estimate& estimate() const noexcept { return sensors_.estimate(); }
+    [[nodiscard]] const Vector3& wind() const noexcept { return wind_.velocity(); }
+    [[nodiscard]] const Sensors& sensors() const noexcept { return sensors_; }
+    [[nodiscard]] Sensors& sensors() noexcept { return sensors_; }
+    [[nodiscard]] const Battery& battery() const noexcept { return battery_; }
+    [[nodiscard]] Battery& battery() noexcept { return battery_; }
+
+    [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
+    // True once a client set the origin, or a position was known.
+    [[nodiscard]] bool has_origin() const noexcept { return has_origin_; }
+    // Returns what every owner of local positions must add to them.
+    Vector3 set_origin(const GeoPoint& origin);
+    void acquire_gps() noexcept;
+    // Of the estimate. It is computed once a step, when first asked for.
+    [[nodiscard]] const GeoPoint& position() const;
+    [[nodiscard]] double ground_altitude() const noexcept { return ground_altitude_; }  // m above mean sea level
+    [[nodiscard]] double ground_z() const noexcept { return frame_.origin().altitude - ground_altitude_; }
+    // Estimated height above the ground, m.
+    [[nodiscard]] double height() const noexcept { return ground_z() - estimate().position.z(); }
+    [[nodiscard]] double speed() const noexcept;  // horizontal, m/s
+
+    [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept { return home_; }
+    // Where home is; without a home, where the vehicle started.
+    [[nodiscard]] const Vector3& home_place() const noexcept { return home_place_; }
+    [[nodiscard]] double home_yaw() const noexcept { return home_yaw_; }
+    void set_home(const GeoPoint& point, double yaw);
+
+private:
+    void sense();
+
+    const Kind kind_;
+    const double ground_altitude_;
+    std::unique_ptr<Airframe> airframe_;
+    Battery battery_;
+    Sensors sensors_;
+    WindField wind_;
+    LocalFrame frame_;
+    std::optional<GeoPoint> home_;
+    Vector3 home_place_ = Vector3::Zero();
+    double home_yaw_ = 0, air_density_;
+    FlightTime time_{};
+    bool has_origin_ = false;
+    mutable GeoPoint position_;
+    mutable bool position_is_old_ = true;
+};
+
+}  // namespace mavloom::flight

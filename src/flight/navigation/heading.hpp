@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Where the nose of a multicopter points: as a client or a mission wants, to a region of interest, or along the way.
+// Private to flight; single owner; nothing allocates.
+#pragma once
+
+#include <optional>
+
+#include "flight/context.hpp"
+
+namespace mavloom::flight {
+
+class Heading {
+public:
+    explicit Heading(const FlightContext& context) noexcept : context_(context) {}
+
+    // Keeps the present heading, until something else is asked for.
+    void keep() noexcept { kept_ = context_.craft.estimate().euler.yaw; }
+    // A client's order; `nan`: no longer. `rate` in rad/s; `nan`: the usual one.
+    void turn_to(double yaw, double rate) noexcept;
+    void look_at(const std::optional<GeoPoint>& point);
+    void on_origin_moved() { look_at(interest_); }
+
+    [[nodiscard]] const std::optional<GeoPoint>& interest() const noexcept { return interest_; }
+    // The yaw for a vehicle that has `way` left to its goal and was asked for `wanted` (`nan`: anything).
+    [[nodiscard]] double yaw_for(const Vector3& way, double wanted) noexcept;
+    // The turn rate that a client allows, or the usual one.
+    [[nodiscard]] double fastest() const noexcept;
+
+private:
+    const FlightContext& context_;
+    double kept_ = 0, ordered_ = nan, ordered_rate_ = nan;
+    std::optional<GeoPoint> interest_;
+    Vector3 interest_place_ = Vector3::Zero();
+};
+
+}  // namespace mavloom::flight

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Flies the uploaded mission, item by item. Private to flight; single owner. Allocates only when the plan changes.
+//
+// Each item begins, continues until it is done, and is then reported as reached. Items without a place act at once.
+// Sources: MAVLink common message set, MAV_CMD; PX4 user guide, "Mission Mode".
+#pragma once
+
+#include <vector>
+
+#include "flight/navigation/guidance.hpp"
+#include "flight/navigation/return_path.hpp"
+
+namespace mavloom::flight {
+
+class MissionRunner {
+public:
+    MissionRunner(FlightContext& context, Guidance& guidance, ReturnPath& return_path) noexcept
+        : context_(context), guidance_(guidance), return_path_(return_path) {}
+
+    // The vehicle enters its mission mode, or leaves it.
+    void begin();
+    void leave();
+    // 50 times a second, in the mission mode while armed.
+    void update();
+
+    void on_plan_changed();
+    // A mission that was finished begins again.
+    void on_armed();
+    // False: there is no such item. Empty: the present one again. `resets` also forgets jumps.
+    [[nodiscard]] bool set_current(std::optional<std::uint16_t> seq, bool resets);
+    // The first item of the landing section, if the mission has one.
+    [[nodiscard]] std::optional<std::uint16_t> landing_start() const noexcept;
+
+    [[nodiscard]] MissionProgress progress() const noexcept;
+    [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
+
+private:
+    // `lift`: takes off; `travel`: on the way to the item's place; `act`: there.
+    enum class Stage : std::uint8_t { fresh, lift, travel, act };
+
+    [[nodiscard]] const PlanItem& item() const noexcept { return context_.plans.mission().items()[index_]; }
+    [[nodiscard]] std::uint16_t size() const noexcept { return context_.plans.mission().size(); }
+    // ArduPilot's item 0 is home.
+    [[nodiscard]] std::uint16_t first() const noexcept { return context_.firmware.has_home_in_mission() ? 1 : 0; }
+
+    void restart();
+    void enter(Stage stage) noexcept;
+    void finish_item();
+    void complete();
+
+    // Begins or continues the present item. True: it is done.
+    [[nodiscard]] bool fly();
+    [[nodiscard]] bool fly_place();
+    [[nodiscard]] bool fly_takeoff();
+    [[nodiscard]] bool fly_landing();
+    [[nodiscard]] bool fly_return();
+    [[nodiscard]] bool wait(double seconds);
+    void lift_off(double z);
+    void set_out();
+    [[nodiscard]] bool has_arrived() const;
+    void begin_act();
+    [[nodiscard]] bool has_acted() const;
+
+    void act_at_once();
+    void jump();
+    void look_at();
+    void turn();
+    void set_home();
+
+    // Place of the item; what it leaves open comes from the last goal.
+    [[nodiscard]] Vector3 place() const;
+    [[nodiscard]] double altitude_z() const noexcept;
+    [[nodiscard]] double param(std::size_t number) const noexcept { return double{item().params[number - 1]}; }
+    [[nodiscard]] double yaw() const noexcept { return to_radians(param(4)); }
+
+    FlightContext& context_;
+    Guidance& guidance_;
+    ReturnPath& return_path_;
+    std::uint16_t index_ = 0, next_ = 1;
+    Stage stage_ = Stage::fresh;
+    FlightTime since_{};
+    std::vector<std::uint16_t> jumps_;  // done so far, by item
+    bool runs_ = false, is_complete_ = false, has_reached_any_ = false, is_announced_ = false;
+};
+
+}  // namespace mavloom::flight

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Decides what the vehicle does in each mode, and provides its set-points. Private to flight; single owner.
+#pragma once
+
+#include "flight/inputs.hpp"
+#include "flight/mode.hpp"
+#include "flight/navigation/guidance.hpp"
+#include "flight/navigation/manual_control.hpp"
+#include "flight/navigation/mission_runner.hpp"
+#include "flight/navigation/offboard_control.hpp"
+#include "flight/navigation/return_path.hpp"
+
+namespace mavloom::flight {
+
+class Navigator {
+public:
+    Navigator(FlightContext& context, const Inputs& inputs);
+    Navigator(const Navigator&) = delete;
+    Navigator& operator=(const Navigator&) = delete;
+
+    // The vehicle changed its mode. The same behaviour again changes nothing.
+    void enter(Behaviour behaviour);
+    // 50 times a second. Returns the behaviour that shall follow, when the present one is done.
+    [[nodiscard]] std::optional<Behaviour> update();
+    // As Airframe::move_origin.
+    void move_origin(const Vector3& by) { guidance_.move_origin(by); }
+
+    // --- Orders within the present behaviour.
+    void take_off(double z, double yaw);
+    void orbit(const Circle& circle, double turns);
+    // Stops, and continues: a mission with its present item.
+    void pause();
+    void resume();
+
+    [[nodiscard]] Behaviour behaviour() const noexcept { return behaviour_; }
+    [[nodiscard]] Guidance& guidance() noexcept { return guidance_; }
+    [[nodiscard]] const Guidance& guidance() const noexcept { return guidance_; }
+    [[nodiscard]] MissionRunner& mission() noexcept { return mission_; }
+    [[nodiscard]] const MissionRunner& mission() const noexcept { return mission_; }
+    // A rover is home after its return.
+    [[nodiscard]] bool is_home() const noexcept {
+        return behaviour_ == Behaviour::return_home && return_path_.is_done();
+    }
+
+private:
+    void enter_hold(Behaviour before);
+    void enter_orbit();
+    [[nodiscard]] std::optional<Behaviour> update_climb();
+    [[nodiscard]] std::optional<Behaviour> update_mission();
+    void update_manual();
+
+    FlightContext& context_;
+    const Inputs& inputs_;
+    Guidance guidance_;
+    ReturnPath return_path_;
+    MissionRunner mission_;
+    ManualControl manual_;
+    OffboardControl offboard_;
+    Behaviour behaviour_ = Behaviour::unavailable;
+    double turns_ = 0;  // to fly around an orbit; 0: for ever
+    bool is_paused_ = false;
+};
+
+}  // namespace mavloom::flight

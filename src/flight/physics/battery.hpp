@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The battery: charge falls by the integral of the current, and the voltage by charge and current. Private to module
+// sim; single owner; nothing allocates.
+#pragma once
+
+#include "mavloom/flight/options.hpp"
+
+namespace mavloom::flight {
+
+class Battery {
+public:
+    explicit Battery(const BatteryOptions& options) noexcept;
+
+    // `load` as in Airframe::load.
+    void step(double load, double dt) noexcept;
+    // For tests of fail-safes: the charge is `share` (0 to 1) now, and charging stops there.
+    void set_remaining(double share) noexcept;
+    // Charges for `dt` seconds, up to the charge at the start: a parked vehicle is ready again soon, as with PX4's
+    // simulated battery.
+    void charge(double dt) noexcept;
+
+    [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
+    [[nodiscard]] double remaining() const noexcept;                    // 0 to 1
+    [[nodiscard]] double current() const noexcept { return current_; }  // A
+    [[nodiscard]] double voltage() const noexcept;                      // V, of all cells, under the present load
+    [[nodiscard]] double used_mah() const noexcept { return used_mah_; }
+    [[nodiscard]] double used_joule() const noexcept { return used_joule_; }
+    [[nodiscard]] double capacity_mah() const noexcept { return capacity_mah_; }
+    // Seconds until empty at the average current; 0 if unknown.
+    [[nodiscard]] double seconds_left() const noexcept;
+    // Voltage in relation to a full battery at rest; 0 if empty.
+    [[nodiscard]] double supply() const noexcept;
+
+private:
+    double capacity_mah_, hover_current_, idle_current_ = 0.3;  // A
+    double used_mah_, used_at_start_, used_joule_ = 0, current_ = 0, average_current_ = 0;
+    std::uint8_t cells_;
+};
+
+}  // namespace mavloom::flight

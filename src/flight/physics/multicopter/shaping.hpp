@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Motion without jerks: laws that bring a value to its goal within limits of its derivatives. Private to flight;
+// pure functions.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace mavloom::flight {
+
+// The rate at which an error may be closed, so that the rate itself can always be brought to zero with `deceleration`:
+// proportional to a small error (`gain`, 1/s), and the square-root law of braking for a large one.
+[[nodiscard]] inline double closing_speed(double error, double gain, double deceleration) noexcept {
+    const double knee = deceleration / (gain * gain);
+    const double size = std::abs(error);
+    if (size <= knee) return gain * error;
+    return std::copysign(std::sqrt(2 * deceleration * (size - knee / 2)), error);
+}
+
+// `from` moved towards `to` by at most `most`.
+[[nodiscard]] inline double moved_towards(double from, double to, double most) noexcept {
+    return from + std::clamp(to - from, -most, most);
+}
+
+// The vector with at most this length.
+template <class Vector>
+[[nodiscard]] Vector limited(const Vector& vector, double longest) {
+    const double length = vector.norm();
+    return length > longest ? Vector(vector * (longest / length)) : vector;
+}
+
+}  // namespace mavloom::flight

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Attitudes. Private to flight and sim. A quaternion rotates from the body frame (forward, right, down) into north,
+// east, down. Euler angles are in radians in the order yaw, pitch, roll.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mavloom::flight {
+
+using Vector3 = Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+inline constexpr double pi = std::numbers::pi;
+inline constexpr double gravity = 9.80665;  // m/s^2
+
+[[nodiscard]] constexpr double to_radians(double degrees) noexcept { return degrees * (pi / 180); }
+[[nodiscard]] constexpr double to_degrees(double radians) noexcept { return radians * (180 / pi); }
+// Into [-pi, pi].
+[[nodiscard]] inline double wrap_pi(double angle) noexcept { return std::remainder(angle, 2 * pi); }
+// Into [0, 2 pi).
+[[nodiscard]] inline double wrap_2pi(double angle) noexcept {
+    const double wrapped = angle - 2 * pi * std::floor(angle / (2 * pi));
+    return wrapped < 2 * pi ? wrapped : 0;
+}
+
+struct Euler {
+    double roll = 0, pitch = 0, yaw = 0;
+};
+
+[[nodiscard]] inline Euler to_euler(const Quaternion& q) noexcept {
+    const double sine = std::clamp(2 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0);
+    return {std::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())), std::asin(sine),
+            std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
+}
+[[nodiscard]] inline Quaternion to_quaternion(const Euler& e) {
+    return Quaternion(Eigen::AngleAxisd(e.yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(e.pitch, Vector3::UnitY()) *
+                      Eigen::AngleAxisd(e.roll, Vector3::UnitX()));
+}
+[[nodiscard]] inline double yaw_of(const Quaternion& q) noexcept {
+    return std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
+}
+// The attitude after turning with constant body rates (rad/s) for `dt` seconds. Exact; the result is normalised.
+[[nodiscard]] inline Quaternion integrate(const Quaternion& q, const Vector3& rates, double dt) {
+    const double angle = rates.norm() * dt;
+    if (angle < 1e-12) return q;
+    return (q * Quaternion(Eigen::AngleAxisd(angle, rates.normalized()))).normalized();
+}
+
+}  // namespace mavloom::flight

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "flight/physics/sensors.hpp"
+
+#include "flight/physics/atmosphere.hpp"
+
+namespace mavloom::flight {
+
+namespace {
+
+// Steps between two samples.
+constexpr unsigned gps_period = 31;          // 8 Hz
+constexpr unsigned magnetometer_period = 5;  // 50 Hz
+constexpr unsigned barometer_period = 12;    // 20 Hz
+constexpr double gps_interval = gps_period * step_s;
+
+constexpr double accelerometer_sigma = 0.1;   // m/s^2
+constexpr double gyroscope_sigma = 0.01;      // rad/s
+constexpr double pressure_sigma = 0.01;       // hPa
+constexpr double airspeed_sigma = 0.2;        // m/s
+constexpr double gyroscope_bias_rate = 1e-5;  // rad/s per square root of a second: 0.03 degrees/s in an hour
+constexpr double temperature_step = 0.1;      // K, the sensor's resolution
+constexpr double touchdown_vibration = 8;     // m/s^2
+constexpr double calm_share = 0.2;            // of the noise, while motors and vehicle rest
+constexpr double estimated_rate_sigma = to_radians(0.2);
+constexpr double resting_vibration = 0.02, flying_vibration = 2;  // m/s^2
+constexpr double self_heating = 3;                                // K, of the board above the air
+
+// The magnetic field at Zurich, gauss, north east down.
+const Vector3 field{0.21, 0.01, 0.43};
+const Vector3 field_sigma{0.02, 0.02, 0.03};
+
+std::array<SmoothWander, 3> wander(double north, double east, double down, double tau) {
+    return {SmoothWander(north, tau, step_s), SmoothWander(east, tau, step_s), SmoothWander(down, tau, step_s)};
+}
+std::array<GaussMarkov, 3> markov(double horizontal, double down, double tau) {
+    return {GaussMarkov(horizontal, tau, gps_interval), GaussMarkov(horizontal, tau, gps_interval),
+            GaussMarkov(down, tau, gps_interval)};
+}
+template <class Noise>
+Vector3 values(const std::array<Noise, 3>& noises) {
+    return {noises[0].value(), noises[1].value(), noises[2].value()};
+}
+Vector3 rates_of(const std::array<SmoothWander, 3>& noises) {
+    return {noises[0].rate(), noises[1].rate(), noises[2].rate()};
+}
+
+// A turn by small angles around the body's axes.
+Quaternion small_turn(const Vector3& angles) {
+    return Quaternion(1, angles.x() / 2, angles.y() / 2, angles.z() / 2).normalized();
+}
+
+}  // namespace
+
+// Estimate: 3 cm, which with 3 s gives 1 cm/s; roll and pitch 0.15 degrees, yaw 0.3 degrees. GPS: the correlation times
+// and deviations of PX4's simulated receiver (position: 0.76 from sample to sample, velocity: 0.54).
+Sensors::Sensors(bool has_noise, std::uint64_t seed)
+    : random_(seed),
+      has_noise_(has_noise),
+      position_wander_(wander(0.03, 0.03, 0.03, 3)),
+      attitude_wander_(wander(to_radians(0.15), to_radians(0.15), to_radians(0.3), 2)),
+      gps_position_(markov(0.025, 0.037, 0.45)),
+      gps_velocity_(markov(0.024, 0.029, 0.2)),
+      gyroscope_bias_{RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate), RandomWalk(gyroscope_bias_rate)},
+      impact_(0.3, step_s) {}
+
+void Sensors::step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
+                   double air_density) {
+    const double share = has_noise_ ? (at_rest ? calm_share : 1) : 0;
+    step_estimate(truth, share);
+    step_imu(truth);
+    step_vibration(at_rest);
+    if (steps_ % magnetometer_period == 0) step_magnetometer(truth.attitude);
+    if (steps_ % barometer_period == 0)
+        step_barometer(truth, air_velocity, origin_altitude - truth.position.z(), air_density);
+    if (steps_ % gps_period == 0) {
+        step_gps(truth);
+        step_bias();
+    }
+    ++steps_;
+}
+
+void Sensors::step_estimate(const Kinematics& truth, double share) {
+    for (auto* const group : {&position_wander_, &attitude_wander_})
+        for (SmoothWander& axis : *group) axis.next(random_, share);
+    estimate_.position = truth.position + values(position_wander_);
+    estimate_.velocity = truth.velocity + rates_of(position_wander_);
+    estimate_.acceleration = truth.acceleration;
+    estimate_.attitude = (truth.attitude * small_turn(values(attitude_wander_))).normalized();
+    estimate_.euler = to_euler(estimate_.attitude);
+    const Vector3 jitter = noise(Vector3::Constant(share * estimated_rate_sigma));
+    estimate_.rates = truth.rates + rates_of(attitude_wander_) + jitter;
+    estimate_.heading = wrap_2pi(estimate_.euler.yaw);
+}
+
+void Sensors::step_imu(const Kinematics& truth) {
+    const Vector3 force = truth.attitude.conjugate() * (truth.acceleration - Vector3(0, 0, gravity));
+    const Vector3 shaking = noise(Vector3::Constant(accelerometer_sigma));
+    if (!failures_.accelerometer_off) imu_.acceleration = force + shaking;
+    const Vector3 jitter = noise(Vector3::Constant(gyroscope_sigma));
+    if (!failures_.gyroscope_off) imu_.rates = truth.rates + jitter + values(gyroscope_bias_);
+}
+
+// The level follows the motors within a second; a touchdown adds a shake that fades.
+void Sensors::step_vibration(bool at_rest) {
+    if (at_rest && !rested_) impact_.kick(touchdown_vibration);
+    rested_ = at_rest;
+    impact_.next();
+    vibration_ += ((at_rest ? resting_vibration : flying_vibration) + impact_.value() - vibration_) * step_s;
+}
+
+void Sensors::step_bias() {
+    if (!has_noise_) return;
+    for (RandomWalk& axis : gyroscope_bias_) axis.next(random_, gps_interval);
+}
+
+void Sensors::step_magnetometer(const Quaternion& attitude) {
+    const Vector3 jitter = noise(field_sigma);
+    if (!failures_.magnetometer_off) imu_.magnetic = attitude.conjugate() * field + jitter;
+}
+
+void Sensors::step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density) {
+    const Vector3 jitter = noise({pressure_sigma, airspeed_sigma, 0});
+    const double reading = has_noise_ ? random_.uniform(-temperature_step / 2, temperature_step / 2) : 0;
+    const double along = (truth.attitude.conjugate() * air_velocity).x() + jitter.y();
+    imu_.differential_hpa = std::copysign(0.5 * air_density * along * along, along) / 100;
+    if (failures_.barometer_off) return;
+    imu_.pressure_hpa = pressure_at(altitude) + jitter.x();
+    imu_.pressure_altitude = altitude_of(imu_.pressure_hpa);
+    imu_.temperature_c = temperature_at(altitude) - 273.15 + self_heating + reading;
+}
+
+void Sensors::step_gps(const Kinematics& truth) {
+    if (has_noise_)
+        for (auto* const group : {&gps_position_, &gps_velocity_})
+            for (GaussMarkov& axis : *group) axis.next(random_);
+    if (failures_.gps_stuck && gps_.fix_type != 0) return;
+    const bool has_fix = has_position();
+    gps_ = {.fix_type = static_cast<std::uint8_t>(has_fix ? 3 : failures_.gps_off ? 0 : 1)};
+    if (!has_fix) return;
+    gps_.position = truth.position + values(gps_position_);
+    gps_.velocity = truth.velocity + values(gps_velocity_);
+    gps_.satellites = 10;
+    gps_.hdop = 0.7;
+    gps_.vdop = 1.1;
+    gps_.horizontal_m = 0.9;
+    gps_.vertical_m = 1.78;
+    gps_.speed_m_s = 0.4;
+}
+
+void Sensors::move_origin(const Vector3& by) {
+    estimate_.position += by;
+    gps_.position += by;
+}
+
+Vector3 Sensors::noise(const Vector3& sigma) {
+    if (!has_noise_) return Vector3::Zero();
+    const double x = random_.normal(), y = random_.normal(), z = random_.normal();
+    return sigma.cwiseProduct(Vector3(x, y, z));
+}
+
+bool Sensors::has_position() const noexcept { return gps_acquired_ && !failures_.gps_off && !failures_.gps_stuck; }
+
+double Sensors::position_accuracy() const noexcept { return has_position() ? 0.3 : 50; }
+
+}  // namespace mavloom::flight

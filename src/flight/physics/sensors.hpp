@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What the vehicle measures and estimates: the true motion with noise. Private to flight and sim; single owner; nothing
+// allocates.
+//
+// All noise advances with the steps, never with messages, so the telemetry of one client does not depend on another.
+// The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).
+#pragma once
+
+#include "flight/physics/airframe.hpp"
+#include "flight/physics/geodesy.hpp"
+#include "flight/physics/noise.hpp"
+
+namespace mavloom::flight {
+
+// The vehicle's estimate of its own motion. The position is the sum of the velocity times the step.
+struct Estimate {
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero(), acceleration = Vector3::Zero();
+    Quaternion attitude = Quaternion::Identity();
+    Euler euler;
+    Vector3 rates = Vector3::Zero();
+    double heading = 0;  // rad, 0 to 2 pi
+};
+
+struct ImuSample {
+    Vector3 acceleration = Vector3::Zero();  // specific force, m/s^2, body frame
+    Vector3 rates = Vector3::Zero();         // rad/s
+    Vector3 magnetic = Vector3::Zero();      // gauss, body frame
+    double pressure_hpa = 0, differential_hpa = 0, pressure_altitude = 0, temperature_c = 0;
+};
+
+struct GpsFix {
+    Vector3 position = Vector3::Zero(), velocity = Vector3::Zero();  // local frame, as measured at 8 Hz
+    std::uint8_t fix_type = 0;                                       // GPS_FIX_TYPE
+    std::uint8_t satellites = 0;
+    double hdop = 0, vdop = 0;
+    double horizontal_m = 0, vertical_m = 0, speed_m_s = 0;  // accuracies
+};
+
+// Failures that INJECT_FAILURE or a scenario turns on.
+struct SensorFailures {
+    bool gps_off = false, gps_stuck = false, magnetometer_off = false, barometer_off = false, gyroscope_off = false,
+         accelerometer_off = false;
+};
+
+class Sensors {
+public:
+    Sensors(bool has_noise, std::uint64_t seed);
+
+    // Call it after each step of the airframe, and once before the first. `origin_altitude` is the altitude (AMSL, m)
+    // of the local origin.
+    void step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
+              double air_density);
+    // As Airframe::move_origin.
+    void move_origin(const Vector3& by);
+    void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
+    [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
+    // GPS has a fix from now on. Before, fix_type is 1.
+    void acquire_gps(bool acquired) noexcept { gps_acquired_ = acquired; }
+
+    [[nodiscard]] const Estimate& estimate() const noexcept { return estimate_; }
+    [[nodiscard]] const ImuSample& imu() const noexcept { return imu_; }
+    [[nodiscard]] const GpsFix& gps() const noexcept { return gps_; }
+    [[nodiscard]] bool has_position() const noexcept;
+    // Estimated standard deviations for covariance and accuracy fields, m and m/s.
+    [[nodiscard]] double position_accuracy() const noexcept;
+    [[nodiscard]] double velocity_accuracy() const noexcept { return 0.05; }
+    // Vibration level of the accelerometer, m/s^2.
+    [[nodiscard]] double vibration() const noexcept { return vibration_; }
+
+private:
+    using Wander3 = std::array<SmoothWander, 3>;
+
+    void step_imu(const Kinematics& truth);
+    void step_vibration(bool at_rest);
+    void step_bias();
+    void step_magnetometer(const Quaternion& attitude);
+    void step_barometer(const Kinematics& truth, const Vector3& air_velocity, double altitude, double air_density);
+    void step_gps(const Kinematics& truth);
+    void step_estimate(const Kinematics& truth, double share);
+    [[nodiscard]] Vector3 noise(const Vector3& sigma);
+
+    Random random_;
+    bool has_noise_, gps_acquired_ = false;
+    SensorFailures failures_;
+    Wander3 position_wander_, attitude_wander_;
+    std::array<GaussMarkov, 3> gps_position_, gps_velocity_;
+    std::array<RandomWalk, 3> gyroscope_bias_;
+    ExponentialDecay impact_;  // of a touchdown
+    bool rested_ = true;
+    Estimate estimate_;
+    ImuSample imu_;
+    GpsFix gps_;
+    double vibration_ = 0;
+    unsigned steps_ = 0;
+};
+
+}  // namespace mavloom::flight

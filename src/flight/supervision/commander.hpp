@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Arms, disarms and changes modes, by the firmware's rules. Private to flight; single owner.
+#pragma once
+
+#include "flight/navigation/navigator.hpp"
+#include "flight/supervision/landed_detector.hpp"
+
+namespace mavloom::flight {
+
+class Commander {
+public:
+    Commander(FlightContext& context, const Inputs& inputs, Navigator& navigator, LandedDetector& detector);
+
+    Outcome arm(bool force, OrderedBy by);
+    Outcome disarm(bool force, OrderedBy by);
+    Outcome set_mode(const ModeInfo& mode, OrderedBy by);
+    // The firmware's mode for a behaviour; `unsupported` if it has none.
+    Outcome enter(Behaviour behaviour, OrderedBy by);
+    Outcome terminate();
+    // Does what a fail-safe asks for. A vehicle that comes down sooner by its present mode stays in it.
+    void perform(FailsafeAction action);
+    // The reason for the fail-safe has gone: the vehicle continues in the mode that the client asked for.
+    void resume();
+    // 50 times a second: starts up, and disarms a vehicle that stands for too long.
+    void update();
+    void reboot();
+    void set_calibrating(bool calibrating) noexcept { is_calibrating_ = calibrating; }
+    // Home is where a client wants it, until the vehicle boots again. Otherwise it follows each arming.
+    Outcome set_home(const std::optional<GeoPoint>& point, double yaw);
+
+    [[nodiscard]] const ModeInfo& mode() const noexcept { return *mode_; }
+    [[nodiscard]] const ModeInfo& intended_mode() const noexcept { return *intended_; }
+    [[nodiscard]] std::uint32_t unready() const noexcept;  // bits of Unready
+    [[nodiscard]] SystemStatus status() const noexcept;
+    [[nodiscard]] bool has_failsafe() const noexcept { return has_failsafe_; }
+    [[nodiscard]] std::uint32_t flights() const noexcept { return flights_; }
+
+private:
+    [[nodiscard]] std::string_view refusal(std::uint32_t reasons) const noexcept;
+    [[nodiscard]] bool is_booted() const noexcept;
+    [[nodiscard]] bool can_run(Behaviour behaviour) const noexcept;
+    [[nodiscard]] bool can_arm_in(Behaviour behaviour) const noexcept;
+    [[nodiscard]] bool may_disarm() const noexcept;
+    [[nodiscard]] Outcome refuse_mode(const ModeInfo& mode) const;
+    [[nodiscard]] const ModeInfo& failsafe_mode(Behaviour wanted) const noexcept;
+    void switch_to(const ModeInfo& mode);
+    void put_home_here();
+    void end_flight(std::string_view text);
+    void disarm_if_standing();
+
+    FlightContext& context_;
+    const Inputs& inputs_;
+    Navigator& navigator_;
+    LandedDetector& detector_;
+    const ModeInfo* mode_;
+    const ModeInfo* intended_;
+    std::uint32_t flights_ = 0;
+    bool has_failsafe_ = false, has_flown_ = false, is_terminated_ = false, is_calibrating_ = false, keeps_home_ = false;
+};
+
+}  // namespace mavloom::flight
