@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "mavloom/sim/flight.hpp"
+
 namespace mavloom::flight {
 class Firmware;
 }

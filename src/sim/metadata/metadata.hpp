@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "mavloom/base/bytes.hpp"
+#include "mavloom/sim/flight.hpp"
 
 namespace mavloom::flight {
 class Firmware;
