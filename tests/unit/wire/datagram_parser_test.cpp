@@ -28,6 +28,8 @@ struct DatagramParserTest : ::testing::Test {
 // A heartbeat with an incompatibility flag that nobody has defined, and the checksum that belongs to it (by pymavlink's
 // x25crc).
 const Bytes heartbeat_flag_4 = test::hex("fd09040007010100000000000402020c510403921c");
+// test::ping_zero_v2 as if PING's CRC_EXTRA were 1 (by pymavlink's x25crc).
+const Bytes ping_with_extra_1 = test::hex("fd01000000010104000000dd02");
 
 }  // namespace
 
@@ -94,6 +96,22 @@ TEST_F(DatagramParserTest, RefusesAnUnknownIdInTheMiddleOfNoise) {
 
     EXPECT_THAT(log.events, ElementsAre("junk 14"));
     EXPECT_EQ(parser.counters().implausible_unknown.value(), 1u);
+}
+
+// Frames of another CRC_EXTRA that lie in noise: three of them would replace the byte if they were learned from.
+TEST_F(DatagramParserTest, NoiseDoesNotReplaceALearnedExtraByte) {
+    const MessageTable empty{{}};
+    DatagramParser parser{empty};
+    test::ParseLog log;
+    const Bytes in_noise = join({ping_with_extra_1, {0x55}});
+
+    for (const Bytes& datagram :
+         {test::ping_zero_v2, test::ping_zero_v2, test::ping_zero_v2, in_noise, in_noise, in_noise})
+        parser.parse(datagram, log);
+    log.events.clear();
+    parser.parse(test::ping_zero_v2, log);
+
+    EXPECT_THAT(log.events, ElementsAre("frame 4/0"));
 }
 
 TEST_F(DatagramParserTest, CountsEveryByteOnce) {
