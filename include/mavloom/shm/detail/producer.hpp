@@ -7,8 +7,8 @@
 //           record as being written
 //   commit  stores the length, the marks and `tail`, then wakes sleeping readers
 //
-// A writer that is killed at any point leaves `tail` unchanged. Every record before `tail` is complete; nothing behind
-// it counts.
+// A writer that is killed at any point leaves `tail` unchanged. Every record before `tail` is complete; anything after
+// it is ignored.
 #pragma once
 
 #include <bit>
