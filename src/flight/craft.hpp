@@ -40,10 +40,10 @@ public:
     [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
     // True once a client set the origin, or a position was known.
     [[nodiscard]] bool has_origin() const noexcept { return has_origin_; }
-    // Returns what every owner of local positions must add to them.
+    // Returns the offset that every owner of local positions must add to them.
     Vector3 set_origin(const GeoPoint& origin);
     void acquire_gps() noexcept;
-    // Of the estimate. It is computed once a step, when first asked for.
+    // The estimated position. It is computed at the first call after each step.
     [[nodiscard]] const GeoPoint& position() const;
     [[nodiscard]] double ground_altitude() const noexcept { return ground_altitude_; }  // m above mean sea level
     [[nodiscard]] double ground_z() const noexcept { return frame_.origin().altitude - ground_altitude_; }

@@ -50,11 +50,11 @@ public:
     // of the local origin.
     void step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
               double air_density);
-    // As Airframe::move_origin.
+    // Like Airframe::move_origin.
     void move_origin(const Vector3& by);
     void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
     [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
-    // GPS has a fix from now on. Before, fix_type is 1.
+    // True: GPS has a fix from now on. Until then, fix_type is 1.
     void acquire_gps(bool acquired) noexcept { gps_acquired_ = acquired; }
 
     [[nodiscard]] const Estimate& estimate() const noexcept { return estimate_; }
