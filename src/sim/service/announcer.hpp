@@ -21,7 +21,7 @@ class Announcer {
 public:
     explicit Announcer(Radio& radio) noexcept : radio_(radio) {}
 
-    // To all links. Texts of more than 50 bytes go in chunks.
+    // Sends a text to all links, in chunks if it is longer than 50 bytes.
     void say(Severity severity, std::string_view text, FlightTime now);
     // A ground station was heard on this link for the first time.
     void greet(LinkId link, FlightTime now);
