@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts of Flight share: the craft, the firmware's numbers and texts, the plans and the observer. Private to
-// flight; single owner.
+// The state that the parts of Flight share: the craft, the firmware's numbers and texts, the plans and the observer.
+// Private to flight; single owner.
 #pragma once
 
 #include <optional>

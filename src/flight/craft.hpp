@@ -38,7 +38,7 @@ public:
     [[nodiscard]] Battery& battery() noexcept { return battery_; }
 
     [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
-    // True once a client set the origin, or a position was known.
+    // True once a client has set the origin, or once a position was known.
     [[nodiscard]] bool has_origin() const noexcept { return has_origin_; }
     // Returns the offset that every owner of local positions must add to them.
     Vector3 set_origin(const GeoPoint& origin);
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] double speed() const noexcept;  // horizontal, m/s
 
     [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept { return home_; }
-    // Where home is; without a home, where the vehicle started.
+    // The place of home in the local frame; without a home, the place where the vehicle started.
     [[nodiscard]] const Vector3& home_place() const noexcept { return home_place_; }
     [[nodiscard]] double home_yaw() const noexcept { return home_yaw_; }
     void set_home(const GeoPoint& point, double yaw);

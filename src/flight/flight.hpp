@@ -71,7 +71,7 @@ struct MissionProgress {
     MissionState state = MissionState::no_mission;
 };
 
-// Where the vehicle navigates to, for NAV_CONTROLLER_OUTPUT and POSITION_TARGET_GLOBAL_INT.
+// The point that the vehicle navigates to, for NAV_CONTROLLER_OUTPUT and POSITION_TARGET_GLOBAL_INT.
 struct NavigationTarget {
     Vector3 position = no_vector;  // vehicle's local frame
     double cross_track = 0;        // m

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs that clients must repeat, and when they last came by FlightContext::input_time(). Private to flight;
+// Inputs that clients must repeat, each with the time of its last arrival (FlightContext::input_time()). Private to
+// flight;
 // single owner; plain values.
 #pragma once
 

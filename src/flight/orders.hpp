@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What clients may order a vehicle to do, and how it answers. Private to flight and sim; plain values. `nan` means "not
-// given": the vehicle then chooses, usually its present value.
+// The orders that clients can give a vehicle, and its answers. Private to flight and sim; plain values. `nan` means
+// "not given": the vehicle then chooses, usually its present value.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@
 
 namespace mavloom::simserve {
 
-// How all vehicles together stream on a link.
+// The rates and the limit of the telemetry that all vehicles send on one link.
 struct LinkRates {
     std::optional<sim::Profile> profile;  // empty: the usual profile of each vehicle's autopilot
     std::uint32_t max_bytes_s = 0;        // of telemetry; 0: no limit

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a simulated vehicle is: kind, autopilot, home, seed. Plain values with defaults; no errors here, because
+// The properties of a simulated vehicle: kind, autopilot, home, seed and others. Plain values with defaults; no errors
+// here, because
 // module simserve checks what users type. docs/guide/sim.md describes every key.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the nose of a multicopter points: as a client or a mission wants, to a region of interest, or along the way.
-// Private to flight; single owner; nothing allocates.
+// Decides where the nose of a multicopter points: as a client or a mission orders, to a region of interest, or along
+// the way. Private to flight; single owner; nothing allocates.
 #pragma once
 
 #include <optional>

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const Guidance& guidance() const noexcept { return guidance_; }
     [[nodiscard]] MissionRunner& mission() noexcept { return mission_; }
     [[nodiscard]] const MissionRunner& mission() const noexcept { return mission_; }
-    // True once a return is complete: a rover has then arrived at home.
+    // True once the return is complete. A rover has then arrived at home.
     [[nodiscard]] bool is_home() const noexcept {
         return behaviour_ == Behaviour::return_home && return_path_.is_done();
     }

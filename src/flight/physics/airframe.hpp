@@ -98,7 +98,8 @@ struct Actuators {
 //
 // Plane, in trajectory, waypoint and circle:
 // - On the ground, an armed plane with a target above the ground starts a take-off run: full throttle along the present
-//   heading until the wings carry, then a climb at `limits.up` with little bank near the ground. Otherwise it brakes.
+//   heading until the wings carry. It then climbs at `limits.up`, with little bank near the ground. Without such a
+//   target, it brakes.
 // - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory),
 //   flares, rolls out and stops.
 // - trajectory with a horizontal position: the plane flies there and circles around it with `radius` (0: 50 m).

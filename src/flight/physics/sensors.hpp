@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the vehicle measures and estimates: the true motion with noise. Private to flight and sim; single owner; nothing
-// allocates.
+// The vehicle's measurements and estimates: its true motion with noise. Private to flight and sim; single owner;
+// nothing allocates.
 //
 // All noise advances with the steps, never with messages, so the telemetry of one client does not depend on another.
 // The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).

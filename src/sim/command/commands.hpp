@@ -26,7 +26,8 @@ using flight::Result;  // and not mavloom::Result
 
 struct Parts;
 
-// Both forms of a command. Positions are in degrees, or metres in local frames; `nan` where the client gave none.
+// A command, received in either form. Positions are in degrees, or metres in local frames; `nan` where the client gave
+// none.
 struct Command {
     Client from{};
     std::uint16_t id = 0;

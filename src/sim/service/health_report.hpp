@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a PX4 reports about its readiness: in which modes it can arm and fly, what prevents the others, and the state of
-// its components. Private to module sim; a pure function of the vehicle's state.
+// A PX4's report of its readiness: in which modes it can arm and fly, what prevents the others, and the state of its
+// components. Private to module sim; a pure function of the vehicle's state.
 //
 // Bits, ids and the order of problems are those of a recorded PX4 1.17.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MAVLink FTP. Private to module sim; single owner. Source: MAVLink guide, "File Transfer Protocol (FTP)".
 //
-// Sessions belong to a client and have the number that the client gave when it opened the file: QGroundControl takes
+// Sessions belong to a client and have the number that the client gave when it opened the file. QGroundControl takes
 // the number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated
 // byte by byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
 #pragma once

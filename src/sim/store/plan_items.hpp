@@ -2,7 +2,7 @@
 // Items of plans on the wire: their two forms, and which items a vehicle accepts. Private to module sim; pure
 // functions.
 //
-// MISSION_ITEM_INT and MISSION_ITEM carry the same item; the latter has x and y as float degrees. Sources: MAVLink
+// MISSION_ITEM_INT and MISSION_ITEM carry the same item; MISSION_ITEM has x and y as float degrees. Sources: MAVLink
 // guide, "Mission Protocol"; PX4 1.17.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When each message is due on each link. Private to module sim; single owner; `run` allocates nothing.
+// Sends each message on each link when it is due. Private to module sim; single owner; `run` allocates nothing.
 //
 // Every stream has absolute deadlines, start + phase + n * interval, so rates do not drift. After a stall, each stream
 // sends once; the instants that it missed are skipped and counted. Phases depend on the vehicle and differ between
@@ -61,7 +61,7 @@ private:
         const Projection* projection;
         When when = When::always;
         std::uint32_t number = 0;  // messages sent so far
-        Nanoseconds asked{};       // as the client or the profile wants it; 0: off
+        Nanoseconds asked{};       // as requested by the client or the profile; 0: off
         Nanoseconds interval{};    // after the bandwidth limit; 0: off, or a service sends the message
         // Statistics. `left_out` is time without messages between `first` and `last`: skipped instants, and instants
         // at which there was nothing to report. `pending` becomes part of it with the next message.

@@ -59,8 +59,8 @@ public:
         return Room::there;
     }
 
-    // Where the caller writes the claimed payload with plain stores. A lossy reader that is lapped at that moment may
-    // copy a mixture of old and new bytes. It then discards the copy (see extend()).
+    // The memory into which the caller writes the claimed payload with plain stores. A lossy reader that is lapped at
+    // that moment may copy a mixture of old and new bytes. It then discards the copy (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
         return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }

@@ -19,7 +19,7 @@ inline constexpr double stall_angle = to_radians(13);
 inline constexpr double safe_angle = to_radians(10);
 inline constexpr double cruise_speed = 15;  // m/s, airspeed
 
-// How the air meets the plane.
+// The flow of air past the plane.
 struct Airflow {
     Vector3 body = Vector3::Zero();  // velocity relative to the air, body frame
     double speed = 0;                // m/s
