@@ -31,7 +31,7 @@ HEADER = ("time_ns", "sys", "comp")
 
 
 def flat(arrays: dict[str, Array]) -> dict[str, Array]:
-    """The columns, one for each element of an array field. They are views of the arrays."""
+    """The one-dimensional columns: one for each element of an array field. They are views of the arrays."""
     columns: dict[str, Array] = {}
     for name, values in arrays.items():
         if values.ndim == 2:
@@ -42,7 +42,9 @@ def flat(arrays: dict[str, Array]) -> dict[str, Array]:
 
 
 class Columns(dict[str, Array]):
-    """The rows of one message, in the order of the file, as numpy arrays. The columns cannot be exchanged.
+    """The rows of one message, in the order of the file, as numpy arrays.
+
+    Columns cannot be added, replaced or removed.
 
     The arrays own their memory, are contiguous and writeable, and have native byte order. `len(cols)` is the number of
     rows. If the message does not occur, the arrays are empty and have the same types.
@@ -53,13 +55,14 @@ class Columns(dict[str, Array]):
     - `time_ns` is the recorded time (int64, Unix time in ns); `sys` and `comp` are uint8.
     - Trailing zeros that a sender left out are 0.
 
-    Can be copied and pickled. Other libraries take it as it is: `pandas.DataFrame(cols)`, `numpy.asarray(cols)`,
-    `polars.DataFrame(cols)`; `to_pandas` and `to_arrow` also convert times and text. `keys`, `values` and `items` have
-    columns of one dimension, as these libraries need: those of an array field are `voltages[0]`, `voltages[1]`, ...
+    Columns can be copied and pickled. Other libraries take them as they are: `pandas.DataFrame(cols)`,
+    `numpy.asarray(cols)`, `polars.DataFrame(cols)`. `to_pandas` and `to_arrow` also convert times and text. These
+    libraries need one-dimensional columns, so `keys`, `values` and `items` list an array field as `voltages[0]`,
+    `voltages[1]`, ...
     """
 
-    # A dict, because pandas.DataFrame takes columns from nothing else. It holds the columns of one dimension, because
-    # json and other compiled code looks into the dict itself.
+    # A dict, because pandas.DataFrame takes columns from nothing else. The dict itself holds the one-dimensional
+    # columns, because json and other compiled code read it without calling the methods below.
 
     name: str
     junk_bytes: int  # bytes of the file that belong to no record: damaged, or cut off at the end
@@ -113,15 +116,15 @@ class Columns(dict[str, Array]):
             return default
 
     def keys(self) -> list[str]:  # type: ignore[override]
-        """The names of the columns of one dimension."""
+        """The names of the one-dimensional columns."""
         return list(super().keys())
 
     def values(self) -> list[Array]:  # type: ignore[override]
-        """The columns of one dimension."""
+        """The one-dimensional columns."""
         return list(super().values())
 
     def items(self) -> list[tuple[str, Array]]:  # type: ignore[override]
-        """The names and columns of one dimension."""
+        """The one-dimensional columns with their names."""
         return list(super().items())
 
     def _ipython_key_completions_(self) -> list[str]:
@@ -229,7 +232,7 @@ class Columns(dict[str, Array]):
         return frame
 
     def _has_names(self, column: str) -> bool:
-        """Whether the column has an enum that is not one of flags."""
+        """Whether the column has an enum whose values are not flags."""
         field = column.partition("[")[0]
         return field in self.enums and not any(one.bitmask for one in self._info.fields if one.name == field)
 
@@ -260,19 +263,19 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
             dialect: Dialect | None = None) -> Columns | dict[str, Columns]:
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
-    `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages, or a
-    list of these: the result is then {name: Columns}, as that of `tables`.
+    `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages. It may
+    also be a list of these; the result is then {name: Columns}, like that of `tables`.
 
     - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
       sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
-    - `start` and `end` select the recorded times from `start` on and before `end`: Unix time in ns, an aware datetime,
-      a numpy.datetime64 or a pandas.Timestamp.
+    - `start` and `end` select rows by their recorded time, from `start` up to but not including `end`. Each is a Unix
+      time in ns, an aware datetime, a numpy.datetime64 or a pandas.Timestamp.
     - `fields` selects the columns; time_ns, sys and comp are always there.
 
     An unknown name, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
     file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
 
-    The GIL is free during the read. At its peak, the call needs the memory of the arrays and once more of the largest.
+    The call releases the GIL while it reads. At its peak, it needs the memory of all arrays plus that of the largest.
     """
     definitions = Dialect() if dialect is None else dialect
     files, begin, before = paths_of(path), time_ns_of("start", start), time_ns_of("end", end)
@@ -296,7 +299,7 @@ def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None 
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
-    without a definition are left out. Otherwise it works like `columns`, but checks every checksum.
+    without a definition are left out. In all else, `tables` works like `columns`, but it checks every checksum.
     """
     definitions = Dialect() if dialect is None else dialect
     made, junk_bytes = read_tables(paths_of(path), type, system, component, time_ns_of("start", start),
@@ -316,7 +319,7 @@ def paths_of(path: Paths) -> list[Path]:
 
 
 def name_of(given: Any) -> Any:
-    """The name of a class of mavloom.messages; anything else as it is."""
+    """Returns the name of a class of mavloom.messages. Returns anything else unchanged."""
     return given.__name__ if isinstance(given, type) else given
 
 

@@ -15,7 +15,7 @@ _made: dict[tuple[str | None, str], EnumClass] = {}
 
 
 def make(dialect: Dialect, name: str) -> EnumClass:
-    """Returns the class of an enum, which is created once."""
+    """Returns the class of an enum. The first call creates it."""
     key = (dialect.path, name)
     if key not in _made:
         bitmask, entries = dialect.enum_entries(name)

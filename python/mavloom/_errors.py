@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The exceptions of this package.
 
-Damaged input on a link or in a recording raises none of them: it is counted.
+Damaged input on a link or in a recording does not raise an error. It is counted.
 """
 from __future__ import annotations
 
 
 class Error(Exception):
     """Base class of all errors of this package."""
-    # No __init__ in Python: the compiled module raises these errors. Python ends daemon threads at its exit where they
-    # run Python code, which would end the process if C++ had called that code.
+    # No __init__ in Python, because the compiled module raises these errors. When Python exits, it ends daemon threads
+    # while they run Python code. If C++ had called that code, this would end the process.
 
 
 class UsageError(Error, ValueError):

@@ -51,8 +51,8 @@ class Link(Sends):
         wrong address or option.
 
         If the far side is absent, the link keeps trying in the background. With `required=true` in the address, the
-        call waits up to 5 s for an answer of the far side. It raises SystemFailure if there is none, and at once if the
-        far side refuses or the device is missing.
+        call waits up to 5 s for an answer from the far side, and raises SystemFailure if there is none. If the far side
+        refuses or the device is missing, it raises SystemFailure at once.
         """
         check_url(url)
         super().__init__(Port(url, source_system, source_component, dialect, buffer, version))
@@ -76,7 +76,7 @@ class Link(Sends):
     def recv(self, timeout: float | None = None) -> Message | None:
         """Returns the next message, or None after `timeout` seconds (0 polls, None waits indefinitely).
 
-        Raises ClosedError if the link is closed, also while it waits.
+        Raises ClosedError if the link is closed, or if it closes during the wait.
         """
         return self._reader.recv(timeout)
 
@@ -96,7 +96,7 @@ class Link(Sends):
         """Returns the next message of these types for which `condition(message)` is true, and skips those before it.
 
         `type` takes names or classes of mavloom.messages. An unknown name raises a ValueError that suggests the nearest
-        one. If no such message is there, returns None: at once, or with `blocking` after `timeout` seconds.
+        one. If there is no such message, returns None: at once, or with `blocking` after `timeout` seconds.
         """
         return self._reader.recv_match(condition, type, blocking, timeout, system, component)
 
@@ -171,15 +171,15 @@ class Link(Sends):
     def vehicle(self, system: int | None = None, component: int = 1, *, timeout: float = 10.0) -> Vehicle:
         """Returns a Vehicle: arm, set_mode, takeoff, land, command, params, mission.
 
-        Without `system`, it is the first vehicle that is heard. Raises TimeoutError if none is within `timeout`
-        seconds.
+        Without `system`, this is the first vehicle that the link hears. Raises TimeoutError if it hears none within
+        `timeout` seconds.
         """
         if system is None:
             system, component = self._first_vehicle(timeout)
         return Vehicle(self, target_id("system", system), target_id("component", component))
 
     def vehicle_async(self, system: int, component: int = 1) -> AsyncVehicle:
-        """Returns an AsyncVehicle, whose methods are to be awaited."""
+        """Returns an AsyncVehicle, whose methods must be awaited."""
         return AsyncVehicle(self, target_id("system", system), target_id("component", component))
 
     def _first_vehicle(self, timeout: float) -> tuple[int, int]:
@@ -249,8 +249,8 @@ class Link(Sends):
     def wait_heartbeat(self, blocking: bool = True, timeout: float | None = None) -> Message | None:
         """Returns the next heartbeat of a vehicle, or None after `timeout` seconds.
 
-        Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles. A type of vehicle,
-        such as a quadrotor, is one even if its heartbeat names no autopilot.
+        Ground stations, gimbals, cameras, ADS-B receivers and onboard controllers are not vehicles. A heartbeat with a
+        vehicle's type, such as quadrotor, comes from a vehicle even if it names no autopilot.
         """
         return self.recv_match(is_vehicle_heartbeat, "HEARTBEAT", blocking, timeout)
 

@@ -49,7 +49,7 @@ CUSTOM_MODE_ENABLED = 1  # MAV_MODE_FLAG
 
 
 def px4_name(custom_mode: int) -> str:
-    """The name of a PX4's mode; "UNKNOWN" for one that is not in the table."""
+    """The name of a PX4 mode; "UNKNOWN" if it is not in the table."""
     main, sub = custom_mode >> 16 & 0xff, custom_mode >> 24 & 0xff
     for name, (_, one_main, one_sub) in PX4.items():
         if main == one_main and (main != PX4_AUTO or sub == one_sub):
@@ -67,11 +67,11 @@ def mode_name(autopilot: int, vehicle_type: int, base_mode: int, custom_mode: in
 
 
 def ardupilot_name(vehicle_type: int, custom_mode: int) -> str:
-    """The name of a mode of ArduPilot; "Mode(5)" for one that is not in the tables."""
+    """The name of an ArduPilot mode; "Mode(5)" if it is not in the tables."""
     return ARDUPILOT.get(vehicle_type, {}).get(custom_mode, f"Mode({custom_mode})")
 
 
 def ardupilot_modes(vehicle_type: int) -> dict[str, int] | None:
-    """{name: number} of a type of vehicle; None if ArduPilot has no modes for it."""
+    """The modes of a type of vehicle as {name: number}; None if ArduPilot has no modes for it."""
     modes = ARDUPILOT.get(vehicle_type)
     return None if modes is None else {name: number for number, name in modes.items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Signatures of functions, for the module inspect. nanobind keeps the text of each compiled one."""
+"""Signatures of functions, for the module inspect. nanobind keeps the signature of each compiled function as text."""
 from __future__ import annotations
 
 import keyword
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def parameter_name(field: str) -> str:
-    """The name of a field as a parameter. A name that Python does not allow there gets an underscore."""
+    """The name of a field as a parameter. A name that Python does not allow for parameters gets an underscore."""
     if keyword.iskeyword(field) or field == "self":
         return field + "_"
     return field if field.isidentifier() else "_" + field
@@ -24,7 +24,7 @@ def signature_of(function: Any) -> inspect.Signature:
 
 
 def parsed(text: str) -> inspect.Signature:
-    """The signature that the first line of a definition has: "def f(x: int = 3) -> str"."""
+    """The signature in the first line of a definition, such as "def f(x: int = 3) -> str"."""
     import ast
     import inspect
     tree = ast.parse(f"{text}: ...").body[0]
@@ -56,7 +56,7 @@ def without_self(signature: inspect.Signature) -> inspect.Signature:
 
 
 class OfClass:
-    """`__signature__` of a compiled class or an error. A class that is not made by a call has no parameters."""
+    """`__signature__` of a compiled class or an error. A class that cannot be called has no parameters."""
 
     def __get__(self, instance: object, owner: type[Any]) -> inspect.Signature:
         function: Any = owner.__init__

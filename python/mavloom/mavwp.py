@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Missions in files, in the form of pymavlink's module of this name: MAVWPLoader reads and writes "QGC WPL 110"."""
+"""Missions in files, with the interface of pymavlink's mavwp: MAVWPLoader reads and writes "QGC WPL 110"."""
 from __future__ import annotations
 
 import os
@@ -15,7 +15,7 @@ FIELDS = 12  # of a line
 
 
 class MAVWPError(Error):
-    """A file that is no mission. The text names file and line."""
+    """The file is not a mission. The text names file and line."""
 
     def __init__(self, msg: str) -> None:
         super().__init__(msg)
@@ -60,7 +60,7 @@ class MAVWPLoader:
         self.reindex()
 
     def set(self, w: Any, idx: int) -> None:
-        """Replaces the item number `idx`, or appends one."""
+        """Replaces item number `idx`. Appends `w` if `idx` is the number of items."""
         w.seq = idx
         if idx == self.count():
             self.wpoints.append(w)
@@ -79,7 +79,7 @@ class MAVWPLoader:
         self._changed()
 
     def reindex(self) -> None:
-        """Gives the items their numbers again."""
+        """Numbers the items again, from 0."""
         for number, w in enumerate(self.wpoints):
             w.seq = number
         self._changed()
@@ -91,7 +91,10 @@ class MAVWPLoader:
         return 0
 
     def add_latlonalt(self, lat: float, lon: float, altitude: float, terrain_alt: bool = False) -> None:
-        """Appends a waypoint at a place in degrees, `altitude` m above home or above the terrain."""
+        """Appends a waypoint at `lat` and `lon` in degrees.
+
+        `altitude` is in metres above home, or above the terrain with `terrain_alt`.
+        """
         frame = GLOBAL_TERRAIN_ALT if terrain_alt else GLOBAL_RELATIVE_ALT
         self.add(self._item(0, frame, NAV_WAYPOINT, 0, 1, 0, 0, 0, 0, lat, lon, altitude))
 
@@ -99,7 +102,7 @@ class MAVWPLoader:
         return mavutil.mavlink.MAVLink_mission_item_message(self.target_system, self.target_component, *values)
 
     def load(self, filename: str | os.PathLike[str]) -> int:
-        """Replaces the items by those of a file. Returns their number. Raises MAVWPError if it is no mission."""
+        """Replaces the items with those of a file, and returns how many. Raises MAVWPError if it is not a mission."""
         with open(os.fspath(filename), encoding="utf-8") as file:
             lines = file.read().splitlines()
         if not lines or lines[0].strip() != HEADER:

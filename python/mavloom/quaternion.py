@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Attitudes as quaternions, in the form of pymavlink's module of this name.
+"""Attitudes as quaternions, with the interface of pymavlink's quaternion.
 
     from mavloom.quaternion import QuaternionBase
     link.mav.set_attitude_target_send(..., QuaternionBase([roll, pitch, yaw]), ...)
 
-A quaternion (w, x, y, z) turns vectors of the body into those of the earth; Euler angles are roll, pitch and yaw in
-radians, applied in the order yaw, pitch, roll.
+A quaternion (w, x, y, z) rotates vectors from the body frame to the earth frame. Euler angles are roll, pitch and yaw
+in radians, applied in the order yaw, pitch, roll.
 """
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = npt.NDArray[np.float64]
 
 
 class QuaternionBase:
-    """An attitude. It is given as 4 elements of a quaternion, 3 Euler angles, a 3x3 rotation matrix or a Quaternion."""
+    """An attitude, given as 4 elements of a quaternion, 3 Euler angles, a 3x3 rotation matrix or a Quaternion."""
 
     def __init__(self, attitude: Any = (1, 0, 0, 0)) -> None:
         if isinstance(attitude, QuaternionBase):
@@ -75,7 +75,8 @@ class QuaternionBase:
     @dcm.setter
     def dcm(self, dcm: Any) -> None:
         m = np.array(dcm, dtype=float)
-        # Each row holds one element of the quaternion squared, times 4; the largest is the divisor.
+        # `squares` holds each element of the quaternion squared, times 4. A row of `products` is the quaternion times
+        # one of its elements, times 4. The row of the largest element gives the most exact result.
         squares = np.array([1 + m[0, 0] + m[1, 1] + m[2, 2], 1 + m[0, 0] - m[1, 1] - m[2, 2],
                             1 - m[0, 0] + m[1, 1] - m[2, 2], 1 - m[0, 0] - m[1, 1] + m[2, 2]])
         products = np.array([[squares[0], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
@@ -100,12 +101,12 @@ class QuaternionBase:
         return type(self)(self._q * np.array([1, -1, -1, -1]) / np.dot(self._q, self._q))
 
     def transform(self, v: Any) -> Array:
-        """The vector `v` of the body as seen from the earth."""
+        """Converts the vector `v` from the body frame to the earth frame."""
         turned: Array = self.dcm @ np.array([v.x, v.y, v.z] if hasattr(v, "x") else v)
         return turned
 
     def __mul__(self, other: Any) -> Any:
-        """The rotation `other`, then this one; of a vector, its transform."""
+        """For a quaternion: the rotation `other`, then this one. For a vector: the same as `transform`."""
         if not isinstance(other, QuaternionBase):
             return self.transform(other)
         (a, b, c, d), (w, x, y, z) = self._q, other._q
@@ -116,7 +117,7 @@ class QuaternionBase:
         return self * other.inversed
 
     def __eq__(self, other: object) -> bool:
-        """Whether both are the same orientation, up to rounding."""
+        """Whether both are the same attitude, up to rounding."""
         return isinstance(other, QuaternionBase) and self.close(other)
 
     __hash__ = None  # type: ignore[assignment]
@@ -132,4 +133,4 @@ class QuaternionBase:
 
 
 class Quaternion(QuaternionBase):
-    """The same. In pymavlink, this class has its own types for vectors and matrices; here they are numpy's arrays."""
+    """Same as QuaternionBase. In pymavlink, this class has its own vector and matrix types; here, it uses numpy's."""

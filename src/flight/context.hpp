@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts of Flight share: the craft, the firmware's numbers and texts, the plans and the observer. Private to
-// flight; single owner.
+// The state that the parts of Flight share: the craft, the firmware's numbers and texts, the plans and the observer.
+// Private to flight; single owner.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,8 @@ struct FlightContext {
 
     [[nodiscard]] Kind kind() const noexcept { return options.kind; }
     [[nodiscard]] FlightTime now() const noexcept { return craft.since_boot(); }
-    // The clock of what clients must repeat. They repeat it in real time, however fast the vehicle flies.
+    // The clock for inputs that clients must repeat. Clients repeat them in real time, however fast the flight clock
+    // runs.
     [[nodiscard]] Nanoseconds input_time() const noexcept { return real.value_or(now()); }
     [[nodiscard]] double seconds_since(FlightTime time) const noexcept {
         return std::chrono::duration<double>(now() - time).count();
@@ -42,7 +43,7 @@ struct FlightContext {
     [[nodiscard]] Outcome refuse(Result result, std::string_view text, std::string_view value = {}) const;
 };
 
-// The text with its first `{}` replaced.
+// Returns the text with its first `{}` replaced by `value`.
 [[nodiscard]] std::string filled(std::string_view text, std::string_view value);
 
 }  // namespace mavloom::flight

@@ -38,12 +38,12 @@ public:
     [[nodiscard]] Battery& battery() noexcept { return battery_; }
 
     [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
-    // True once a client set the origin, or a position was known.
+    // True once a client has set the origin, or once a position was known.
     [[nodiscard]] bool has_origin() const noexcept { return has_origin_; }
-    // Returns what every owner of local positions must add to them.
+    // Returns the offset that every owner of local positions must add to them.
     Vector3 set_origin(const GeoPoint& origin);
     void acquire_gps() noexcept;
-    // Of the estimate. It is computed once a step, when first asked for.
+    // The estimated position. It is computed at the first call after each step.
     [[nodiscard]] const GeoPoint& position() const;
     [[nodiscard]] double ground_altitude() const noexcept { return ground_altitude_; }  // m above mean sea level
     [[nodiscard]] double ground_z() const noexcept { return frame_.origin().altitude - ground_altitude_; }
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] double speed() const noexcept;  // horizontal, m/s
 
     [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept { return home_; }
-    // Where home is; without a home, where the vehicle started.
+    // The place of home in the local frame; without a home, the place where the vehicle started.
     [[nodiscard]] const Vector3& home_place() const noexcept { return home_place_; }
     [[nodiscard]] double home_yaw() const noexcept { return home_yaw_; }
     void set_home(const GeoPoint& point, double yaw);

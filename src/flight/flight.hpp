@@ -33,7 +33,7 @@ class FlightObserver {
 public:
     virtual ~FlightObserver() = default;
     virtual void on_text(Severity severity, std::string_view text) = 0;
-    // Armed flag, mode, system status or landed state changed: HEARTBEAT and its relatives are out of date.
+    // Armed flag, mode, system status or landed state changed: HEARTBEAT and related messages are out of date.
     virtual void on_state_changed() = 0;
     virtual void on_home_changed() = 0;
     virtual void on_mission_progress() = 0;
@@ -65,13 +65,13 @@ enum class MissionState : std::uint8_t {
     complete = 5
 };
 
-// How far the vehicle is with its mission.
+// The vehicle's progress in its mission.
 struct MissionProgress {
     std::uint16_t current = 0;
     MissionState state = MissionState::no_mission;
 };
 
-// Where the vehicle navigates to, for NAV_CONTROLLER_OUTPUT and POSITION_TARGET_GLOBAL_INT.
+// The point that the vehicle navigates to, for NAV_CONTROLLER_OUTPUT and POSITION_TARGET_GLOBAL_INT.
 struct NavigationTarget {
     Vector3 position = no_vector;  // vehicle's local frame
     double cross_track = 0;        // m
@@ -105,8 +105,8 @@ public:
 
     // Advances by one step of 4 ms.
     void step();
-    // The real time of the steps and inputs that follow: time-outs of repeated inputs run by it. Without it they run by
-    // the flight time.
+    // Sets the real time of the steps and inputs that follow. Time-outs of repeated inputs use it. Without this call,
+    // they use the flight time.
     void set_real_time(MonoTime now) noexcept;
     // Boots again where the vehicle stands: disarmed, not ready, default mode. Plans stay.
     void reboot();
@@ -126,11 +126,11 @@ public:
     Outcome resume();
     Outcome change_altitude(double altitude);  // m above mean sea level
     Outcome change_speed(SpeedKind kind, double speed);
-    // `nan` angle: no longer. Clockwise from north, or relative to the present heading.
+    // Turns the nose to `yaw`, clockwise from north or relative to the present heading. A `nan` angle ends the order.
     Outcome turn_to(double yaw, double yaw_rate, bool relative);
     Outcome look_at(const std::optional<GeoPoint>& point);  // region of interest; empty: none
     Outcome start_mission(std::optional<std::uint16_t> first);
-    // Empty: the present one again.
+    // Without `seq`, restarts the present item.
     Outcome set_current_item(std::optional<std::uint16_t> seq, bool resets);
     Outcome set_home(const std::optional<GeoPoint>& point, double yaw);  // empty: the present position
     Outcome set_origin(const GeoPoint& origin);
@@ -143,7 +143,7 @@ public:
     void on_sticks(const Sticks& sticks);
     void on_offboard(const OffboardSetpoint& setpoint);
     // In a follow mode the vehicle keeps its place relative to the target; see Tuning. The altitude of the target does
-    // not matter. `velocity` gives its course.
+    // not matter. `velocity` gives the target's course.
     void on_target(const GeoPoint& target, const Vector3& velocity);
     void on_ground_station_heard();
     // A plan was replaced.
@@ -177,7 +177,7 @@ public:
     [[nodiscard]] bool has_origin() const noexcept;
     [[nodiscard]] const std::optional<GeoPoint>& home() const noexcept;
     [[nodiscard]] double home_yaw() const noexcept;
-    // Of the estimate, at this step.
+    // The estimated position at this step.
     [[nodiscard]] const GeoPoint& position() const;
     [[nodiscard]] double ground_altitude() const noexcept;  // m above mean sea level
 
@@ -186,7 +186,7 @@ public:
     [[nodiscard]] MissionProgress mission() const noexcept;
     [[nodiscard]] const std::optional<NavigationTarget>& target() const noexcept;
     [[nodiscard]] std::optional<OrbitStatus> orbit_status() const;
-    // Where nose and gimbal look; empty: nowhere.
+    // The point at which nose and gimbal look; empty: none.
     [[nodiscard]] const std::optional<GeoPoint>& region_of_interest() const noexcept;
     [[nodiscard]] FlightTime armed_at() const noexcept;     // since boot; 0 if disarmed
     [[nodiscard]] FlightTime took_off_at() const noexcept;  // since boot; 0 if on the ground

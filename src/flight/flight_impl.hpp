@@ -2,7 +2,7 @@
 // The parts of Flight and the order in which they work. Private to flight.
 //
 //   Craft           moves: airframe, battery, sensors, wind       250 Hz
-//   Navigator       set-points for the present behaviour           50 Hz, as the others
+//   Navigator       set-points for the present behaviour           50 Hz, like the parts below
 //   LandedDetector  on the ground or not
 //   Commander       armed or not, and in which mode
 //   Failsafes       have the Commander act; Fence is one reason
@@ -44,7 +44,7 @@ public:
     Outcome start_mission(std::optional<std::uint16_t> first);
 
     [[nodiscard]] const Firmware& firmware() const noexcept { return context.firmware; }
-    // In which the vehicle stays where a client wants it: PX4's Hold, ArduPilot's Guided.
+    // The behaviour in which the vehicle stays where a client wants it: PX4's Hold, ArduPilot's Guided.
     [[nodiscard]] Behaviour steady_behaviour() const noexcept {
         return firmware().is_px4() ? Behaviour::hold : Behaviour::offboard;
     }
@@ -57,10 +57,10 @@ public:
     Commander commander;
     Fence fence;
     Failsafes failsafes;
-    std::optional<RandomPilot> random_pilot;  // steers in the place of the navigator
+    std::optional<RandomPilot> random_pilot;  // steers instead of the navigator
 
 private:
-    // The state that HEARTBEAT and its relatives show.
+    // The state that HEARTBEAT and related messages show.
     struct Shown {
         const ModeInfo* mode = nullptr;
         bool armed = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inputs that clients must repeat, and when they last came by FlightContext::input_time(). Private to flight;
+// Inputs that clients must repeat, each with the time of its last arrival (FlightContext::input_time()). Private to
+// flight;
 // single owner; plain values.
 #pragma once
 
@@ -38,11 +39,11 @@ struct Inputs {
     Repeated<GroundStationSign> ground_station;
 };
 
-// `value` in -`most` to `most`; NaN and infinities become NaN.
+// Limits `value` to -`most` to `most`; NaN and infinities become NaN.
 [[nodiscard]] double bounded(double value, double most) noexcept;
 // An input of a client with every number bounded: NaN and infinities mean "not given".
 [[nodiscard]] Sticks bounded(const Sticks& sticks) noexcept;
-// Empty: it asks for nothing.
+// Returns nothing if the set-point has no effect.
 [[nodiscard]] std::optional<OffboardSetpoint> bounded(const OffboardSetpoint& setpoint) noexcept;
 
 }  // namespace mavloom::flight

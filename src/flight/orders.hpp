@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What clients may order a vehicle to do, and how it answers. Private to flight and sim; plain values. `nan` means "not
-// given": the vehicle then chooses, usually its present value.
+// The orders that clients can give a vehicle, and its answers. Private to flight and sim; plain values. `nan` means
+// "not given": the vehicle then chooses, usually its present value.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum class Result : std::uint8_t {
     unsupported_frame = 9,
 };
 
-// The answer to an order. A refusal has a text for people; the vehicle has then sent it as STATUSTEXT already.
+// The answer to an order. A refusal has a text for people, which the vehicle has already sent as STATUSTEXT.
 struct Outcome {
     Result result = Result::accepted;
     std::string text;
@@ -77,7 +77,7 @@ struct Sticks {
     double pitch = 0, roll = 0, yaw = 0, throttle = 0.5;
 };
 
-// A set-point of an external controller. Exactly one of the kinds.
+// A set-point of an external controller. `steering` decides which of the other members apply.
 struct OffboardSetpoint {
     Steering steering = Steering::trajectory;  // trajectory, attitude, rates or actuators
     Vector3 position = no_vector, velocity = no_vector, acceleration = no_vector;  // vehicle's local frame

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The numbers that drive the vehicle's behaviour, in SI units, read from the parameters of its firmware. Private to
-// flight; plain values. The firmware fills it again after each change of a parameter, so changes act at once.
+// flight; plain values. The firmware computes them again after each change of a parameter, so changes take effect at
+// once.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct Tuning {
     double min_airspeed = 10;                                  // m/s; planes
     double climb_speed = 3, descent_speed = 1.5;               // m/s
     double takeoff_speed = 1.5, land_speed = 0.7;              // m/s
-    double land_slow_height = 5, land_ramp_height = 10;        // m: below the first at land_speed, above the second not
+    double land_slow_height = 5, land_ramp_height = 10;        // m; slowing from the second, to land_speed at the first
     double acceleration = 3;                                   // m/s^2
     double max_tilt = to_radians(45);                          // rad
     double max_yaw_rate = to_radians(60);                      // rad/s

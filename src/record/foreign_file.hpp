@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recognises files of other formats by their first bytes, so that readers of recordings can refuse them by name.
+// Recognises files of other formats by their first bytes, so that an error can name the format.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct ForeignFormat {
 inline constexpr std::size_t foreign_format_bytes = 4096;
 static_assert(foreign_format_bytes >= 2 * wire::max_frame_length);
 
-// Returns nothing if the bytes may begin a tlog, even a damaged one. `table` has the checksums of frames.
+// Returns nothing if the bytes may begin a tlog, even a damaged one. `table` is used to check the checksums of frames.
 [[nodiscard]] std::optional<ForeignFormat> foreign_format(ByteView first_bytes,
                                                           const wire::MessageTable& table) noexcept;
 

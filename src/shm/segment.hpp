@@ -66,7 +66,8 @@ public:
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] bool writable() const noexcept { return access_ == Access::read_write; }
 
-    // Where the word is that retires the ring, so that a lost mapping becomes a retired ring (lost_mapping.hpp).
+    // Sets the offset of the word that retires the ring, so that a lost mapping becomes a retired ring
+    // (lost_mapping.hpp).
     void set_retired_word(std::size_t offset) noexcept;
 
     // Returns false if another process holds a lock on the byte.
@@ -101,19 +102,19 @@ private:
     Mapping* mapping_ = nullptr;  // the entry in the list of mappings; null if that is full
 };
 
-// Returns an error if the file belongs to another user than this one and root. Its owner can shorten it at any time.
+// Returns an error if the file belongs to a user other than this one or root. Its owner can shorten it at any time.
 [[nodiscard]] SetupResult<void> check_owner(const Segment& segment);
 
 // Returns an error if a reader must not trust the file of this ring or page: see Trust (trust.hpp).
 // `what` names it in the error text.
 [[nodiscard]] SetupResult<void> check_trusted(const Segment& segment, std::string_view what, const Trust& trust);
-// Returns the code of the error that another process holds the lock of this file: `in_use`, or `permission` if others
-// than the owner may write the file. Then the holder of the lock may be any of them.
+// Returns the error code for a file whose lock another process holds. It is `in_use`, or `permission` if users other
+// than the owner may write the file, because any of them may then hold the lock.
 [[nodiscard]] SetupCode held_code(const Segment& segment) noexcept;
-// Returns an error if this program could not survive that the owner of the file shortens it.
+// Returns an error if this program would not survive when the owner of the file shortens it.
 [[nodiscard]] SetupResult<void> check_survivable(const Segment& segment);
 
-// Renames the file to PATH.aside, over an earlier one. Returns false if that is not allowed.
+// Renames the file to PATH.aside, replacing an earlier file of that name. Returns false if that is not allowed.
 [[nodiscard]] bool rename_aside(const std::string& path);
 
 // Returns the user's login name, or "user N" if there is none.

@@ -62,7 +62,7 @@ struct Parts final : FlightObserver {
     std::unique_ptr<CalibrationService> calibration_service;
     std::vector<std::unique_ptr<Service>> other_services;
     std::vector<Service*> services;                // all of them
-    std::function<bool(SystemId)> is_free_system;  // empty: all are
+    std::function<bool(SystemId)> is_free_system;  // empty: all ids are free
 
     [[nodiscard]] View view() const;
     [[nodiscard]] WallTime utc_at(FlightTime time) const noexcept { return options.utc_at_start + time; }
@@ -85,9 +85,10 @@ struct Parts final : FlightObserver {
 
     // Call it after a parameter changed.
     void retune();
-    // Sets a parameter on the vehicle's own account, and reports it to all links.
+    // Sets a parameter without a client's request, and reports it to all links.
     void put_parameter(std::string_view name, double value);
-    // After the present call: silent for some seconds, then as after boot. Without `restarts`: silent for good.
+    // Takes effect after the present call: the vehicle is silent for some seconds, then runs as after a boot. Without
+    // `restarts`, it stays silent for good.
     void reboot(bool restarts) noexcept { wanted_silence_ = restarts ? reboot_time : Nanoseconds::max(); }
     [[nodiscard]] bool is_silent(FlightTime time) const noexcept { return time < silent_until_; }
     [[nodiscard]] FlightTime silent_until() const noexcept { return silent_until_; }

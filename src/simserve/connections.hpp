@@ -45,7 +45,7 @@ public:
 
     // Opens the vehicles on the simulator's own ring.
     void open_ring_link();
-    // When `play` has something to do: delivers the frames of the rings that are read.
+    // When to call `play_rings` next. That function delivers the frames of the rings that are read.
     [[nodiscard]] MonoTime rings_due();
     void play_rings();
     // Call about once a second.

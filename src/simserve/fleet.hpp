@@ -17,9 +17,9 @@
 
 namespace mavloom::simserve {
 
-// How all vehicles together stream on a link.
+// The rates and the limit of the telemetry that all vehicles send on one link.
 struct LinkRates {
-    std::optional<sim::Profile> profile;  // empty: the usual one of the vehicle's autopilot
+    std::optional<sim::Profile> profile;  // empty: the usual profile of each vehicle's autopilot
     std::uint32_t max_bytes_s = 0;        // of telemetry; 0: no limit
     std::vector<sim::MessageRate> rates{};
 };
@@ -47,7 +47,7 @@ public:
     void advance(sim::Moment now);
 
     [[nodiscard]] std::size_t size() const noexcept { return vehicles_.size(); }
-    // Null if there is none with this id.
+    // Null if no vehicle has this id.
     [[nodiscard]] sim::Vehicle* find(SystemId system) const noexcept;
     // Calls `use(vehicle)` for each vehicle, in the order in which they were added. Call `reschedule` if `use` changes
     // the vehicle.
@@ -55,14 +55,14 @@ public:
     void each(Use&& use) const {
         for (const Member& member : vehicles_) use(*member.vehicle);
     }
-    // Call it after a change of a vehicle from outside.
+    // Call it after other code has changed a vehicle.
     void reschedule(const sim::Vehicle& vehicle, sim::Moment now) noexcept;
 
 private:
     struct Member {
         std::unique_ptr<sim::Vehicle> vehicle;
         sim::Autopilot autopilot;
-        SystemId system;  // under which `by_system_` has it; a reboot may change the vehicle's own
+        SystemId system;  // its id in `by_system_`; a reboot may change the vehicle's own id
     };
     using Index = Schedule::Index;
     static constexpr std::uint16_t nobody = 0xFFFF;

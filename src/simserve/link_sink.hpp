@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the frames of vehicles go: to live links, or into the simulator's own ring. Private to module simserve; single
-// owner thread.
+// Sends the frames of vehicles to live links or into the simulator's own ring. Private to module simserve; single owner
+// thread.
 #pragma once
 
 #include <cstddef>

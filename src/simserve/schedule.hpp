@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which vehicle is due first: a binary heap of vehicles by the flight time at which they are due, with the place of
-// each vehicle. An update takes logarithmic time and allocates nothing. Private to module simserve; single owner
-// thread.
+// Finds the vehicle that is due first: a binary heap of vehicles, ordered by the flight time at which they are due. An
+// update takes logarithmic time and allocates nothing. Private to module simserve; single owner thread.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +34,9 @@ public:
     }
 
     [[nodiscard]] bool empty() const noexcept { return heap_.empty(); }
-    // Only if not empty.
+    // Call it only if the schedule is not empty.
     [[nodiscard]] Index first() const noexcept { return heap_.front().vehicle; }
-    // FlightTime::max() if empty.
+    // FlightTime::max() if the schedule is empty.
     [[nodiscard]] sim::FlightTime due() const noexcept { return empty() ? sim::FlightTime::max() : heap_.front().due; }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What other processes read of a simulator: its ring, if it has one, and its counter page. Private to module simserve;
-// single owner thread.
+// The shared memory of a simulator that other processes read: its ring, if it has one, and its counter page. Private to
+// module simserve; single owner thread.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ public:
     void on_link_down(LinkId link);
     void refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,
                       std::span<const ring::OwnCount> counts);
-    // Call about once a second. Creates what was removed; returns notices for the log.
+    // Call about once a second. Creates a removed ring or page again. Returns notices for the log.
     [[nodiscard]] std::vector<std::string> look_after(const link::Links& links);
 
 private:

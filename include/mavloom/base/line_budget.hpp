@@ -8,13 +8,12 @@
 
 namespace mavloom {
 
-// Limits the log lines about one subject to a burst of 100, then to two after each refill. Counts the lines that it
-// suppresses.
+// Allows a burst of 100 lines, then two more after each refill. Counts the lines that it suppresses.
 class LineBudget {
 public:
     static constexpr std::size_t burst = 100, each_refill = 2;
 
-    // Spends one line. Returns false if there is none, and counts the suppressed line.
+    // Spends one line. If none is left, counts the line as suppressed and returns false.
     [[nodiscard]] bool spend() noexcept {
         if (left_ == 0) {
             ++suppressed_;
@@ -23,7 +22,7 @@ public:
         --left_;
         return true;
     }
-    // Returns how many lines were suppressed since the last refill.
+    // Adds two lines, up to the burst. Returns how many lines were suppressed since the last refill.
     [[nodiscard]] std::size_t refill() noexcept {
         left_ = std::min(burst, left_ + each_refill);
         return std::exchange(suppressed_, 0);

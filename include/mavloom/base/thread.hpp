@@ -10,8 +10,8 @@
 
 namespace mavloom {
 
-// Blocks all signals in the calling thread for as long as this object lives. A thread that is started meanwhile
-// inherits the signal mask.
+// Blocks all signals in the calling thread for as long as this object lives. A thread started during that time inherits
+// the signal mask.
 class BlockedSignals {
 public:
     BlockedSignals() noexcept {

@@ -48,7 +48,7 @@ struct RingConfig {
     std::uint64_t capacity_bytes = 0;
     WhenFull full = WhenFull::evict;  // never `wait`: routing must not block
     std::uint16_t mode = 0;
-    std::optional<std::uint16_t> inlet_mode;  // empty: as `mode`
+    std::optional<std::uint16_t> inlet_mode;  // empty: same as `mode`
     friend bool operator==(const RingConfig&, const RingConfig&) = default;
 };
 
@@ -75,7 +75,7 @@ struct Setting {
 
 struct Section {
     std::string name;   // such as "router"; "endpoint" occurs once per endpoint
-    std::string label;  // the endpoint's; empty for other sections
+    std::string label;  // of the endpoint; empty for other sections
     std::vector<Setting> settings;
     std::uint32_t line = 0;  // 0: not in the file
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A TOML file as tables of text: the form from which configurations and scenarios are read.
 //
-// Values keep the line on which they stand, so that errors can name it. Plain values; parsing allocates. Errors are
+// Each value keeps its line number, so that errors can state it. Plain values; parsing allocates. Errors are
 // `bad_input` and begin with FILE:LINE:.
 #pragma once
 
@@ -24,7 +24,7 @@ struct Entry {
     // Empty: the value is of a type that has no such text, for example a date.
     std::optional<std::string> text;
     std::uint32_t line = 0;
-    std::vector<Entry> entries{};  // of a table, in the order of the file
+    std::vector<Entry> entries{};  // the entries of a table, in the order of the file
 };
 
 struct Table {
@@ -70,8 +70,8 @@ public:
     Variables(const Environment& environment, std::vector<Name> known)
         : environment_(environment), known_(std::move(known)) {}
 
-    // A variable that sets nothing is an error if its name resembles that of a key, or begins like a section's.
-    // Otherwise a note is added.
+    // A variable that sets no key is an error if its name resembles that of a key, or if MAVLOOM_ is followed by a
+    // section's name. Otherwise it only adds a note.
     [[nodiscard]] SetupResult<void> check(std::vector<std::string>& notes) const;
     [[nodiscard]] static std::string name_of(const Name& name);
     // Null if the variable is not set.
@@ -88,7 +88,8 @@ struct PlacedEndpoint {
     endpoint::Endpoint endpoint;
     Section section;  // all options as text, with their origins
 };
-// Reads an [[endpoint]] table: `url`, or `scheme` and the keys of its place; the options of the scheme as keys.
+// Reads an [[endpoint]] table. It gives the place as `url`, or as `scheme` with `host` and `port`, `path` or `ring`.
+// The options of the scheme are further keys.
 [[nodiscard]] SetupResult<PlacedEndpoint> read_endpoint(const Document& document, const Table& table);
 
 }  // namespace mavloom::config

@@ -6,8 +6,8 @@
 //
 // Both run on one thread of their own, the control thread. It posts each request to the router's thread, which copies
 // its counters in pieces, each between two turns of its loop. The control thread then formats the answer in pieces, at
-// a low priority, and sends each when the client has taken the last. 64 clients of each kind can be connected; a
-// further one takes the place of the one that has been idle longest.
+// a low priority. It sends each piece after the client has taken the previous one. Up to 64 clients of each kind can be
+// connected. A further client replaces the one that has been idle longest.
 //
 // The socket is RUN/NAME.ctl, mode 0600. `net::run_path` chooses the folder RUN: $MAVLOOM_RUN if set, else
 // /run/mavloom, else $XDG_RUNTIME_DIR/mavloom.

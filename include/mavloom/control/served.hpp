@@ -20,13 +20,13 @@ using Later = std::function<Text()>;
 // takes little memory.
 struct Report {
     // The owner's thread calls this between two turns. It copies one piece of the data, in less than a millisecond, and
-    // returns true while something is left. Empty if nothing is to be copied.
+    // returns true while something is left. Empty if there is nothing to copy.
     std::function<bool()> copy_more{};
-    // Formats and returns the next piece of the text; empty after the last. Called after all is copied, on one other
-    // thread that formats all reports.
+    // Formats and returns the next piece of the text; empty after the last. Called after everything is copied, on the
+    // one other thread that formats all reports.
     std::function<std::string()> next_text;
 };
-// Everything is copied already, and the text is one piece.
+// Returns a report whose data is already copied and whose text is one piece.
 [[nodiscard]] Report report_of(Later<Lines> lines);
 [[nodiscard]] Report report_of(Later<std::string> text);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // MAVLink message and enum definitions, as immutable records with the computed wire layout. There is no global dialect.
-// A process can hold several, and gives each parser and decoder the one that it should use. The records of the built-in
-// dialect are read-only tables in the binary; a dialect loaded from XML owns its records. All members are const and
-// safe from any thread. Look-ups allocate nothing; a failed `message` or `field` allocates its error text. Source:
-// MAVLink guide, "MAVLink XML Schema" and "Packet Serialization".
+// A process can hold several dialects; it passes one to each parser and decoder. The records of the built-in dialect
+// are read-only tables in the binary; a dialect loaded from XML owns its records. All members are const and safe from
+// any thread. Look-ups allocate nothing; a failed `message` or `field` allocates its error text. Source: MAVLink guide,
+// "MAVLink XML Schema" and "Packet Serialization".
 #pragma once
 
 #include <cstddef>
@@ -106,8 +106,8 @@ public:
     // Reads an XML file and everything it includes. Errors give file, line, what is wrong and what was expected.
     [[nodiscard]] static SetupResult<Dialect> load(const std::filesystem::path& xml);
 
-    // Refers to records that must outlive the dialect, as the built-in tables do. `messages` must be sorted by id, and
-    // `enums` by name.
+    // Does not copy the records. They must outlive the dialect, as the built-in tables do. `messages` must be sorted by
+    // id, and `enums` by name.
     Dialect(std::string_view name, std::span<const Message> messages, std::span<const Enum> enums);
 
     [[nodiscard]] std::string_view name() const noexcept { return name_; }  // "all"

@@ -21,7 +21,7 @@ class RateLimiter {
     };
 
 public:
-    // The answer of `ask`. Pass it to `count` when the frame is really sent.
+    // The answer of `ask`. Pass it to `count` once the frame is sent.
     struct Answer {
         bool admitted = true;
         Stream* stream = nullptr;  // null if this message has no limit

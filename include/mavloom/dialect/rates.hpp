@@ -46,7 +46,8 @@ private:
     std::optional<Nanoseconds> others_;
 };
 
-// Returns one line for each term that limits a message which cannot be thinned: what it drops, and the harm.
+// Returns one warning for each term that limits a message which cannot be thinned. It states what the limit drops and
+// what harm that does.
 [[nodiscard]] std::vector<std::string> rate_warnings(const Dialect& dialect, std::span<const RateTerm> terms);
 
 }  // namespace mavloom::dialect

@@ -34,7 +34,7 @@ struct Options {
     std::optional<wire::Version> as_version{};
     std::optional<wire::SigningKey> sign_key{};
     std::uint8_t sign_link_id = 0;
-    wire::SigningTime sign_after{};  // signatures are later than this
+    wire::SigningTime sign_after{};  // new signatures get later timestamps than this
     bool resequence = false;
 };
 
@@ -44,7 +44,7 @@ struct Options {
 struct Counters {
     Counter frames;            // input frames, forward direction
     Counter reencoded;         // decoded and encoded again
-    Counter rewrapped;         // new header, original payload: no definition, or it does not cover the whole payload
+    Counter rewrapped;         // new header, original payload: the definition is missing or does not cover the payload
     Counter passed_untouched;  // forwarded as it came: unknown id, not canonical, or signed
     Counter filtered;          // dropped by `only`
     Counter rate_limited;      // dropped by `max_rate`

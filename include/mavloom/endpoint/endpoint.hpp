@@ -77,7 +77,7 @@ struct EndpointOptions {
     // udpin: other sockets of this kind may bind the same port. The newest of them receives.
     bool reuse = false;
     std::optional<HostPort> bind;
-    bool fixed = false;              // udpbcast
+    bool fixed = false;              // udpbcast: keeps broadcasting after a peer answers
     std::optional<double> speed;     // tlog source: 1 = recorded pace, infinity = speed=max
     std::uint64_t rotate_bytes = 0;  // tlog destination; 0: no rotation
     std::chrono::nanoseconds rotate_every{};

@@ -82,10 +82,10 @@ SetupResult<void> put(SetupResult<T> parsed, Target& target) {
 }
 
 [[nodiscard]] SetupResult<std::uint64_t> parse_integer(std::string_view text, std::uint64_t least, std::uint64_t most);
-// The limits at which a recording continues in a new file: by size and by time.
+// Parse the size and the time after which a recording continues in a new file.
 [[nodiscard]] SetupResult<std::uint64_t> parse_rotate_bytes(std::string_view text);
 [[nodiscard]] SetupResult<std::chrono::nanoseconds> parse_rotate_every(std::string_view text);
-// The bytes of a ring: a power of two.
+// Parses the size of a ring in bytes: a power of two.
 [[nodiscard]] SetupResult<std::uint64_t> parse_ring_capacity(std::string_view text);
 [[nodiscard]] SetupResult<bool> parse_bool(std::string_view text);
 

@@ -2,7 +2,7 @@
 // Channel: passes the frames of one endpoint from the loop thread to any number of readers. Consumer: one reader. The
 // loop thread never waits for a reader. It writes frames into a bounded buffer, which overwrites the oldest frames.
 // Each reader counts the frames that it missed. Any thread may call both, except for the functions under "loop thread".
-// The channel must outlive its readers, which hold a shared pointer to it.
+// Each reader keeps its channel alive through a shared pointer.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Recognises objects that a forked process inherited from its parent. Threads do not survive a fork and locks may stay
-// locked, so the child must neither use nor destroy an object that has them. Any thread.
+// locked, so the child must neither use nor destroy an object that has threads or locks. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace mavloom::feed {
 // The number of forks between the first process and this one.
 [[nodiscard]] std::uint64_t forks() noexcept;
 
-// Give this as a member to each object that a forked child must not touch.
+// Add a member of this type to each class whose objects a forked child must not touch.
 class BeforeFork {
 public:
     // Whether this process created the object.

@@ -37,7 +37,7 @@ class Receiver : private link::LinkHandler {
 public:
     static constexpr std::size_t default_buffer_bytes = 64u << 20;
 
-    // Takes a log line for people about a single event. Called on the receiving thread.
+    // Receives a log line about a single event. Called on the receiving thread.
     using Notice = std::function<void(std::string_view)>;
 
     [[nodiscard]] static SetupResult<std::unique_ptr<Receiver>> create(const dialect::Dialect& dialect,
@@ -56,8 +56,8 @@ public:
     void join();
 
     [[nodiscard]] std::optional<record::FrameQueue::Entry> next() noexcept { return queue_->next(); }
-    // Waits for a frame, for about a second at most, so that the consumer can look after its file. Returns false at the
-    // end.
+    // Waits for a frame, for about a second at most, so that the consumer can look after its file. Returns false once
+    // receiving has stopped and all frames are read.
     [[nodiscard]] bool wait() noexcept { return queue_->wait(); }
     // The name of a link, valid as long as the receiver exists. Consumer thread only.
     [[nodiscard]] std::string_view link_name(LinkId link);

@@ -37,8 +37,8 @@ public:
     // `dialect` must outlive the object.
     [[nodiscard]] static SetupResult<Sources> create(const dialect::Dialect& dialect, Copies copies = Copies::kept);
 
-    // Makes the checks that `add` makes first, without opening the endpoint for use and without waiting. It checks the
-    // options, and that a tlog:// file exists and is a recording.
+    // Makes the checks that `add` begins with: that the options are valid, and that a tlog:// file exists and is a
+    // recording. Neither opens the endpoint for use nor waits.
     [[nodiscard]] SetupResult<void> check(const endpoint::Endpoint& endpoint) const;
 
     // Opens the endpoint. If a ring does not exist, the source reports it through `on_notice` and waits indefinitely. A

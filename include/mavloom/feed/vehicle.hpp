@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rule of which components are vehicles, for everything that waits for one or addresses one. Pure; any thread.
+// Decides which components are vehicles, for code that waits for a vehicle or addresses one. Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 namespace mavloom::feed {
 
 // Whether a HEARTBEAT with these values comes from a vehicle:
-// - A type of vehicle (MAV_TYPE: a quadrotor, a rover, ...) is one, even if it names no autopilot, as home-made boards
-//   do (MAV_AUTOPILOT_INVALID).
-// - A ground station, onboard controller, gimbal, ADS-B receiver or camera is none.
-// - Any other type is one if it has an autopilot.
+// - A vehicle's type (MAV_TYPE: quadrotor, rover, ...) is enough, even without an autopilot (MAV_AUTOPILOT_INVALID), as
+//   home-made boards report it.
+// - A ground station, onboard controller, gimbal, ADS-B receiver or camera is not a vehicle.
+// - Any other type is a vehicle if it has an autopilot.
 [[nodiscard]] bool is_vehicle(std::uint8_t type, std::uint8_t autopilot) noexcept;
 
 // Whether the frame is such a HEARTBEAT.

@@ -6,7 +6,7 @@
 
 namespace mavloom::flight {
 
-// Simulated time since the simulation began. Vehicles move and stream by it.
+// Simulated time since the simulation began. Vehicles move and send their telemetry by this time.
 using FlightTime = Nanoseconds;
 
 // One instant on both clocks. At speed 1 they run together; at another speed the flight clock runs faster or slower.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a simulated vehicle is: kind, autopilot, home, seed. Plain values with defaults; no errors here, because
+// The properties of a simulated vehicle: kind, autopilot, home, seed and others. Plain values with defaults; no errors
+// here, because
 // module simserve checks what users type. docs/guide/sim.md describes every key.
 #pragma once
 
@@ -32,10 +33,10 @@ struct Home {
     double altitude_m = 489.4;  // above mean sea level; the ground is flat at this height
     double heading_deg = 0;     // clockwise from north
 };
-// The place so far away from home, by the geodesic.
+// Returns the place that is this far north and east of `home`, along the geodesic.
 [[nodiscard]] Home moved(const Home& home, double north_m, double east_m);
 
-// A steady wind with gusts. The direction is the one that the air moves to.
+// A steady wind with gusts. `direction_deg` is the direction in which the air moves.
 struct Wind {
     double speed_m_s = 0;
     double direction_deg = 0;  // clockwise from north
@@ -49,16 +50,16 @@ struct BatteryOptions {
     double start_percent = 100;
 };
 
-// Caps on what clients may store, so that no client exhausts the memory. A request beyond a cap gets the error that the
-// protocol has for it.
+// Caps on what clients may store, so that no client exhausts the memory. A request beyond a cap gets the protocol's own
+// error for that case.
 struct Limits {
     std::size_t mission_items = 1000;
     std::size_t fence_items = 64;
     std::size_t rally_items = 32;
     std::size_t files = 64;
     std::size_t file_bytes = 256 * 1024;  // all files that clients wrote to one vehicle, together
-    std::size_t clients = 64;             // with a transfer in progress, for each vehicle
-    std::size_t file_sessions = 8;        // for each client
+    std::size_t clients = 64;             // clients of one vehicle with a transfer in progress
+    std::size_t file_sessions = 8;        // of one client
 };
 
 struct VehicleOptions {
@@ -73,10 +74,10 @@ struct VehicleOptions {
     std::uint64_t seed = 1;
     bool has_noise = true;
     bool has_gimbal = false;
-    bool has_manual_control = false;  // false: a remote control is not simulated; clients may send MANUAL_CONTROL
+    bool has_manual_control = false;  // simulates a remote control; without one, clients may still send MANUAL_CONTROL
     std::size_t traffic = 0;          // simulated aircraft that ADSB_VEHICLE reports
     std::size_t logs = 2;             // recorded logs that can be downloaded
-    // From boot until GPS, position and home are valid.
+    // Time from boot until GPS, position and home are valid.
     Nanoseconds ready_after = std::chrono::milliseconds{2500};
     WallTime utc_at_start{};  // UTC at flight time 0; the epoch means that UTC is unknown
 };

@@ -61,7 +61,7 @@ public:
     [[nodiscard]] std::vector<TrafficRow> rows() const;
     // Copies rows in pieces, while the table changes between them: looks at the next `most` places from `from` (at
     // first 0) and appends their rows to `to`. Returns the place to continue from, or `end` after the last. A row that
-    // exists all the time is copied exactly once.
+    // exists throughout the copy is copied exactly once.
     [[nodiscard]] std::size_t copy_rows(std::size_t from, std::size_t most, std::vector<TrafficRow>& to) const;
     static constexpr std::size_t end = SIZE_MAX;
     [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
@@ -89,7 +89,7 @@ private:
     Rows::iterator add_row(const Key& key, const TrafficRow& row);
 
     Rows rows_;
-    // The rows in places that they keep, so that a copy in pieces misses none. Null: free.
+    // Each row keeps its place, so that a copy in pieces misses no row. Null: the place is free.
     std::vector<TrafficRow*> places_;
     std::size_t refill_from_ = 0;  // no place before this one is free
     std::uint64_t unlisted_ = 0;

@@ -2,9 +2,9 @@
 // An open file for reading or writing recordings. A signal does not interrupt reads and writes: each one completes or
 // returns an error. A signal only interrupts the wait for a pipe or device.
 //
-// A File keeps its own position in a regular file, apart from the descriptor's. A forked child that continues reading
-// therefore does not move its parent's position. Files are move-only, have one owner thread, and allocate only for
-// paths and error texts.
+// A File keeps its own position in a regular file and does not use the descriptor's. A forked child that continues
+// reading therefore does not move its parent's position. Files are move-only, have one owner thread, and allocate only
+// for paths and error texts.
 #pragma once
 
 #include <chrono>

@@ -48,7 +48,7 @@ public:
     // Wakes the writing thread if it sleeps. Call it after each batch of `record`.
     void publish() noexcept { queue_->publish(); }
     // Call about once a second. The writing thread then retries what the disk had no room for, and begins a new file if
-    // another program removed or replaced the present one. Reports that through `Notice`.
+    // another program removed or replaced the current one. It reports that through `Notice`.
     void look_after() noexcept { queue_->wake(); }
     // Ends the recording without waiting for the disk. The writing thread writes the queued frames, closes the file and
     // then sets `finished`.

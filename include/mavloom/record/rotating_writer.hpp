@@ -48,13 +48,13 @@ public:
     // Adds one to `lost_records`, for a record that the caller stopped trying to write.
     void give_up() noexcept { ++refused_; }
     [[nodiscard]] SetupResult<void> flush();
-    // Twice a second, writes what is buffered. If another program removed, renamed or replaced the file that is written
-    // to, begins a new one instead, and what is buffered goes there: at once, or, with rotation and an empty buffer,
-    // with the next frame. Call it for each batch of frames and once a second. Returns the path of the old file; empty
-    // if it is still there. While no new file can be created, each call tries again. Meanwhile writes to the old file
-    // if it was renamed, and to none if it was deleted.
+    // Call it for each batch of frames and at least once a second. Twice a second, it writes the buffered records to
+    // the file. If another program removed, renamed or replaced that file, it begins a new file for them instead. With
+    // rotation and an empty buffer, the next frame begins the new file. Returns the path of the old file; empty if it
+    // is still there. If no new file can be created, a later call tries again. Until then, records go to the old file
+    // if it was renamed, and to no file if it was deleted.
     [[nodiscard]] SetupResult<std::filesystem::path> look_after(MonoTime now);
-    // Begins a new file for what is buffered if the file was removed.
+    // Writes the buffered records and closes the file. If the file was removed, writes them to a new one.
     [[nodiscard]] SetupResult<void> close();
 
     // The path given to `create`.
@@ -84,7 +84,7 @@ private:
     std::filesystem::path path_;
     Rotation rotation_;
     std::optional<TlogWriter> writer_;
-    std::optional<SetupError> no_file_;  // why the file, which was deleted, has no successor yet
+    std::optional<SetupError> no_file_;  // why there is no new file yet in place of the deleted one
     MonoTime look_due_{};
     WallTime begin_{};  // the time of the open segment's first frame
     std::uint64_t segments_ = 0;

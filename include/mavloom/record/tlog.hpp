@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Constants of the tlog format (docs/formats/tlog.md). A file is a sequence of records. Each record is a time, eight
-// bytes of big-endian Unix microseconds, and one whole MAVLink frame.
+// Constants of the tlog format (docs/formats/tlog.md). A file is a sequence of records. Each record is a time (Unix
+// microseconds in eight bytes, big-endian), then one whole MAVLink frame.
 #pragma once
 
 #include <cstddef>

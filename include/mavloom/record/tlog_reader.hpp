@@ -24,7 +24,7 @@ struct ReadCounters {
     Counter unknown_ids;  // those of `records` whose message id has no definition
     // Records skipped because their frame has an undefined incompatibility flag.
     Counter unknown_flags, flagged_bytes;
-    Counter lost_bytes;      // damaged, or of a record cut off at the end
+    Counter lost_bytes;      // damaged bytes, and those of a record cut off at the end
     Counter damaged_places;  // runs of lost bytes
 };
 

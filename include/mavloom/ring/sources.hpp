@@ -35,7 +35,7 @@ public:
     // Returns whether everything up to those ends was delivered.
     [[nodiscard]] bool at_end() const noexcept;
 
-    // Sends a frame to each ring's inlet, which the first such frame opens. Returns how many inlets accepted it.
+    // Sends a frame to each ring's inlet. The first frame opens the inlet. Returns how many inlets accepted the frame.
     std::size_t send(const wire::FrameView& frame);
     [[nodiscard]] std::span<const std::unique_ptr<RingSource>> rings() const noexcept { return rings_; }
 

@@ -26,9 +26,10 @@ namespace mavloom::ring {
 
 class RingTap {
 public:
-    // Creates the ring, or continues one whose writer was killed. If the file under its name is damaged, no ring or of
-    // another user, renames it, and likewise the page's; the first look_after() reports that. Same errors as
-    // RingWriter::open. A thread of the tap calls `ready` when look_after() has something to do.
+    // Creates the ring, or continues one whose writer was killed. If the file under the ring's name is damaged, is not
+    // a ring or belongs to another user, renames that file. The same applies to the page's file. The first look_after()
+    // reports what was renamed. Same errors as RingWriter::open. A thread of the tap calls `ready` when look_after()
+    // has something to do.
     [[nodiscard]] static SetupResult<std::unique_ptr<RingTap>> open(
         const std::string& name, shm::RingOptions options, std::function<void()> ready = [] {});
     // The last link number that the ring's earlier writers used. New links must get higher numbers, so that a slow
@@ -97,7 +98,7 @@ private:
     MonoTime page_due_{};
     LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
-    bool noted_aside_ = false;                    // that the file which had the name before was renamed
+    bool noted_aside_ = false;                    // whether the renaming of an earlier file was reported
     bool told_ring_ = false, told_page_ = false;  // whether the failure to recreate the ring or page was reported
 };
 

@@ -2,9 +2,9 @@
 // Status reports of a router: JSON, one object a line, for `mavloom ctl` and `mavloom stat`, and Prometheus text.
 // docs/guide/route.md documents the keys.
 //
-// Call these functions and Report::copy_more on the router's thread, between two turns. Each call copies at most a
+// Call these functions and Report::copy_more on the router's thread, between two turns. Each call copies at most one
 // piece (docs/design/turn.md). Report::next_text makes the text, which takes about a hundred times as long. Reports may
-// share the copy, so call it for all of them on one thread, as long as the router's dialect exists. Both steps
+// share the copied data, so call next_text of all reports on one thread, while the router's dialect exists. Both steps
 // allocate.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace mavloom::router {
 
 using control::Report;
 
-// The first three end with the line {"ok":true}.
+// The first three reports end with the line {"ok":true}.
 //
 // One {"kind":"link",...} line for each current link.
 [[nodiscard]] Report report_links(Router& router);

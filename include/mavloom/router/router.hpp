@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The router forwards frames between links and never changes their bytes. It joins links, the routing engine,
+// The router forwards frames between links and never changes their bytes. It runs links, the routing engine,
 // recordings, an optional shared-memory ring and the router's own heartbeat on one thread. Endpoints can be added and
 // removed while it runs; unchanged endpoints keep their links and routes. See docs/guide/route.md.
 //
@@ -43,7 +43,7 @@ enum class MetricsDetail : std::uint8_t { systems, components };
 
 class Router : public control::Served, private link::LinkHandler {
 public:
-    // Log lines for people: links that come and go, and anything unusual. Called on the router's thread.
+    // Receives log lines about links that come and go, and about anything unusual. Called on the router's thread.
     using Notice = std::function<void(config::LogLevel, std::string_view)>;
     // Called for every good frame, with the engine's decision and its reason for each link.
     using Explainer =
@@ -143,7 +143,7 @@ private:
     MetricsDetail metrics_detail_ = MetricsDetail::systems;
     bool has_heartbeat_;  // the router has an id of its own
     Notice notice_;
-    // None of these is null, except `ring_` without a ring.
+    // None of these is null, except `ring_` if there is no ring.
     std::unique_ptr<link::Links> links_;
     std::unique_ptr<RoutedEndpoints> endpoints_;
     std::unique_ptr<Forwarder> forwarder_;

@@ -37,7 +37,7 @@ inline constexpr std::size_t longest_link_name = 104;  // bytes; longer ones are
 struct CounterPageOptions {
     std::uint32_t counters = 4096;
     std::uint32_t links = 512;
-    bool sets_aside = false;  // renames a file of another user under the page's name, instead of failing
+    bool sets_aside = false;  // if another user's file has the page's name, renames that file instead of failing
     unsigned mode = 0600;
 };
 

@@ -88,7 +88,7 @@ struct RingControl {
     alignas(128) typename Words::Word64 tail;  // end of the committed records; only increases
     typename Words::Word64 records;            // number of committed records
     // Stored once per 1/64 of the capacity, and when readers come and go.
-    alignas(128) typename Words::Word64 intent;  // bytes more than `capacity` before this may be overwritten
+    alignas(128) typename Words::Word64 intent;  // everything more than `capacity` bytes before this may be overwritten
     typename Words::Word64 holders;              // slots whose position the writer may not pass
     typename Words::Word64 attached;             // slots in use, or left behind by a killed reader
     // Read at each commit. Stored by readers that go to sleep, and when the ring is removed.

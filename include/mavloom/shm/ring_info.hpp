@@ -55,8 +55,8 @@ struct RingStatus {
     std::vector<ReaderStatus> readers;  // only those that are alive
 };
 
-// Reads the state of a ring that may be in use. Same errors as RingReader::open. In a program that does not
-// survive lost mappings (lost_mapping.hpp), `permission` also for the rings that Trust{} refuses.
+// Reads the state of a ring that may be in use. Same errors as RingReader::open. In a program that does not survive
+// lost mappings (lost_mapping.hpp), it also returns `permission` for rings that Trust{} refuses.
 [[nodiscard]] SetupResult<RingStatus> ring_status(std::string_view name);
 
 // Removes the names of a ring and of its counter page. Processes that have the ring mapped keep their mapping. Its

@@ -44,8 +44,11 @@ struct ReaderOptions {
 
 class RingReader {
 public:
-    // Opens a ring for reading. Errors: `not_found` lists the existing rings; `in_use` for a 65th lossless reader;
-    // `permission`, also for a ring that is not trusted; `bad_input` if the file is not a ring of this version.
+    // Opens a ring for reading. Errors:
+    // - `not_found` if there is no such ring; the text lists the existing rings.
+    // - `in_use` for a 65th lossless reader.
+    // - `permission` if access is denied or the ring is not trusted.
+    // - `bad_input` if the file is not a ring of this version.
     [[nodiscard]] static SetupResult<RingReader> open(std::string_view name, const ReaderOptions& options = {});
     RingReader(RingReader&& other) noexcept;
     RingReader& operator=(RingReader&& other) noexcept;

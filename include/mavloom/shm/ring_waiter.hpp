@@ -4,7 +4,7 @@
 //
 //     auto waiter = shm::RingWaiter([&] { loop.wake(); });
 //     waiter.watch({{reader.wake_word()}});          // when the reader is opened
-//     waiter.arm();                                  // nothing to read: first the waiter,
+//     waiter.arm();                                  // nothing to read: arm the waiter first,
 //     const auto nap = reader.arm();                 // then the reader
 //     sleep_in_epoll(nap);
 //

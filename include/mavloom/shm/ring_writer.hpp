@@ -29,7 +29,7 @@ struct RingOptions {
     std::uint64_t capacity = default_capacity;  // bytes of records and headers: a power of two, 64 KiB to 64 GiB
     WhenFull when_full = WhenFull::wait;
     unsigned mode = 0600;  // of a new ring, regardless of the umask; readers that register need write access
-    // If the file under the ring's name is damaged, is no ring, or belongs to another user than this one and root,
+    // If the file under the ring's name is damaged, is not a ring, or belongs to a user other than this one or root,
     // renames it to mavloom.NAME.aside instead of failing.
     bool sets_aside = false;
 };

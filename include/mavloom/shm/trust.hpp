@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trust: whose rings and counter pages a reader uses. The owner of a file can write anything into it, and can end a
-// process that has it mapped by shortening it.
+// Trust: from which users a reader accepts rings and counter pages. The owner of a file can write anything into it. By
+// shortening the file, the owner can also crash a process that has it mapped.
 #pragma once
 
 #include <sys/types.h>
@@ -10,10 +10,10 @@
 namespace mavloom::shm {
 
 struct Trust {
-    // Reads every file that the permissions allow. Otherwise the reader refuses two kinds of files:
-    // - those whose owner is neither this user, nor root, nor `user`
-    // - in a program that does not survive lost mappings (lost_mapping.hpp), those that others than the owner may
-    //   write, because they could end the program
+    // True: the reader uses every file that the permissions allow. False: it refuses two kinds of files:
+    // - files whose owner is neither this user, nor root, nor `user`
+    // - in a program that does not survive lost mappings (lost_mapping.hpp), files that users other than the owner may
+    //   write, because any of them could crash the program
     bool foreign = false;
     std::optional<uid_t> user{};
 };

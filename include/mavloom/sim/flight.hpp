@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The values of module flight, as names of sim: sim::Kind, sim::Home, sim::Moment.
+// Makes the types of module flight available as names of sim: sim::Kind, sim::Home, sim::Moment.
 #pragma once
 
 #include "mavloom/flight/moment.hpp"   // IWYU pragma: export

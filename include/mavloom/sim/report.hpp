@@ -11,7 +11,8 @@
 
 namespace mavloom::sim {
 
-// Histogram of how late messages left, in buckets of powers of two of 10 us: under 10 us, 20 us, 40 us ... 5 s, more.
+// Histogram of how late messages were sent. Each bucket ends at twice the time of the one before: 10 us, 20 us, 40 us
+// ... 5 s. The last one counts all later messages.
 struct Lateness {
     static constexpr std::size_t buckets = 21;
     std::array<std::uint32_t, buckets> counts{};
@@ -27,10 +28,10 @@ struct StreamReport {
     MessageId message;
     std::string_view name;  // of the message
     double asked_hz = 0;
-    // (messages - 1) / (last - first), by the moments of sending. Instants that were skipped do not count as time.
+    // (messages - 1) / (time from the first message sent to the last), without the time of skipped instants.
     double achieved_hz = 0;
     std::uint64_t sent = 0;
-    std::uint64_t skipped = 0;  // instants missed because the machine stalled; they are not sent later
+    std::uint64_t skipped = 0;  // messages that were never sent, because the machine stalled when they were due
     Lateness lateness;
 };
 

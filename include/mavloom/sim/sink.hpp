@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a vehicle's frames go. The vehicle opens nothing; its owner implements this interface on sockets, a counter or
-// a list.
+// Receives the frames that a vehicle sends. The vehicle opens nothing; its owner implements this interface on sockets,
+// a counter or a list.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 //
 // A vehicle is one object without threads, clocks or sockets. Its owner passes the time, received frames and a sink for
 // the frames that the vehicle sends. The same options, links, frames and moments give the same bytes. Single owner
-// thread. docs/design/simulator.md describes the parts; docs/guide/sim.md what clients see.
+// thread. docs/design/simulator.md describes the parts; docs/guide/sim.md describes what clients see.
 //
 // Memory: under 64 KiB with its services, plus what clients store (bounded by Limits). Sending and stepping allocate
 // nothing; an upload, a file or a new link does.
@@ -29,7 +29,7 @@ namespace mavloom::sim {
 
 struct Parts;
 
-// The rate of one message. It replaces the profile's; HEARTBEAT keeps its own.
+// The rate of one message, which replaces the profile's. HEARTBEAT always keeps its own rate.
 struct MessageRate {
     MessageId message;
     double hz = 0;  // 0: off
@@ -39,7 +39,7 @@ inline constexpr double fastest_stream_hz = 250;
 
 struct LinkOptions {
     Profile profile = Profile::normal;
-    std::vector<MessageRate> rates{};  // in the place of the profile's
+    std::vector<MessageRate> rates{};  // each replaces the profile's rate of that message
     // Bytes a second for telemetry. If the streams need more, all but HEARTBEAT slow down by one factor. 0: no limit.
     std::uint32_t max_bytes_s = 0;
 };
@@ -74,8 +74,8 @@ public:
     // the vehicle skips the instants that it missed and counts them.
     void advance(Moment now);
 
-    // Orders of an operator at the simulator's console. They follow the same rules as commands by MAVLink; a refusal is
-    // the error `usage` with the vehicle's own text. `advance` the vehicle to now first.
+    // Orders from an operator at the simulator's console. The vehicle treats them like MAVLink commands. A refusal is
+    // the error `usage` with the vehicle's own text. Call `advance` before an order.
     [[nodiscard]] SetupResult<void> arm(bool force);
     [[nodiscard]] SetupResult<void> disarm(bool force);
     // `altitude_m` above home.
@@ -84,8 +84,8 @@ public:
     [[nodiscard]] SetupResult<void> set_mode(std::string_view name);
     [[nodiscard]] SetupResult<void> set_parameter(std::string_view name, double value);
 
-    // A client may change the system id by a parameter. The new one holds after a reboot, unless `is_free` refuses it
-    // because another vehicle has it; without `is_free`, every id is free.
+    // A client may change the system id through a parameter. The new id takes effect after a reboot, unless `is_free`
+    // returns false because another vehicle has that id. Without `is_free`, every id counts as free.
     [[nodiscard]] SystemId system() const noexcept;
     void ask_for_system(std::function<bool(SystemId)> is_free);
     [[nodiscard]] VehicleStatus status() const;
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] std::vector<std::string_view> parameter_names() const;
     // The parameter that holds the system id.
     [[nodiscard]] std::string_view system_parameter() const noexcept;
-    // Empty if there is none of this name.
+    // Empty if there is no parameter of this name.
     [[nodiscard]] std::optional<double> parameter(std::string_view name) const;
     // One row for each stream of an open link.
     [[nodiscard]] std::vector<StreamReport> stream_reports(LinkId link) const;

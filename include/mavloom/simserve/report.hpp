@@ -29,7 +29,7 @@ using control::Lines;
 
 // The report at the end of a run: a "stream" line for each stream, then a "link_total" line for each link.
 [[nodiscard]] Lines lines_of(const std::vector<LinkReport>& reports, double speed);
-// The same as a table for people.
+// The same report as a table for people.
 [[nodiscard]] std::string text_of(const std::vector<LinkReport>& reports, double speed);
 
 // Implements Simulator::answer. Executes one request line, for example {"cmd":"arm","system":1}. Returns the lines of

@@ -2,8 +2,8 @@
 // A scenario: which vehicles a simulator has, where they are, and where they send. It comes from a TOML file, from the
 // environment and from options, in this order of precedence: default, file, environment, option.
 //
-// The keys are in docs/guide/sim.md. An unknown section, key or value is an error with its place and the nearest known
-// spelling. Plain values; reading allocates.
+// The keys are in docs/guide/sim.md. An unknown section, key or value is an error that states its place and the nearest
+// known spelling. Plain values; reading allocates.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@
 namespace mavloom::simserve {
 
 struct ScenarioVehicle {
-    sim::VehicleOptions options;  // of the first one
-    std::size_t count = 1;        // system ids count up; they stand on a grid
+    sim::VehicleOptions options;  // of the first vehicle
+    std::size_t count = 1;        // the vehicles have consecutive system ids and stand on a grid
     std::vector<std::pair<std::string, double>> parameters{};
     bool has_own_place = false;  // false: it shares the grid around the default home with others
 };
 
 struct Scenario {
-    std::string name;  // empty: that of the ring, else "sim"
+    std::string name;  // empty: the ring's name, or "sim" without a ring
     std::uint64_t seed = 1;
     double speed = 1;
     std::optional<sim::Profile> profile{};
@@ -60,13 +60,13 @@ struct Override {
 // True if the file is a scenario and not a router's configuration: it has [sim], [streams] or [[vehicle]].
 [[nodiscard]] bool is_scenario(const config::Document& document) noexcept;
 
-// Without [[vehicle]] there is one vehicle of default kind. An override of a key of [[vehicle]] applies to all of them.
-// Errors are `bad_input` for a file or variable, `usage` for an override.
+// Without [[vehicle]] there is one vehicle of the default kind. An override of a key of [[vehicle]] applies to all of
+// them. Errors are `bad_input` for a file or variable, `usage` for an override.
 [[nodiscard]] SetupResult<Scenario> read_scenario(const config::Document& document,
                                                   const config::Environment& environment,
                                                   std::span<const Override> overrides);
 
-// Makes every check of a scenario that needs no socket: endpoints, ports, key files, parameters. Errors are as above.
+// Runs every check of a scenario that needs no socket: endpoints, ports, key files, parameters. Errors are as above.
 [[nodiscard]] SetupResult<void> check_scenario(const Scenario& scenario, const config::Document& document);
 
 }  // namespace mavloom::simserve

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The simulator puts simulated vehicles on links. Its one loop advances the vehicles when they are due, sends what they
-// send, and passes each frame that arrives to the vehicle that it targets. See docs/guide/sim.md.
+// The simulator puts simulated vehicles on links. Its loop advances the vehicles when they are due, sends their frames,
+// and passes each received frame to the vehicle that it targets. See docs/guide/sim.md.
 //
 // Every vehicle is on every link. Each peer of an endpoint is a link of its own, with its own stream rates and sequence
 // numbers. One thread owns and drives a simulator; any thread may call `wake` and `post`. Sending and advancing do not
@@ -35,25 +35,25 @@ class LinkSink;
 class SharedMemory;
 
 struct SimEndpoint {
-    // The option `max_bytes` limits the telemetry of each of its links, all vehicles together. A serial endpoint
+    // The option `max_bytes` limits the telemetry on each of its links, summed over all vehicles. A serial endpoint
     // without it gets half of what its baud rate carries, so that parameters get through.
     endpoint::Endpoint endpoint;
-    std::optional<sim::Profile> profile{};  // empty: the simulator's
-    std::vector<sim::MessageRate> rates{};  // before the simulator's
+    std::optional<sim::Profile> profile{};  // empty: the profile of SimulatorOptions
+    std::vector<sim::MessageRate> rates{};  // these take precedence over the rates of SimulatorOptions
 };
 
 struct SimulatorOptions {
     double speed = 1;                       // of the flight clock; protocol time-outs run in real time
-    std::optional<sim::Profile> profile{};  // empty: each vehicle has the usual one of its autopilot
-    std::vector<sim::MessageRate> rates{};  // in the place of the profile's
+    std::optional<sim::Profile> profile{};  // empty: the usual profile of each vehicle's autopilot
+    std::vector<sim::MessageRate> rates{};  // each replaces the profile's rate of that message
     bool keeps_reports = false;             // keeps the reports of links that are gone
 };
 
 // How well the streams of one link kept their rates.
 struct LinkReport {
     std::string link;                     // its name
-    std::uint64_t frames = 0, bytes = 0;  // that left
-    // Frames that the vehicles numbered but that did not leave, because the link's queue was full or the kernel
+    std::uint64_t frames = 0, bytes = 0;  // sent
+    // Frames that the vehicles numbered but that were not sent, because the link's queue was full or the kernel
     // rejected them. The peer sees a gap in the sequence numbers for each.
     std::uint64_t gaps = 0;
     std::vector<sim::StreamReport> streams{};
@@ -68,7 +68,7 @@ struct SimulatorTotals {
 
 class Simulator : public control::Served {
 public:
-    // Log lines for people: links that come and go, and anything unusual. Called on the simulator's thread.
+    // Receives log lines about links that come and go, and about anything unusual. Called on the simulator's thread.
     using Notice = std::function<void(config::LogLevel, std::string_view)>;
 
     // `dialect` must outlive the simulator.
@@ -78,21 +78,21 @@ public:
     Simulator& operator=(const Simulator&) = delete;
     ~Simulator() override;
 
-    // The calls that set the simulator up come before the first turn, in this order.
+    // Set-up: call the following functions before the first turn, in this order.
 
-    // Opens a ring of the simulator's own, which programs read as shm://NAME. It is a link: all that the vehicles send
-    // on it is in the ring. The counter page of the ring has the simulator's counters.
+    // Opens a ring of the simulator's own, which programs read as shm://NAME. The ring is a link: it contains
+    // everything that the vehicles send on that link. The ring's counter page has the simulator's counters.
     [[nodiscard]] SetupResult<void> open_ring(const config::RingConfig& config);
     // Opens the ring's inlet, the socket through which readers of the ring send frames. See Links::add_inlet.
     [[nodiscard]] SetupResult<void> open_inlet(const config::RingConfig& config, const std::filesystem::path& socket);
-    // Opens a counter page of this name. Only without a ring.
+    // Opens a counter page of this name. Call it only if there is no ring.
     [[nodiscard]] SetupResult<void> open_page(const std::string& name);
     using Parameters = std::span<const std::pair<std::string, double>>;
     // Adds a vehicle, with values for some of its parameters. Its flight begins with the first turn.
     [[nodiscard]] SetupResult<void> add(const sim::VehicleOptions& options, Parameters parameters = {});
 
-    // Opens an endpoint; also later. For shm://NAME, the vehicles send to the inlet of the router that writes the ring
-    // NAME, and hear what this router writes into the ring.
+    // Opens an endpoint. May also be called after the first turn. For shm://NAME, the vehicles send to the inlet of the
+    // router that writes the ring NAME, and hear what this router writes into the ring.
     [[nodiscard]] SetupResult<void> add(const SimEndpoint& endpoint);
     // Refuses an endpoint that a simulator cannot have. Opens nothing.
     [[nodiscard]] static SetupResult<void> check(const endpoint::Endpoint& endpoint);
@@ -120,7 +120,7 @@ public:
     // Advances the vehicle to now, and gives it an order: calls `order` and returns its result.
     using Order = std::function<SetupResult<void>(sim::Vehicle&)>;
     [[nodiscard]] SetupResult<void> give(sim::Vehicle& vehicle, const Order& order);
-    // All links, and with `keeps_reports` those that are gone.
+    // Reports of all current links and, with `keeps_reports`, of links that are gone.
     [[nodiscard]] std::vector<LinkReport> reports() const;
     [[nodiscard]] SimulatorTotals totals() const;
     [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }

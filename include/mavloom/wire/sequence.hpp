@@ -40,8 +40,9 @@ struct SequenceStats {
     bool no_sequence = false;  // the sender repeats the same sequence number in every frame
 };
 
-// How many sources several trackers may have together, beyond the first few of each. So a sender that invents ids on
-// many links takes a bounded amount of memory, and leaves room for the sources of other links.
+// A limit that several trackers share: how many sources they may have together, beyond the first few of each tracker.
+// It bounds the memory that a sender can use by inventing ids on many links, and leaves room for the sources of other
+// links.
 class SourceBudget {
 public:
     explicit SourceBudget(std::size_t sources) noexcept : left_(sources) {}
@@ -54,7 +55,7 @@ private:
 class SequenceTracker {
 public:
     static constexpr std::size_t max_sources = 4096;
-    static constexpr std::size_t own_sources = 16;  // that no budget limits
+    static constexpr std::size_t own_sources = 16;  // sources of each tracker that no budget limits
 
     enum class Verdict : std::uint8_t { first, good, gap, late, duplicate, resync, reboot, no_sequence, untracked };
     // How one frame changed the totals. A gap raises `lost`, and a late frame lowers it by one. A reboot reverts the

@@ -65,8 +65,8 @@ private:
     std::array<std::uint8_t, length> bytes_;
 };
 
-// Signs outgoing frames with one link id. Timestamps follow the time given to `sign` and never repeat or go back. When
-// the 48 bits end, in 2104, they stand still, and receivers refuse the frames.
+// Signs outgoing frames with one link id. Timestamps follow the time given to `sign` and never repeat or go back. In
+// 2104 they reach the largest 48-bit value and stop rising; receivers then refuse the frames.
 class Signer {
 public:
     Signer(const SigningKey& key, std::uint8_t link_id, SigningTime start = {}) noexcept

@@ -76,7 +76,7 @@ public:
     [[nodiscard]] const ParseCounters& counters() const noexcept { return scanner_.counters(); }
 
 private:
-    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead. To decide a
+    // At most one undecided frame is kept: its own bytes and, for an unknown id, one byte of look-ahead. Deciding a
     // start byte within that frame may take as many bytes again.
     static constexpr std::size_t most_kept = max_frame_length + 1;
     static constexpr std::size_t short_chunk = 128;

@@ -55,8 +55,8 @@ public:
     // All modes in the order of AVAILABLE_MODES.
     [[nodiscard]] virtual std::span<const ModeInfo> modes() const noexcept = 0;
     [[nodiscard]] virtual const ModeInfo& boot_mode() const noexcept = 0;
-    // The mode that the vehicle enters for a behaviour: its own fail-safes, and orders such as NAV_LAND. Null if the
-    // kind of vehicle has none.
+    // The mode that the vehicle enters for a behaviour, in a fail-safe or on an order such as NAV_LAND. Null if this
+    // kind of vehicle has no such mode.
     [[nodiscard]] virtual const ModeInfo* mode_for(Behaviour behaviour) const noexcept = 0;
     [[nodiscard]] const ModeInfo* find_mode(std::uint32_t custom_mode) const noexcept;
     [[nodiscard]] const ModeInfo* find_mode(std::string_view name) const noexcept;  // case does not matter
@@ -66,9 +66,10 @@ public:
 
     // Definitions, sorted by name.
     [[nodiscard]] virtual std::span<const ParamInfo> parameters() const noexcept = 0;
-    // True: an integer lies in PARAM_VALUE.param_value byte by byte (PX4); false: as a float (ArduPilot).
+    // True: PARAM_VALUE.param_value holds the bytes of an integer (PX4). False: it holds the integer as a float
+    // (ArduPilot).
     [[nodiscard]] virtual bool is_bytewise() const noexcept = 0;
-    // The parameter that holds the system id. It acts after a reboot.
+    // The parameter that holds the system id. A change takes effect after a reboot.
     [[nodiscard]] std::string_view system_parameter() const noexcept {
         return is_px4() ? "MAV_SYS_ID" : "SYSID_THISMAV";
     }

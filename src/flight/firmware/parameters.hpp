@@ -20,7 +20,7 @@ struct ParamRange {
 };
 [[nodiscard]] ParamRange range_of(ParamType type) noexcept;
 
-// A value of a parameter that stands for something, such as a mode.
+// A parameter value with a name, such as a mode.
 struct ParamChoice {
     int value = 0;
     std::string_view name;
@@ -30,7 +30,7 @@ struct ParamInfo {
     std::string_view name;  // at most 16 characters
     ParamType type = ParamType::real32;
     double initial = 0;
-    double minimum = 0, maximum = 0;  // for people; both 0: no range. Values beyond it are stored all the same.
+    double minimum = 0, maximum = 0;  // for display; both 0: no range. Values outside are stored too.
     std::string_view unit{}, group{}, summary{};
     std::uint8_t decimals = 0;
     bool is_volatile = false;  // changes by itself; not part of the checksum
@@ -52,14 +52,14 @@ public:
 
     // Integers up to 32 bits are exact.
     [[nodiscard]] double value(ParamIndex index) const noexcept;
-    // The four bytes of the value: an integer of 32 bits (also of a smaller type), or a float.
+    // The four bytes of the value: a 32-bit integer (also for smaller integer types), or a float.
     [[nodiscard]] std::uint32_t bits(ParamIndex index) const noexcept { return bits_[index]; }
     void set_bits(ParamIndex index, std::uint32_t bits) noexcept { bits_[index] = bits; }
     // Rounds to a whole number for an integer parameter.
     void set(ParamIndex index, double value) noexcept;
     // Value by name; `fallback` if this firmware has no such parameter.
     [[nodiscard]] double get(std::string_view name, double fallback = 0) const noexcept;
-    // Sets a parameter that the vehicle itself keeps. Does nothing if this firmware has no such parameter.
+    // Sets a parameter that the vehicle itself maintains. Does nothing if this firmware has no such parameter.
     void put(std::string_view name, double value) noexcept;
     void reset() noexcept;  // to the initial values
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How tables of parameters are written down, and the tables of both firmwares. Private to flight; constants.
+// Helpers that define tables of parameters, and the tables of both firmwares. Private to flight; constants.
 #pragma once
 
 #include <initializer_list>
@@ -11,7 +11,7 @@
 
 namespace mavloom::flight {
 
-// One row of a table. Its methods return the row with something added.
+// One row of a table. Each method returns a copy of the row with one more property.
 struct ParamRow : ParamInfo {
     [[nodiscard]] constexpr ParamRow in(double low, double high, std::string_view unit_name = {},
                                         std::uint8_t places = 0) const {
@@ -38,7 +38,7 @@ struct ParamRow : ParamInfo {
         row.needs_reboot = true;
         return row;
     }
-    // The vehicle changes it by itself.
+    // Marks a parameter that the vehicle changes by itself.
     [[nodiscard]] constexpr ParamRow by_vehicle() const {
         ParamRow row = *this;
         row.is_volatile = true;
@@ -71,7 +71,7 @@ struct ParamGroup {
     std::string_view name;
     std::span<const ParamRow> rows;
 };
-// An initial value that one kind of vehicle has instead of the table's.
+// An initial value that replaces the table's for one kind of vehicle.
 struct ParamPreset {
     std::string_view name;
     double initial;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flies one manoeuvre at a time: turns it into set-points of the kind of vehicle. Private to flight; single owner;
+// Flies one manoeuvre at a time: turns it into set-points for the kind of vehicle. Private to flight; single owner;
 // nothing allocates. Positions are local; a plane circles where others stand still.
 #pragma once
 
@@ -33,26 +33,27 @@ public:
     void sink();                                       // comes down without a position
     void follow(const Setpoint& setpoint);             // another controller steers
 
-    // Renews the set-point; 50 times a second.
+    // Updates the set-point. Call it 50 times a second.
     void update();
-    // As Airframe::move_origin.
+    // Like Airframe::move_origin.
     void move_origin(const Vector3& by);
 
-    // --- Wishes that hold for the manoeuvres to come.
+    // --- Settings that also apply to later manoeuvres.
     [[nodiscard]] Heading& heading() noexcept { return heading_; }
     [[nodiscard]] const Heading& heading() const noexcept { return heading_; }
-    // Not positive or not finite: the default again.
+    // A speed that is not positive or not finite restores the default.
     void set_speed(SpeedKind kind, double speed) noexcept;
     void reset_speeds() noexcept { speeds_ = {}; }
 
     [[nodiscard]] const Setpoint& setpoint() const noexcept { return setpoint_; }
-    // Empty while the vehicle navigates nowhere.
+    // Empty while the vehicle has no navigation target.
     [[nodiscard]] const std::optional<NavigationTarget>& target() const noexcept { return target_; }
     [[nodiscard]] const Vector3& goal() const noexcept { return goal_; }
     [[nodiscard]] bool is_climbing() const noexcept { return manoeuvre_ == Manoeuvre::climb; }
     [[nodiscard]] bool is_landing() const noexcept;
     [[nodiscard]] bool is_staying() const noexcept;
-    // Horizontally within `radius` of the goal; a plane also when it has passed it.
+    // True if the vehicle is horizontally within `radius` of the goal. For a plane, also true once it has passed the
+    // goal.
     [[nodiscard]] bool is_near_goal(double radius) const noexcept;
     [[nodiscard]] bool has_goal_altitude() const noexcept;
     // Angle flown around the present circle, rad.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the nose of a multicopter points: as a client or a mission wants, to a region of interest, or along the way.
-// Private to flight; single owner; nothing allocates.
+// Decides where the nose of a multicopter points: as a client or a mission orders, to a region of interest, or along
+// the way. Private to flight; single owner; nothing allocates.
 #pragma once
 
 #include <optional>
@@ -15,15 +15,15 @@ public:
 
     // Keeps the present heading, until something else is asked for.
     void keep() noexcept { kept_ = context_.craft.estimate().euler.yaw; }
-    // A client's order; `nan`: no longer. `rate` in rad/s; `nan`: the usual one.
+    // Carries out a client's order; a `nan` yaw ends it. `rate` in rad/s; `nan`: the usual rate.
     void turn_to(double yaw, double rate) noexcept;
     void look_at(const std::optional<GeoPoint>& point);
     void on_origin_moved() { look_at(interest_); }
 
     [[nodiscard]] const std::optional<GeoPoint>& interest() const noexcept { return interest_; }
-    // The yaw for a vehicle that has `way` left to its goal and was asked for `wanted` (`nan`: anything).
+    // Returns the yaw for a vehicle that has `way` left to its goal. `wanted` is the yaw of the manoeuvre; `nan`: any.
     [[nodiscard]] double yaw_for(const Vector3& way, double wanted) noexcept;
-    // The turn rate that a client allows, or the usual one.
+    // The fastest turn rate: that of the client's order, or the usual one.
     [[nodiscard]] double fastest() const noexcept;
 
 private:

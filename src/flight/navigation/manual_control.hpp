@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a pilot's sticks to set-points. Private to flight; single owner; nothing allocates. The limits are PX4's
-// defaults (MPC_MAN_TILT_MAX, MPC_VEL_MANUAL, MC_ACRO_R_MAX and their relatives).
+// Converts a pilot's sticks to set-points. Private to flight; single owner; nothing allocates. The limits are PX4's
+// defaults (MPC_MAN_TILT_MAX, MPC_VEL_MANUAL, MC_ACRO_R_MAX and related parameters).
 #pragma once
 
 #include "flight/context.hpp"
@@ -14,7 +14,7 @@ public:
 
     // Call it when the pilot takes over.
     void begin() noexcept { yaw_ = context_.craft.estimate().euler.yaw; }
-    // 50 times a second.
+    // Call it 50 times a second.
     [[nodiscard]] Setpoint steer(Behaviour behaviour, const Sticks& sticks);
 
 private:

@@ -20,13 +20,14 @@ public:
     // The vehicle enters its mission mode, or leaves it.
     void begin();
     void leave();
-    // 50 times a second, in the mission mode while armed.
+    // Call it 50 times a second, in the mission mode while armed.
     void update();
 
     void on_plan_changed();
-    // A mission that was finished begins again.
+    // Call it after arming. A finished mission starts over.
     void on_armed();
-    // False: there is no such item. Empty: the present one again. `resets` also forgets jumps.
+    // Returns false if there is no such item. Without `seq`, restarts the present item. `resets` also forgets the jumps
+    // done so far.
     [[nodiscard]] bool set_current(std::optional<std::uint16_t> seq, bool resets);
     // The first item of the landing section, if the mission has one.
     [[nodiscard]] std::optional<std::uint16_t> landing_start() const noexcept;
@@ -48,7 +49,7 @@ private:
     void finish_item();
     void complete();
 
-    // Begins or continues the present item. True: it is done.
+    // Begins or continues the present item. Returns true once the item is done.
     [[nodiscard]] bool fly();
     [[nodiscard]] bool fly_place();
     [[nodiscard]] bool fly_takeoff();
@@ -67,7 +68,7 @@ private:
     void turn();
     void set_home();
 
-    // Place of the item; what it leaves open comes from the last goal.
+    // The place of the item. Coordinates that the item leaves open come from the last goal.
     [[nodiscard]] Vector3 place() const;
     [[nodiscard]] double altitude_z() const noexcept;
     [[nodiscard]] double param(std::size_t number) const noexcept { return double{item().params[number - 1]}; }

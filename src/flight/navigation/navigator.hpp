@@ -18,17 +18,17 @@ public:
     Navigator(const Navigator&) = delete;
     Navigator& operator=(const Navigator&) = delete;
 
-    // The vehicle changed its mode. The same behaviour again changes nothing.
+    // Call it when the mode changes. Entering the same behaviour again changes nothing.
     void enter(Behaviour behaviour);
-    // 50 times a second. Returns the behaviour that shall follow, when the present one is done.
+    // Call it 50 times a second. When the present behaviour is done, returns the behaviour to enter next.
     [[nodiscard]] std::optional<Behaviour> update();
-    // As Airframe::move_origin.
+    // Like Airframe::move_origin.
     void move_origin(const Vector3& by) { guidance_.move_origin(by); }
 
     // --- Orders within the present behaviour.
     void take_off(double z, double yaw);
     void orbit(const Circle& circle, double turns);
-    // Stops, and continues: a mission with its present item.
+    // `pause` stops the vehicle where it is; `resume` continues. A mission continues with its present item.
     void pause();
     void resume();
 
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const Guidance& guidance() const noexcept { return guidance_; }
     [[nodiscard]] MissionRunner& mission() noexcept { return mission_; }
     [[nodiscard]] const MissionRunner& mission() const noexcept { return mission_; }
-    // A rover is home after its return.
+    // True once the return is complete. A rover has then arrived at home.
     [[nodiscard]] bool is_home() const noexcept {
         return behaviour_ == Behaviour::return_home && return_path_.is_done();
     }

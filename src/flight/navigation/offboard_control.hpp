@@ -14,7 +14,7 @@ public:
         : context_(context), inputs_(inputs), guidance_(guidance) {}
 
     void begin();
-    // 50 times a second.
+    // Call it 50 times a second.
     void update();
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The way home: climb, fly, descend, wait, land. Private to flight; single owner; nothing allocates but texts.
+// The way home: climb, fly, descend, wait, land. Private to flight; single owner; only texts allocate.
 // Source: PX4 user guide, "Return Mode".
 #pragma once
 
@@ -13,7 +13,7 @@ public:
 
     void begin();
     void update();
-    // The vehicle is home: it has landed, or stays there.
+    // True once the vehicle is home: it has landed there, or stays there.
     [[nodiscard]] bool is_done() const noexcept;
 
 private:

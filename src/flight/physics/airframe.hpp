@@ -24,8 +24,8 @@ inline const Vector3 no_vector{nan, nan, nan};
 inline constexpr Nanoseconds step_time = std::chrono::milliseconds{4};
 inline constexpr double step_s = 0.004;
 
-// True motion. `position` is the sum of `velocity` times the step, `velocity` that of `acceleration`, and `attitude`
-// the integral of `rates`, exactly.
+// True motion. `position` is exactly the sum of `velocity` times the step, and `velocity` the sum of `acceleration`
+// times the step. `attitude` is exactly the integral of `rates`.
 struct Kinematics {
     Vector3 position = Vector3::Zero();
     Vector3 velocity = Vector3::Zero();
@@ -34,10 +34,10 @@ struct Kinematics {
     Vector3 rates = Vector3::Zero();  // rad/s, body frame
 };
 
-// How the vehicle shall reach or hold its goal.
+// How the vehicle reaches or holds its goal.
 enum class Steering : std::uint8_t {
     none,        // motors at rest, or idle if armed
-    trajectory,  // position, velocity and acceleration, each axis as far as given
+    trajectory,  // position, velocity and acceleration; each axis may be left out
     waypoint,    // along the line from `from` to `position`
     circle,      // around `position` with `radius`
     attitude,    // attitude and thrust
@@ -48,7 +48,7 @@ enum class Steering : std::uint8_t {
 struct SpeedLimits {
     double horizontal = 5, up = 3, down = 1.5;  // m/s; for planes `horizontal` is the airspeed to hold
     double acceleration = 3;                    // m/s^2, horizontal; for rovers along the track
-    double tilt = to_radians(45);               // rad; of multicopters, and the bank of planes
+    double tilt = to_radians(45);               // rad; tilt of multicopters, bank of planes
     double yaw_rate = to_radians(60);           // rad/s
     double air_minimum = 12, air_maximum = 25;  // m/s, airspeed; planes
     double turn_radius = 1.5;                   // m, smallest; rovers
@@ -83,7 +83,7 @@ struct InnerTargets {
     Vector3 rates = Vector3::Zero();
     double thrust = 0;
     Vector3 velocity = Vector3::Zero(), acceleration = Vector3::Zero();
-    Vector3 position = no_vector;  // the point on the way to the goal where the vehicle shall be now
+    Vector3 position = no_vector;  // the point on the way to the goal where the vehicle should be now
     double yaw = nan, yaw_rate = nan;
 };
 
@@ -97,8 +97,9 @@ struct Actuators {
 // How the kinds of vehicles read a Setpoint, beyond what its comments state:
 //
 // Plane, in trajectory, waypoint and circle:
-// - On the ground, armed, a target above the ground starts a take-off run: full throttle along the present heading
-//   until the wings carry, then a climb at `limits.up` with little bank near the ground. Otherwise the plane brakes.
+// - On the ground, an armed plane with a target above the ground starts a take-off run: full throttle along the present
+//   heading until the wings carry. It then climbs at `limits.up`, with little bank near the ground. Without such a
+//   target, it brakes.
 // - `touch_down`: the plane descends along the leg to `position` (or by `limits.down` in a circle or trajectory),
 //   flares, rolls out and stops.
 // - trajectory with a horizontal position: the plane flies there and circles around it with `radius` (0: 50 m).
@@ -129,16 +130,16 @@ public:
     [[nodiscard]] const InnerTargets& targets() const noexcept { return targets_; }
     [[nodiscard]] const Actuators& actuators() const noexcept { return actuators_; }
     [[nodiscard]] bool touches_ground() const noexcept { return touches_ground_; }
-    // Share of the greatest thrust, 0 to 1.
+    // Thrust as a share of the maximum, 0 to 1.
     [[nodiscard]] double thrust() const noexcept { return thrust_; }
-    // Electrical power that the motors draw now, in relation to hover or cruise. 0 when they rest.
+    // Electrical power that the motors draw now, relative to hover or cruise. 0 while the motors stand still.
     [[nodiscard]] double load() const noexcept { return load_; }
     // Velocity relative to the air, m/s in the local frame.
     [[nodiscard]] const Vector3& air_velocity() const noexcept { return air_velocity_; }
 
 protected:
-    // Ends a step with constant acceleration (local frame) and constant rates (body frame): the one place that moves
-    // the vehicle, so that the rules of Kinematics hold for all kinds.
+    // Ends a step with constant acceleration (local frame) and constant rates (body frame). No other function moves the
+    // vehicle, so the rules of Kinematics hold for all kinds.
     void integrate_step(const Vector3& acceleration, const Vector3& rates);
 
     Kinematics motion_;

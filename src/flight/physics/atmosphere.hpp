@@ -12,7 +12,7 @@ inline constexpr double sea_level_temperature = 288.15;  // K
 inline constexpr double temperature_lapse = 0.0065;      // K/m
 inline constexpr double pressure_exponent = 5.255876;    // g M / (R L)
 
-// Altitudes are metres above mean sea level. Beyond the layer, the values of its edges hold.
+// Altitudes are metres above mean sea level. Below -1 km and above 11 km, the values at these limits apply.
 [[nodiscard]] inline double temperature_at(double altitude) noexcept {
     return sea_level_temperature - temperature_lapse * std::clamp(altitude, -1000.0, 11'000.0);
 }

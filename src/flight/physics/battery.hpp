@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The battery: charge falls by the integral of the current, and the voltage by charge and current. Private to module
-// sim; single owner; nothing allocates.
+// The battery. Its charge falls by the integral of the current; its voltage depends on charge and current. Private to
+// flight and sim; single owner; nothing allocates.
 #pragma once
 
 #include "mavloom/flight/options.hpp"
@@ -13,10 +13,10 @@ public:
 
     // `load` as in Airframe::load.
     void step(double load, double dt) noexcept;
-    // For tests of fail-safes: the charge is `share` (0 to 1) now, and charging stops there.
+    // Sets the charge to `share` (0 to 1), and lets charging stop there. For tests of fail-safes.
     void set_remaining(double share) noexcept;
-    // Charges for `dt` seconds, up to the charge at the start: a parked vehicle is ready again soon, as with PX4's
-    // simulated battery.
+    // Charges for `dt` seconds, up to the charge at the start. A parked vehicle is therefore soon ready again, as with
+    // PX4's simulated battery.
     void charge(double dt) noexcept;
 
     [[nodiscard]] std::uint8_t cells() const noexcept { return cells_; }
@@ -28,7 +28,7 @@ public:
     [[nodiscard]] double capacity_mah() const noexcept { return capacity_mah_; }
     // Seconds until empty at the average current; 0 if unknown.
     [[nodiscard]] double seconds_left() const noexcept;
-    // Voltage in relation to a full battery at rest; 0 if empty.
+    // Voltage relative to a full battery at rest; 0 if empty.
     [[nodiscard]] double supply() const noexcept;
 
 private:

@@ -35,7 +35,7 @@ private:
 // Initial bearing, clockwise from north, 0 to 2 pi.
 [[nodiscard]] double bearing_rad(const GeoPoint& from, const GeoPoint& to);
 
-// Degrees times 1e7, as the wire has them, rounded.
+// Degrees times 1e7, rounded, as messages carry them.
 [[nodiscard]] std::int32_t to_degrees_e7(double degrees) noexcept;
 [[nodiscard]] constexpr double from_degrees_e7(std::int32_t value) noexcept { return value * 1e-7; }
 

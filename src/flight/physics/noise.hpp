@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kinds of noise that sensors and estimates have beside uniform and Gaussian samples (random.hpp). Private to
+// The kinds of noise that sensors and estimates have, besides uniform and Gaussian samples (random.hpp). Private to
 // flight. Each object holds one scalar process; `next` advances it by a step. Nothing allocates.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Guidance along lines and circles: the course that brings a vehicle onto a path and keeps it there. Private to module
-// sim; pure functions. Source: Beard and McLain, "Small Unmanned Aircraft" (2012), chapter 10, vector fields.
+// Guidance along lines and circles: the course that brings a vehicle onto a path and keeps it there. Private to flight;
+// pure functions. Source: Beard and McLain, "Small Unmanned Aircraft" (2012), chapter 10, vector fields.
 #pragma once
 
 #include "flight/physics/airframe.hpp"
@@ -9,14 +9,14 @@ namespace mavloom::flight {
 
 struct Course {
     double angle = 0;        // rad, the direction to move in
-    double turn_rate = 0;    // rad/s, positive clockwise, that the path itself asks for at the present velocity
+    double turn_rate = 0;    // rad/s, positive clockwise: the turn of the path itself at the present velocity
     double cross_track = 0;  // m; positive: right of the line, or outside of the circle
 };
 
 // The vehicle joins the path at an angle of 45 degrees when it is `look_ahead` metres off.
 //
-// Towards `to`, along the line that begins at `from`, and beyond. If `from` is not given or equals `to`: straight to
-// `to`.
+// Returns the course along the line from `from` to `to`, and beyond. If `from` is not given or equals `to`, the course
+// leads straight to `to`.
 [[nodiscard]] Course course_on_line(const Kinematics& motion, const Vector3& from, const Vector3& to, double look_ahead);
 // `radius` in metres, positive clockwise.
 [[nodiscard]] Course course_on_circle(const Kinematics& motion, const Vector3& center, double radius, double look_ahead);

@@ -18,9 +18,9 @@ inline constexpr double gravity = 9.80665;  // m/s^2
 
 [[nodiscard]] constexpr double to_radians(double degrees) noexcept { return degrees * (pi / 180); }
 [[nodiscard]] constexpr double to_degrees(double radians) noexcept { return radians * (180 / pi); }
-// Into [-pi, pi].
+// Wraps an angle into [-pi, pi].
 [[nodiscard]] inline double wrap_pi(double angle) noexcept { return std::remainder(angle, 2 * pi); }
-// Into [0, 2 pi).
+// Wraps an angle into [0, 2 pi).
 [[nodiscard]] inline double wrap_2pi(double angle) noexcept {
     const double wrapped = angle - 2 * pi * std::floor(angle / (2 * pi));
     return wrapped < 2 * pi ? wrapped : 0;

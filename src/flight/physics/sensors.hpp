@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the vehicle measures and estimates: the true motion with noise. Private to flight and sim; single owner; nothing
-// allocates.
+// The vehicle's measurements and estimates: its true motion with noise. Private to flight and sim; single owner;
+// nothing allocates.
 //
 // All noise advances with the steps, never with messages, so the telemetry of one client does not depend on another.
 // The magnitudes are those of PX4's built-in simulator (docs/design/simulator.md).
@@ -50,11 +50,11 @@ public:
     // of the local origin.
     void step(const Kinematics& truth, const Vector3& air_velocity, bool at_rest, double origin_altitude,
               double air_density);
-    // As Airframe::move_origin.
+    // Like Airframe::move_origin.
     void move_origin(const Vector3& by);
     void set_failures(const SensorFailures& failures) noexcept { failures_ = failures; }
     [[nodiscard]] const SensorFailures& failures() const noexcept { return failures_; }
-    // GPS has a fix from now on. Before, fix_type is 1.
+    // True: GPS has a fix from now on. Until then, fix_type is 1.
     void acquire_gps(bool acquired) noexcept { gps_acquired_ = acquired; }
 
     [[nodiscard]] const Estimate& estimate() const noexcept { return estimate_; }

@@ -17,15 +17,16 @@ public:
     // The firmware's mode for a behaviour; `unsupported` if it has none.
     Outcome enter(Behaviour behaviour, OrderedBy by);
     Outcome terminate();
-    // Does what a fail-safe asks for. A vehicle that comes down sooner by its present mode stays in it.
+    // Carries out the action of a fail-safe. If the present mode brings the vehicle down sooner, the vehicle stays in
+    // that mode.
     void perform(FailsafeAction action);
-    // The reason for the fail-safe has gone: the vehicle continues in the mode that the client asked for.
+    // Call it when the reason for the fail-safe is gone: the vehicle continues in the mode that the client asked for.
     void resume();
-    // 50 times a second: starts up, and disarms a vehicle that stands for too long.
+    // Call it 50 times a second. Completes the boot, and disarms a vehicle that has been standing for too long.
     void update();
     void reboot();
     void set_calibrating(bool calibrating) noexcept { is_calibrating_ = calibrating; }
-    // Home is where a client wants it, until the vehicle boots again. Otherwise it follows each arming.
+    // Sets home until the vehicle boots again. Without this call, each arming sets home to where the vehicle is.
     Outcome set_home(const std::optional<GeoPoint>& point, double yaw);
 
     [[nodiscard]] const ModeInfo& mode() const noexcept { return *mode_; }

@@ -13,7 +13,7 @@ public:
     Failsafes(const FlightContext& context, const Inputs& inputs, const Fence& fence, Commander& commander) noexcept
         : context_(context), inputs_(inputs), fence_(fence), commander_(commander) {}
 
-    // 50 times a second.
+    // Call it 50 times a second.
     void update();
     void reset() noexcept { state_ = {}; }
 
@@ -34,7 +34,7 @@ private:
     void watch_sticks();
     void watch_position();
     void watch_fence();
-    // Acts if a reason appears; lets the vehicle continue if it goes.
+    // Acts when the reason appears, and lets the vehicle continue when the reason is gone.
     void judge(bool& was_present, bool is_present, FailsafeAction action, std::string_view text);
 
     const FlightContext& context_;

@@ -13,10 +13,10 @@ class Fence {
 public:
     explicit Fence(const FlightContext& context) noexcept : context_(context) {}
 
-    // The plan or the origin changed.
+    // Call it after the plan or the origin changed.
     void rebuild();
     void enable(bool enabled) noexcept { is_enabled_ = enabled; }
-    // True if the vehicle is outside of where it may be.
+    // True if the vehicle is outside of the permitted area.
     [[nodiscard]] bool is_breached() const;
 
 private:

@@ -15,7 +15,7 @@ public:
         bool climbs = false, lands = false;
         bool is_home = false;  // a rover has arrived
     };
-    // 50 times a second.
+    // Call it 50 times a second.
     void update(const Phase& phase);
     void reset() noexcept;
 

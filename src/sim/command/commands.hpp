@@ -26,7 +26,8 @@ using flight::Result;  // and not mavloom::Result
 
 struct Parts;
 
-// Both forms of a command. Positions are in degrees, or metres in local frames; `nan` where the client gave none.
+// A command, received in either form. Positions are in degrees, or metres in local frames; `nan` where the client gave
+// none.
 struct Command {
     Client from{};
     std::uint16_t id = 0;
@@ -37,14 +38,14 @@ struct Command {
     bool is_int = false;
 
     [[nodiscard]] float param(std::size_t number) const noexcept { return params[number - 1]; }  // 1 to 7
-    // A parameter as a whole number in [0, most]. Empty: it is none.
+    // A parameter as a whole number; empty if it is not in [0, most].
     [[nodiscard]] std::optional<std::uint32_t> whole(std::size_t number, double most = 0xffffffff) const noexcept {
         const double value{param(number)};
         return value >= 0 && value <= most ? std::optional(static_cast<std::uint32_t>(value)) : std::nullopt;
     }
 };
 
-// The altitude of `z` above mean sea level, by the command's frame. `nan` stays `nan`.
+// The altitude that `z` stands for in the command's frame, above mean sea level. `nan` stays `nan`.
 [[nodiscard]] double altitude_of(const Command& command, const Parts& parts);
 
 struct CommandRow {
@@ -81,7 +82,7 @@ private:
 
     void carry_out(const Command& command, Moment now);
     void cancel(const Client& from, std::uint16_t command);
-    // False: the task is over.
+    // Returns false once the task is over.
     bool move_on(Task& task, FlightTime now);
     void acknowledge(const Client& to, std::uint16_t command, Result result, std::uint8_t progress = 0);
 

@@ -17,7 +17,7 @@ struct Place {
 // Latitude and longitude 0/0 count as not given: clients fill unused parameters with 0.
 [[nodiscard]] Place place_of(const Command& command, const Parts& parts);
 [[nodiscard]] bool has_global_frame(const Command& command) noexcept;
-// Above mean sea level. Before there is a home, that of the ground.
+// The altitude of home above mean sea level. Until home is set, the altitude of the ground.
 [[nodiscard]] double home_altitude(const Parts& parts) noexcept;
 
 // Moves the origin of the local frame, and reports it on all links.

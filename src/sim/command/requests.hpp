@@ -8,7 +8,7 @@
 namespace mavloom::sim {
 
 // Sends the message to the link of the command. `index` is the command's second parameter, 0 if the client gave none.
-// denied: there is nothing to send. unsupported: the vehicle has no such message.
+// Returns `denied` if there is nothing to send, and `unsupported` if the vehicle has no such message.
 [[nodiscard]] Result send_requested(Parts& parts, LinkId link, MessageId message, double index);
 
 // The vehicle's unique number, AUTOPILOT_VERSION.uid: differs between systems and seeds.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texts of the metadata files, before compression. Private to src/sim/metadata; pure functions. Their forms are
-// those of the schemas in the MAVLink guide, "Component Metadata Protocol".
+// The texts of the metadata files, before compression. Private to src/sim/metadata; pure functions. They follow the
+// schemas in the MAVLink guide, "Component Metadata Protocol".
 #pragma once
 
 #include <cstdint>

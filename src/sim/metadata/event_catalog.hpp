@@ -2,7 +2,7 @@
 // The events that a simulated PX4 sends: ids, arguments and texts, both for EVENT and for the metadata that explains
 // it. Private to module sim; immutable tables.
 //
-// Ids, levels and arguments are those of a recorded PX4 1.17. Source of the forms: MAVLink guide, "Events Interface".
+// Ids, levels and arguments are those of a recorded PX4 1.17. Source of the formats: MAVLink guide, "Events Interface".
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ struct EventInfo {
 // The id without the component.
 [[nodiscard]] constexpr std::uint32_t event_sub_id(const EventInfo& info) noexcept { return info.id & 0xffffff; }
 
-// A STATUSTEXT and the event with the same meaning. Clients that know events show only the event: PX4 ends such texts
-// with a tab.
+// A STATUSTEXT and the event with the same meaning. PX4 ends such a text with a tab, and clients that know events then
+// show only the event.
 struct EventText {
     std::string_view text;  // `{}` stands for a number, which is an argument of the event
     std::uint32_t id = 0;

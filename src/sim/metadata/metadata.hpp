@@ -23,7 +23,7 @@ namespace mavloom::sim {
 // The general file, which lists the others, as COMPONENT_METADATA and COMPONENT_INFORMATION report it.
 struct GeneralMetadata {
     std::string_view uri;        // mftp://...
-    std::uint32_t file_crc = 0;  // of the JSON before compression, as PX4 has it
+    std::uint32_t file_crc = 0;  // of the JSON before compression, as in PX4
 };
 
 // Empty: this firmware has no metadata. REQUEST_MESSAGE for it is then UNSUPPORTED.
@@ -31,7 +31,7 @@ struct GeneralMetadata {
 
 // The paths of the files, without leading slash.
 [[nodiscard]] std::span<const std::string_view> metadata_paths(const Firmware& firmware) noexcept;
-// The file as it is transferred: JSON, compressed by xz. `index` counts in `metadata_paths`.
+// The file as it is transferred: JSON, compressed by xz. `index` is the position in `metadata_paths`.
 [[nodiscard]] ByteView metadata_file(const Firmware& firmware, std::size_t index);
 
 }  // namespace mavloom::sim

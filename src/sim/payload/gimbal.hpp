@@ -50,7 +50,7 @@ private:
     GimbalMotion motion_;
     Source primary_{SystemId{0}, ComponentId{0}}, secondary_{SystemId{0}, ComponentId{0}};
     std::uint16_t rest_ = 0;  // the flag for retract or neutral, while in that position
-    // The region of interest as last seen. The gimbal looks there until an order of a client.
+    // The region of interest as last seen. The gimbal looks there until a client gives another order.
     std::optional<GeoPoint> interest_;
     GeoPoint origin_;  // of the local frame in which interest_position_ is
     Vector3 interest_position_ = Vector3::Zero();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The axes of a stabilised gimbal. Private to module sim; single owner; nothing allocates.
 //
-// Roll and pitch hold against the horizon. Yaw either follows the vehicle or holds its direction (lock). Axes move at a
-// limited rate. Angles are in radians.
+// Roll and pitch keep their angles to the horizon. Yaw either follows the vehicle or holds its direction (lock). Axes
+// move at a limited rate. Angles are in radians.
 #pragma once
 
 #include "flight/physics/rotation.hpp"

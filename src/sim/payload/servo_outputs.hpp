@@ -16,13 +16,13 @@ public:
     // The first channel of the six actuators of DO_SET_ACTUATOR: the first auxiliary output.
     static constexpr std::size_t first_actuator = 9, actuators = 6;
 
-    // Channels count from 1. False: there is no such channel, or no servo understands this pulse.
+    // Channels count from 1. Returns false if there is no such channel, or if no servo understands this pulse.
     bool set_pulse(double channel, double microseconds) noexcept {
         const bool is_valid = channel >= 1 && channel <= count && microseconds >= 500 && microseconds <= 2500;
         if (is_valid) pulses_[static_cast<std::size_t>(channel) - 1] = static_cast<std::uint16_t>(microseconds);
         return is_valid;
     }
-    // `value` -1 to 1; anything else leaves the actuator alone. Actuators count from 0.
+    // `value` is -1 to 1; any other value is ignored. Actuators count from 0.
     void set_actuator(std::size_t actuator, double value) noexcept {
         if (std::abs(value) <= 1 && actuator < actuators)
             pulses_[first_actuator - 1 + actuator] = static_cast<std::uint16_t>(std::lround(1500 + 500 * value));

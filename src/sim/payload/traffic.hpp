@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Other aircraft around home, as an ADS-B receiver hears them: ADSB_VEHICLE. Private to module sim; single owner.
 //
-// Each aircraft flies a racetrack, or a circle, at its own height and speed, and transmits once a second. Where it is
-// depends on the flight time and the vehicle's seed alone. Source: MAVLink common.xml, ADSB_VEHICLE.
+// Each aircraft flies a racetrack, or a circle, at its own height and speed, and transmits once a second. Its position
+// depends only on the flight time and the vehicle's seed. Source: MAVLink common.xml, ADSB_VEHICLE.
 #pragma once
 
 #include <vector>
@@ -55,7 +55,7 @@ private:
     std::uint64_t turns_ = 0;  // transmissions so far; the aircraft take turns
     FlightTime next_ = FlightTime::max();
     MonoTime last_pump_{};
-    std::size_t caught_up_ = 0;  // pumps at the same real time: after a stall
+    std::size_t caught_up_ = 0;  // pumps at the same real time, which happen after a stall
 };
 
 }  // namespace mavloom::sim

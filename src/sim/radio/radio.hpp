@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that a vehicle sends goes through its radio: it numbers, signs and writes frames, per link. Private to
+// The radio sends everything that a vehicle sends: it numbers, signs and writes the frames of each link. Private to
 // module sim; single owner. Sending allocates nothing.
 #pragma once
 
@@ -57,12 +57,12 @@ public:
     void note_received(LinkId link, std::size_t bytes) noexcept;
     [[nodiscard]] Totals totals(LinkId link) const noexcept;
 
-    // From now on every frame is signed with this key; empty: none. `now` is UTC.
+    // Signs every frame from now on with this key; without a key, signs none. `now` is UTC.
     void sign_with(const std::optional<wire::SigningKey>& key, wire::SigningTime now);
-    // Timestamps of signatures continue from here, if UTC is behind.
+    // Timestamps of signatures continue from `newest` if UTC is earlier.
     void raise_signing_time(wire::SigningTime newest) noexcept { signing_start_ = std::max(signing_start_, newest); }
     void set_utc(WallTime now) noexcept { utc_ = now; }
-    // While silent, nothing is sent: a vehicle that reboots.
+    // While silent, the radio sends nothing. A vehicle is silent while it reboots.
     void set_silent(bool silent) noexcept { silent_ = silent; }
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Texts for people: STATUSTEXT, in chunks if a text is long. Private to module sim; single owner.
 //
-// A client that connects late gets the last few texts: when the first ground station's heartbeat arrives on a link, the
-// announcer repeats there what it sent within the last 5 s. Source: MAVLink common.xml, STATUSTEXT.
+// A client that connects late gets the last few texts. When the first heartbeat of a ground station arrives on a link,
+// the announcer repeats on that link what it sent within the last 5 s. Source: MAVLink common.xml, STATUSTEXT.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class Announcer {
 public:
     explicit Announcer(Radio& radio) noexcept : radio_(radio) {}
 
-    // To all links. Texts of more than 50 bytes go in chunks.
+    // Sends a text to all links, in chunks if it is longer than 50 bytes.
     void say(Severity severity, std::string_view text, FlightTime now);
     // A ground station was heard on this link for the first time.
     void greet(LinkId link, FlightTime now);

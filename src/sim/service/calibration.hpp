@@ -2,8 +2,8 @@
 // Calibration of sensors (MAV_CMD_PREFLIGHT_CALIBRATION). Private to module sim; single owner.
 //
 // PX4 reports its progress by texts that begin with "[cal]". Ground stations and SDKs parse them. The simulated vehicle
-// turns itself to all sides that are needed. ArduPilot asks the client to turn the vehicle, side by side, by
-// MAV_CMD_ACCELCAL_VEHICLE_POS, and waits for its confirmation; its other calibrations are done at once.
+// turns itself to each side that is needed. ArduPilot asks the client with MAV_CMD_ACCELCAL_VEHICLE_POS to turn the
+// vehicle to one side after another, and waits for a confirmation of each. Its other calibrations finish at once.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ public:
     void forget(LinkId link) override;
 
     Outcome begin(const Command& command, Moment now);
-    // ArduPilot: the vehicle stands as it was asked for. False: nothing was asked.
+    // ArduPilot: the client confirms the position that the vehicle asked for. Returns false if it asked for none.
     bool confirm(const Client& from, Moment now);
 
 private:
@@ -55,7 +55,7 @@ private:
     Stage stage_ = Stage::begun;           // PX4
     Sensor sensor_{};
     unsigned step_ = 0;
-    Client client_;  // ArduPilot: who turns the vehicle
+    Client client_;  // ArduPilot: the client that turns the vehicle
 };
 
 }  // namespace mavloom::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keeps a connection alive: heartbeats of clients, time synchronisation, pings, and a radio's report of its
+// Keeps connections alive: handles heartbeats of clients, time synchronisation, pings, and a radio's report of its
 // buffers. Private to module sim; single owner. Source: MAVLink guide, "Time Synchronization" and "Ping Protocol".
 #pragma once
 

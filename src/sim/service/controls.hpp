@@ -38,7 +38,8 @@ private:
     void on_origin(ByteView payload);
     void on_home(ByteView payload);
 
-    // A parameter of ArduPilot can limit this to one ground station, and one of PX4 can turn it off.
+    // Whether this client may steer. An ArduPilot parameter can limit steering to one ground station; a PX4 parameter
+    // can turn it off.
     [[nodiscard]] bool may_steer(const Client& from) const noexcept;
     [[nodiscard]] Sticks sticks_of_channels() const noexcept;
     [[nodiscard]] double channel(std::string_view map) const noexcept;
@@ -47,8 +48,8 @@ private:
 
     Parts& parts_;
     static constexpr std::size_t channel_count = 18;
-    std::array<std::uint16_t, channel_count> channels_{};  // us, as overridden; 0: not
-    FlightTime rejected_;                                  // when a text about a rejected message was sent last
+    std::array<std::uint16_t, channel_count> channels_{};  // us, as overridden; 0: not overridden
+    FlightTime rejected_;                                  // when the last text about a rejected message was sent
 };
 
 }  // namespace mavloom::sim

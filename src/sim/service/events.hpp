@@ -2,8 +2,8 @@
 // The events interface: EVENT, CURRENT_EVENT_SEQUENCE, REQUEST_EVENT. Private to module sim; single owner. Source:
 // MAVLink guide, "Events Interface".
 //
-// Only PX4 sends events. They go to all links; the last 20 can be asked for again. The arming checks and the health of
-// the components are a report of several events, which is sent when it changes and when a client asks.
+// Only PX4 sends events. It sends them to all links; clients can request the last 20 again. The arming checks and the
+// health of the components are a report of several events, which is sent when it changes and when a client asks.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] FlightTime wakes_at() const noexcept override;
     void pump(Moment now) override;
 
-    // Sends the event that means the same as a text. False: there is none.
+    // Sends the event that has the same meaning as a text. Returns false if there is none.
     bool report_text(std::string_view text);
     // Sends the arming checks and the health of all components, as RUN_PREARM_CHECKS asks. Does nothing for ArduPilot.
     void report_health();

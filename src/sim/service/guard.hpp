@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Message signing of a vehicle. SETUP_SIGNING sets the key. From then on the vehicle signs all frames, and drops
-// unsigned ones, but for a few kinds that radios and other vehicles send. Private to module sim; single owner. Source:
-// MAVLink guide, "Message Signing"; the exceptions are PX4's.
+// unsigned frames, except a few messages that radios and other vehicles send. Private to module sim; single owner.
+// Source: MAVLink guide, "Message Signing"; the exceptions are PX4's.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class Guard final : public Service {
 public:
     explicit Guard(Parts& parts) noexcept : parts_(parts) {}
 
-    // False: drop the frame. `utc` dates signatures.
+    // Returns false if the frame must be dropped. `utc` is the current time, for checking timestamps.
     [[nodiscard]] bool admits(const wire::FrameView& frame, WallTime utc);
 
     [[nodiscard]] std::span<const MessageId> handled() const noexcept override;
@@ -31,7 +31,7 @@ private:
     Parts& parts_;
     std::optional<wire::SigningKey> key_;
     std::optional<wire::Verifier> verifier_;
-    bool last_was_signed_ = false;  // the frame that `admits` looked at last
+    bool last_was_signed_ = false;  // whether the last frame passed to `admits` was signed
 };
 
 }  // namespace mavloom::sim

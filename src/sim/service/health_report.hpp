@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a PX4 reports of its readiness: which modes can be armed and run, what keeps it from them, and the state of its
+// A PX4's report of its readiness: in which modes it can arm and fly, what prevents the others, and the state of its
 // components. Private to module sim; a pure function of the vehicle's state.
 //
 // Bits, ids and the order of problems are those of a recorded PX4 1.17.

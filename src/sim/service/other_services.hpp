@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The services that nobody but the dispatcher talks to. Private to module sim.
+// The services that no other part calls directly. Private to module sim.
 #pragma once
 
 #include <memory>

@@ -26,8 +26,8 @@ public:
     virtual void receive(const Client& from, MessageId id, ByteView payload, Moment now) = 0;
     // While true, the vehicle calls `pump` every 10 ms of flight time.
     [[nodiscard]] virtual bool is_busy() const noexcept { return false; }
-    // When the service wants to be pumped once although it is not busy: for rare deadlines. A pump at this time must
-    // move it on.
+    // When the service wants to be pumped once although it is not busy: for rare deadlines. After a pump at this time,
+    // the function must return a later time.
     [[nodiscard]] virtual FlightTime wakes_at() const noexcept { return FlightTime::max(); }
     // Sends the next piece of bulk transfers, repeats requests and ends what timed out.
     virtual void pump(Moment /*now*/) {}

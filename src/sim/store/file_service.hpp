@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // MAVLink FTP. Private to module sim; single owner. Source: MAVLink guide, "File Transfer Protocol (FTP)".
 //
-// Sessions belong to a client and have the number that the client gave when it opened the file: QGroundControl takes
+// Sessions belong to a client and have the number that the client gave when it opened the file. QGroundControl takes
 // the number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated
 // byte by byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
 #pragma once
@@ -50,7 +50,7 @@ private:
         std::uint8_t number = 0;
         FileRef file{};
         bool is_writable = false;
-        std::optional<std::vector<std::uint8_t>> made{};  // the content of a file that was made for this session
+        std::optional<std::vector<std::uint8_t>> made{};  // the content of a file that is computed for this session
         MonoTime used{};
     };
     struct Peer {
@@ -78,7 +78,7 @@ private:
     };
 
     void answer(Peer& peer, const Request& request);
-    // False: there is no single reply; a burst has begun.
+    // Returns false if a burst has begun, so that there is no single reply.
     [[nodiscard]] bool carry_out(Peer& peer, const Request& request, Reply& reply);
     void end_session(Peer& peer, const Request& request, Reply& reply);
     void list(const Request& request, Reply& reply, bool with_time);
@@ -94,7 +94,7 @@ private:
     void change(const Request& request, Reply& reply, const Operation& operation);
 
     void send(Peer& peer, const Header& header, const Reply& reply);
-    // False: the burst is over, or the link has no room.
+    // Returns false if the burst is over or the link has no room.
     [[nodiscard]] bool send_piece(Peer& peer);
     void send_pieces(Peer& peer, Moment now);
     [[nodiscard]] std::size_t read_session(const Session& session, std::uint32_t offset, ByteSpan out) const;

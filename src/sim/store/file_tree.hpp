@@ -2,7 +2,8 @@
 // The files of a vehicle that clients of MAVLink FTP see. Private to module sim; single owner.
 //
 // Three kinds of files share one tree: metadata, which all vehicles share; recorded logs, which are computed; and files
-// that clients wrote. Only the last can be changed, and their number and size are bounded. Nothing of it is on a disk.
+// that clients wrote. Clients can change only the last kind; number and size of these files are bounded. All files are
+// in memory, not on a disk.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +35,7 @@ struct FileError {
 template <class T>
 using FileResult = tl::expected<T, FileError>;
 
-// Names a file that exists, or did when the value was made.
+// Identifies a file that exists, or that existed when the value was created.
 struct FileRef {
     enum class Kind : std::uint8_t { shared, log, written };
     Kind kind = Kind::shared;
@@ -58,18 +59,18 @@ public:
     FileTree(const Firmware& firmware, const RecordedLogs& logs, const Limits& limits) noexcept
         : firmware_(firmware), logs_(logs), limits_(limits) {}
 
-    // All paths are normal.
+    // All paths must be in the form that normal_path returns.
     [[nodiscard]] FileResult<FileRef> find(std::string_view path) const;
     // Sorted by name.
     [[nodiscard]] FileResult<std::vector<DirectoryEntry>> list(std::string_view path) const;
 
     // Empty: the file was removed.
     [[nodiscard]] std::optional<std::uint32_t> size(const FileRef& file) const;
-    // Bytes read, fewer than asked for at the end.
+    // Returns the number of bytes read: fewer than requested at the end of the file.
     [[nodiscard]] std::size_t read(const FileRef& file, std::uint32_t offset, ByteSpan out) const;
     [[nodiscard]] std::uint32_t checksum(const FileRef& file) const;
 
-    // Makes the file if there is none. `empties`: an existing one loses its content.
+    // `may_make`: creates the file if it does not exist. `empties`: removes the content of an existing file.
     [[nodiscard]] FileResult<FileRef> open_for_writing(std::string_view path, bool may_make, bool empties, WallTime now);
     // A gap before `offset` is filled with zeros.
     [[nodiscard]] FileError write(const FileRef& file, std::uint32_t offset, ByteView bytes);
@@ -92,7 +93,7 @@ private:
     template <class Visit>
     void for_each(const Visit& visit) const;
     [[nodiscard]] bool is_directory(std::string_view path) const;
-    // No error if clients may make or change `path`, whose folder must exist.
+    // Returns no error if clients may create or change `path`. Its folder must exist.
     [[nodiscard]] FileError check_writable(std::string_view path) const;
     [[nodiscard]] FileError resize(Node& node, std::size_t size);
     [[nodiscard]] Node* find_node(std::string_view path) noexcept;

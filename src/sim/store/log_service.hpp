@@ -2,7 +2,8 @@
 // Download of recorded logs, and streaming of the log that is being written. Private to module sim; single owner.
 // Source: MAVLink guide, "Log transfer protocol".
 //
-// A client downloads one thing at a time; a new request replaces the running one. Data is sent as the link takes it.
+// A client downloads one thing at a time; a new request replaces the running one. Data is sent as fast as the link
+// takes it.
 #pragma once
 
 #include <vector>
@@ -36,7 +37,7 @@ public:
     Result stop_stream(const Client& to);
 
 private:
-    // A list of entries, or the content of one log; from `next` to before `end`.
+    // A list of entries, or the content of one log: the range from `next` up to but not including `end`.
     struct Download {
         Client client;
         bool is_list = false;
@@ -52,7 +53,7 @@ private:
     void send_nothing(const Client& to, std::uint16_t id, std::uint32_t offset);
     // Both return false when the download is complete.
     [[nodiscard]] bool send_next(Download& download);
-    [[nodiscard]] bool advance(Download& download);  // by as many messages as may be sent at once
+    [[nodiscard]] bool advance(Download& download);  // sends as many messages as may be sent at once
 
     Parts& parts_;
     RecordedLogs logs_;

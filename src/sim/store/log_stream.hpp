@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The log that the vehicle writes now, sent to clients while it grows. Private to module sim; single owner.
+// Sends clients the log that the vehicle is writing, while that log grows. Private to module sim; single owner.
 //
 // PX4 sends the header in LOGGING_DATA_ACKED, each of which waits for its LOGGING_ACK, and the rest in LOGGING_DATA.
 // ArduPilot sends REMOTE_LOG_DATA_BLOCKs and repeats those that the client misses. Sources: MAVLink guide, "Log
@@ -25,7 +25,7 @@ public:
     LogStreams(bool is_px4, SystemId system, std::size_t most, Radio& radio) noexcept
         : radio_(radio), image_(LogImage::endless(is_px4, system)), most_(most), is_px4_(is_px4) {}
 
-    // A client that streams already starts again. TEMPORARILY_REJECTED: too many clients stream.
+    // If the client already streams, its stream starts over. Returns TEMPORARILY_REJECTED if too many clients stream.
     Result start(const Client& to, Moment now);
     void stop(const Client& to);
     void on_logging_ack(const Client& from, ByteView payload);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The parameter protocol. Private to module sim; single owner. Source: MAVLink guide, "Parameter Protocol".
 //
-// Each client has a list of its own. A list goes at the pace of its link. PX4 begins a list with `_HASH_CHECK`, a
-// checksum: a client that has these values already sets it, and the list ends.
+// Each client has a list of its own. A list is sent at the pace of its link. PX4 begins a list with `_HASH_CHECK`, a
+// checksum of all values. A client that already has these values sets `_HASH_CHECK`, and the list ends.
 #pragma once
 
 #include <string_view>
@@ -28,8 +28,8 @@ public:
 
     // Sends the value of a parameter to all links.
     void announce(ParamIndex index);
-    // Sets the parameters whose names begin so to their initial values, and reports those that changed. The system id
-    // stays.
+    // Sets the parameters whose names begin with `prefix` to their initial values, and reports those that changed. The
+    // system id stays.
     void reset(std::string_view prefix = {});
 
 private:
@@ -48,10 +48,10 @@ private:
     void on_read(const Client& from, ByteView payload);
     void on_set(const Client& from, ByteView payload);
     void change(const Client& from, ParamIndex index, std::uint8_t type, float value);
-    // MAV_PARAM_ERROR of a new value.
+    // Returns the MAV_PARAM_ERROR for a new value.
     [[nodiscard]] std::uint8_t check(ParamIndex index, std::uint8_t type, float value) const noexcept;
     void stop(const Client& client);
-    // False: the list is complete.
+    // Returns false once the list is complete.
     bool send_next(List& list);
     void send_value(LinkId link, ParamIndex index);
     void send_hash(LinkId link);

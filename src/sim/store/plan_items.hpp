@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Items of plans on the wire: their two forms, and which of them a vehicle accepts. Private to module sim; pure
+// Items of plans on the wire: their two forms, and which items a vehicle accepts. Private to module sim; pure
 // functions.
 //
-// MISSION_ITEM_INT and MISSION_ITEM carry the same item; the latter has x and y as float degrees. Sources: MAVLink
+// MISSION_ITEM_INT and MISSION_ITEM carry the same item; MISSION_ITEM has x and y as float degrees. Sources: MAVLink
 // guide, "Mission Protocol"; PX4 1.17.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace mavloom::sim {
 
-// Empty: not a type of which a vehicle keeps a plan.
+// Empty if a vehicle keeps no plan of this type.
 [[nodiscard]] std::optional<PlanType> plan_type(std::uint8_t mission_type) noexcept;
 
 [[nodiscard]] PlanItem item_of(const msg::MissionItemInt& message) noexcept;

@@ -2,10 +2,10 @@
 // The mission protocol: upload and download of missions, fences and rally points. Private to module sim; single owner.
 // Source: MAVLink guide, "Mission Protocol".
 //
-// A transfer belongs to a client and a type of plan. One client at a time may upload a type; items arrive in a buffer
-// that replaces the plan only at the end. While an upload waits for an item, the service repeats its request every 250
-// ms; 5 s after the client's last message it gives up, and the old plan stays. Downloads need no order and no final
-// MISSION_ACK.
+// A transfer belongs to a client and a type of plan. One client at a time may upload a type. Its items are buffered and
+// replace the plan only at the end. While an upload waits for an item, the service repeats its request every 250 ms. If
+// the client sends nothing for 5 s, the service gives up, and the old plan stays. A client may download items in any
+// order and need not send the final MISSION_ACK.
 #pragma once
 
 #include <optional>
@@ -59,7 +59,7 @@ private:
     };
     struct Reached {
         std::uint16_t seq = 0;
-        int repeats = 0;  // that are still to come
+        int repeats = 0;  // still to come
         FlightTime due{};
     };
 
@@ -83,7 +83,7 @@ private:
     void ask(Transfer& transfer, Moment now);
     void send_count(Transfer& transfer, Moment now);
     void acknowledge(const Client& to, std::uint8_t mission_type, std::uint8_t result, std::uint32_t plan_id = 0);
-    // False: the transfer is over.
+    // Returns false once the transfer is over.
     [[nodiscard]] bool keep_alive(Transfer& transfer, Moment now);
 
     [[nodiscard]] Transfer* find(const Client& client, PlanType type) noexcept;

@@ -2,7 +2,7 @@
 // The logs that a vehicle has recorded, for download. Private to module sim; single owner.
 //
 // Their content is computed from system id and number, so that logs take no memory: a header that readers of the format
-// accept, then records of one length. PX4 writes ULog, ArduPilot DataFlash. Sources: PX4 guide, "ULog File Format";
+// accept, then records of a fixed length. PX4 writes ULog, ArduPilot DataFlash. Sources: PX4 guide, "ULog File Format";
 // ArduPilot's developer documentation, "Log Message Types".
 #pragma once
 
@@ -24,9 +24,9 @@ public:
     static constexpr Nanoseconds record_interval = std::chrono::milliseconds{20};
 
     [[nodiscard]] std::uint32_t size() const noexcept { return size_; }
-    // Bytes written, fewer than asked for at the end.
+    // Returns the number of bytes written to `out`: fewer than requested at the end of the log.
     std::size_t read(std::uint32_t offset, ByteSpan out) const noexcept;
-    // The header, and where the first record begins.
+    // The size of the header. The first record begins there.
     [[nodiscard]] std::uint32_t header_size() const noexcept { return static_cast<std::uint32_t>(header_.size()); }
     [[nodiscard]] std::uint32_t record_size() const noexcept;
 

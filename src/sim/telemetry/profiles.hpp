@@ -11,7 +11,7 @@
 
 namespace mavloom::sim {
 
-// Condition of a row. A client that asks for the message gets it without one.
+// The condition of a row. A client that requests the message gets it without this condition.
 enum class When : std::uint8_t {
     always,
     armed,   // while the vehicle is armed
@@ -31,7 +31,7 @@ struct StreamRate {
 // The rows of a profile, in no particular order.
 [[nodiscard]] std::span<const StreamRate> rates_of(Profile profile) noexcept;
 
-// Condition that holds for the whole life of a vehicle. `armed` and `once` count as held.
+// Whether the condition can hold for this vehicle. `armed` and `once` change during its life and count as holding.
 [[nodiscard]] bool holds(When when, const VehicleOptions& options) noexcept;
 
 // A group of messages that REQUEST_DATA_STREAM switches together (MAV_DATA_STREAM), as ArduPilot has them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When each message is due on each link. Private to module sim; single owner; `run` allocates nothing.
+// Sends each message on each link when it is due. Private to module sim; single owner; `run` allocates nothing.
 //
 // Every stream has absolute deadlines, start + phase + n * interval, so rates do not drift. After a stall, each stream
 // sends once; the instants that it missed are skipped and counted. Phases depend on the vehicle and differ between
@@ -27,7 +27,7 @@ public:
     // Starts the streams of the link's profile, and sends the first HEARTBEAT.
     void open(LinkId link, const LinkOptions& options, const View& view, FlightTime now);
     void close(LinkId link);
-    // All streams back to the profiles, as after a boot.
+    // Returns all streams to the rates of their profiles, as after a boot.
     void reset(FlightTime now);
     // Call it after a parameter changed: some of ArduPilot's set the rates of groups of its profile.
     void retune(FlightTime now);
@@ -39,15 +39,18 @@ public:
     void run(const View& view, FlightTime at, FlightTime now);
     // Sends these messages at once on every link that streams them, without moving their deadlines.
     void send_now(const View& view, std::span<const MessageId> messages);
-    // Sends one message to one link, whether it is streamed or not. False: unknown, or there is nothing to report.
+    // Sends one message to one link, whether it is streamed or not. Returns false if the message is unknown or there is
+    // nothing to report.
     bool send_once(const View& view, LinkId link, MessageId message);
 
-    // Changes one stream; empty: back to the profile's rate; 0: off. False if the firmware does not stream this
-    // message, and for HEARTBEAT, which always runs at its rate. A change starts the stream's statistics again.
+    // Changes the interval of one stream. An empty `interval` restores the profile's rate; 0 turns the stream off.
+    // Returns false if the firmware does not stream this message, and for HEARTBEAT, whose rate is fixed. A change
+    // resets the stream's statistics.
     bool set_interval(LinkId link, MessageId message, std::optional<Nanoseconds> interval, FlightTime now);
-    // As asked for, before the bandwidth limit. Empty: unknown message; 0: off.
+    // The requested interval, before the bandwidth limit. Empty: unknown message; 0: off.
     [[nodiscard]] std::optional<Nanoseconds> interval(LinkId link, MessageId message) const noexcept;
-    // Multiplies the share of the link's bandwidth that telemetry may use. It stays between 0.05 and 1, its start.
+    // Multiplies the share of the link's bandwidth that telemetry may use. The share starts at 1 and stays between 0.05
+    // and 1.
     void scale_share(LinkId link, double factor, FlightTime now);
 
     [[nodiscard]] std::vector<StreamReport> reports(LinkId link) const;
@@ -58,7 +61,7 @@ private:
         const Projection* projection;
         When when = When::always;
         std::uint32_t number = 0;  // messages sent so far
-        Nanoseconds asked{};       // as the client or the profile wants it; 0: off
+        Nanoseconds asked{};       // as requested by the client or the profile; 0: off
         Nanoseconds interval{};    // after the bandwidth limit; 0: off, or a service sends the message
         // Statistics. `left_out` is time without messages between `first` and `last`: skipped instants, and instants
         // at which there was nothing to report. `pending` becomes part of it with the next message.

@@ -62,7 +62,4 @@ struct Projection {
 // Null if the firmware does not know the message.
 [[nodiscard]] const Projection* find_projection(MessageId id, bool is_px4) noexcept;
 
-// `motion=random`: values of the original generator in the place of flight, coherent among each other.
-// (Such a vehicle has no dynamics; its Flight follows a random path.)
-
 }  // namespace mavloom::sim

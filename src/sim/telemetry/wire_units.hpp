@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Values in the units of the wire. Private to module sim. No value overflows: integers saturate, and NaN becomes 0.
+// Converts values to the units of messages. Private to module sim. No value overflows: integers saturate, and NaN
+// becomes 0.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,7 @@ template <class Int>
 [[nodiscard]] inline std::uint16_t to_centidegrees(double radians) noexcept {
     return static_cast<std::uint16_t>(std::lrint(to_degrees(radians) * 100) % 36000);
 }
-// An angle in 0 to 2 pi as whole degrees, 0 to 359, cut off as PX4 does.
+// An angle in 0 to 2 pi as whole degrees, 0 to 359, truncated as in PX4.
 [[nodiscard]] inline std::uint16_t to_whole_degrees(double radians) noexcept {
     return static_cast<std::uint16_t>(static_cast<int>(to_degrees(radians)) % 360);
 }

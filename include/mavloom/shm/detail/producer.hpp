@@ -7,8 +7,8 @@
 //           record as being written
 //   commit  stores the length, the marks and `tail`, then wakes sleeping readers
 //
-// A writer that is killed at any point leaves `tail` unchanged. Every record before `tail` is complete; nothing behind
-// it counts.
+// A writer that is killed at any point leaves `tail` unchanged. Every record before `tail` is complete; anything after
+// it is ignored.
 #pragma once
 
 #include <bit>
@@ -59,8 +59,8 @@ public:
         return Room::there;
     }
 
-    // Where the caller writes the claimed payload with plain stores. A lossy reader that is lapped at that moment may
-    // copy a mixture of old and new bytes. It then discards the copy (see extend()).
+    // The memory into which the caller writes the claimed payload with plain stores. A lossy reader that is lapped at
+    // that moment may copy a mixture of old and new bytes. It then discards the copy (see extend()).
     [[nodiscard]] std::uint8_t* payload() const noexcept {
         return reinterpret_cast<std::uint8_t*>(record_ + header_words);
     }

@@ -108,7 +108,7 @@ template <class Words>
     return std::nullopt;
 }
 
-// Returns the newest mark. In a reader, the writer may have overtaken the mark; then it returns nothing.
+// Returns the newest mark. For a reader, the result is empty if the writer has overtaken that mark.
 template <class Words>
 [[nodiscard]] std::optional<Mark> newest_mark(const RingMemory<Words>& ring) noexcept {
     const std::uint64_t tail = ring.control->tail.load(std::memory_order_acquire);  // pairs with Producer::commit()

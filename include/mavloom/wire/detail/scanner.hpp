@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds frames in bytes, for the datagram and the stream parser. It steps from frame to frame by their lengths and
-// checks each one. After anything that is not a good frame it continues at the next byte, so it finds every intact
-// frame that overlaps no damaged byte. One owner thread; allocates nothing after construction.
+// Finds frames in bytes, for the datagram and the stream parser. It steps from frame to frame by the frames' lengths
+// and checks each frame. After anything that is not a good frame it continues at the next byte, so it finds every
+// intact frame that overlaps no damaged byte. One owner thread; allocates nothing after construction.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ public:
     explicit Scanner(const MessageTable& table) : table_(&table) {}
 
     // Consumes the bytes that already form a frame or junk, calls sink(const ParseEvent&) for each event, and returns
-    // the number of bytes consumed. The scanner may also read `slack` bytes behind `bytes`; their values do not matter.
+    // the number of bytes consumed. The scanner may also read `slack` bytes after `bytes`; their values do not matter.
     // With at least `enough_slack`, it checks frames at the end of `bytes` as fast as all others.
     template <class Sink>
     std::size_t scan(ByteView bytes, End end, Sink&& sink, std::size_t slack = 0) {

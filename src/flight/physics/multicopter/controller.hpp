@@ -8,19 +8,19 @@
 
 namespace mavloom::flight {
 
-// Full thrust in relation to weight: the vehicle hovers at half of it.
+// Acceleration by full thrust: the vehicle hovers at half thrust.
 inline constexpr double full_thrust = 2 * gravity;  // m/s^2
-// Turning acceleration of a full moment about each axis, rad/s^2.
+// Angular acceleration by a full moment about each axis, rad/s^2.
 inline const Vector3 full_moment{120, 120, 20};
 
 class Controller {
 public:
-    // Forgets what the loops learned of wind and battery.
+    // Forgets what the loops have learned about wind and battery.
     void reset() { learned_ = Vector3::Zero(); }
-    // The vehicle leaves the ground at `thrust`: the loops shall keep that.
+    // The vehicle leaves the ground at `thrust`; the loops start from that thrust.
     void lift_off(double thrust) { learned_ = {0, 0, gravity - thrust * full_thrust}; }
 
-    // Each returns what the rotors shall do in this step.
+    // Each returns the moments and thrust for this step of the rotors.
     [[nodiscard]] Moments follow(const MotionTarget& target, const Setpoint& setpoint, const Kinematics& motion);
     [[nodiscard]] Moments hold(const Quaternion& attitude, double yaw_rate, double thrust, const Kinematics& motion);
     [[nodiscard]] Moments turn(const Vector3& rates, double thrust, const Kinematics& motion);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small quadrotor: a rigid body with four motors that lag, drag against the air, and legs. Private to flight;
+// A small quadrotor: a rigid body with drag, legs, and four motors that lag. Private to flight;
 // single owner; nothing allocates. Forces and moments are per mass and per moment of inertia.
 #pragma once
 
@@ -18,7 +18,7 @@ private:
     [[nodiscard]] Moments control_path(const Setpoint& setpoint);
     [[nodiscard]] Moments control_on_ground(const Setpoint& setpoint);
     void move(const Surroundings& around);
-    // The acceleration with the push of the legs, and the rates that they leave.
+    // Return the acceleration including the push of the legs, and the body rates that remain after that push.
     [[nodiscard]] Vector3 legs(double push, double depth, const Vector3& acceleration) const;
     [[nodiscard]] Vector3 rates_after(double push) const;
     void report(double supply);

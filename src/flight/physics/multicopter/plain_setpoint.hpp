@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Set-points without numbers that a controller cannot follow. Private to flight; pure functions.
+// Finds and removes numbers in set-points that a controller cannot follow, such as misplaced NaNs or huge values.
+// Private to flight; pure functions.
 #pragma once
 
 #include "flight/physics/airframe.hpp"
 
 namespace mavloom::flight {
 
-// True if every number is `nan` where that means "not given", and of a sensible size elsewhere.
+// True if every number is within sensible limits. `nan` is allowed where it means "not given".
 [[nodiscard]] bool is_plain(const Setpoint& setpoint) noexcept;
-// The set-point with every other number not given, or at its default.
+// Returns the set-point with all other numbers replaced by "not given" or by their defaults.
 [[nodiscard]] Setpoint made_plain(const Setpoint& setpoint);
 
 }  // namespace mavloom::flight

@@ -20,8 +20,8 @@ class Rotors {
 public:
     static constexpr std::size_t count = 4;
 
-    // Advances by one step: outputs within 0 to 1, thrusts that follow with the motors' lag. If outputs saturate, yaw
-    // yields first, then thrust.
+    // Advances by one step. Outputs stay within 0 to 1, and the thrusts follow them with the motors' lag. If outputs
+    // saturate, yaw is reduced first, then thrust.
     void step(const Moments& wanted, double lag_share) noexcept;
     void reset() noexcept { *this = {}; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Motion without jerks: laws that bring a value to its goal within limits of its derivatives. Private to flight;
+// Smooth motion: functions that bring a value to its goal while its derivatives stay within limits. Private to flight;
 // pure functions.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace mavloom::flight {
 
-// The rate at which an error may be closed, so that the rate itself can always be brought to zero with `deceleration`:
-// proportional to a small error (`gain`, 1/s), and the square-root law of braking for a large one.
+// Returns the rate at which to close an error, such that `deceleration` can always bring the rate to zero in time. It
+// is proportional to a small error (`gain`, 1/s), and follows the square-root law of braking for a large one.
 [[nodiscard]] inline double closing_speed(double error, double gain, double deceleration) noexcept {
     const double knee = deceleration / (gain * gain);
     const double size = std::abs(error);
@@ -17,7 +17,7 @@ namespace mavloom::flight {
     return std::copysign(std::sqrt(2 * deceleration * (size - knee / 2)), error);
 }
 
-// `from` moved towards `to` by at most `most`.
+// Returns `from`, moved towards `to` by at most `most`.
 [[nodiscard]] inline double moved_towards(double from, double to, double most) noexcept {
     return from + std::clamp(to - from, -most, most);
 }

@@ -7,7 +7,7 @@
 
 namespace mavloom::flight {
 
-// Where the vehicle shall be now, and how it shall move there. `nan`: not controlled.
+// Where the vehicle should be now, and how it should move there. `nan`: not controlled.
 struct MotionTarget {
     Vector3 position = no_vector, velocity = no_vector;
     Vector3 acceleration = Vector3::Zero();

@@ -2,8 +2,8 @@
 // Aerodynamics of a small plane: lift, drag, side force and thrust. Private to flight; pure functions.
 //
 // The numbers describe a model plane of 1.5 kg with 0.4 m^2 of wing: it stalls at 7 m/s and cruises at 15. Lift is
-// linear up to the stall, then that of a flat plate. Source of the formulas: Beard and McLain, "Small Unmanned
-// Aircraft" (2012), chapter 4.
+// linear up to the stall; beyond it, the wing lifts like a flat plate. Source of the formulas: Beard and McLain, "Small
+// Unmanned Aircraft" (2012), chapter 4.
 #pragma once
 
 #include "flight/physics/rotation.hpp"
@@ -19,7 +19,7 @@ inline constexpr double stall_angle = to_radians(13);
 inline constexpr double safe_angle = to_radians(10);
 inline constexpr double cruise_speed = 15;  // m/s, airspeed
 
-// How the air meets the plane.
+// The flow of air past the plane.
 struct Airflow {
     Vector3 body = Vector3::Zero();  // velocity relative to the air, body frame
     double speed = 0;                // m/s
@@ -30,9 +30,9 @@ struct Airflow {
 
 [[nodiscard]] double lift_coefficient(double attack);
 [[nodiscard]] double drag_coefficient(double attack);
-// Newtons in the body frame, without gravity. `motor` is the motor's speed, 0 to 1.
+// The force in newtons, body frame, without gravity. `motor` is the motor's speed, 0 to 1.
 [[nodiscard]] Vector3 force(const Airflow& air, double motor);
-// Newtons at full motor speed.
+// The thrust in newtons at full motor speed.
 [[nodiscard]] double full_thrust(double airspeed) noexcept;
 
 }  // namespace mavloom::flight::wing

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The autopilot of a plane: from a set-point to an attitude and a throttle. Private to flight; single owner;
+// The autopilot of a plane: converts a set-point to an attitude and a throttle. Private to flight; single owner;
 // nothing allocates.
 //
 // Altitude and airspeed share one budget of energy: the throttle provides the energy that climb and acceleration need,
-// and pitch shares it out. When the air is too slow, speed comes first. Source of the idea: PX4 user guide, "Fixed-wing
-// altitude/airspeed controller".
+// and pitch divides it between them. When the airspeed is too low, speed comes first. Source of the idea: PX4 user
+// guide, "Fixed-wing altitude/airspeed controller".
 #pragma once
 
 #include <optional>
