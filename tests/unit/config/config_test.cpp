@@ -181,6 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"[router]\n\ndedup_ms = -1\n", "r.toml:3: dedup_ms: '-1' is not a whole number"},
         Bad{"[router]\nunknown_target = \"floot\"\n", "did you mean 'flood'?"},
         Bad{"[router]\nroute_timeout = 2024-01-01\n", "of the wrong type"},
+        Bad{"[router]\nroute_timeout = \"0s\"\n", "r.toml:2: route_timeout: the timeout of routes must be above 0"},
         Bad{"[router]\nheartbeat = \"255\"\n", "neither off nor SYS/COMP"},
         Bad{"[[endpoint]]\nurl = \"udpin://0.0.0.0:1\"\nheartbeat = true\n",
             "r.toml:3: heartbeat=true needs heartbeat = \"SYS/COMP\" in [router]"},

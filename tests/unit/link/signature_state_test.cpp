@@ -7,6 +7,9 @@
 #include <fstream>
 
 #include "link/core/core.hpp"
+#include "link/signing/late_frames.hpp"
+#include "link/signing/signature.hpp"
+#include "support/golden_frames.hpp"
 #include "support/temp_dir.hpp"
 
 namespace mavloom::link::detail {
@@ -216,6 +219,37 @@ TEST_F(SigningTimes, WhatIsNewIsWrittenWhileItRuns) {
     const auto expected = fmt::format("mavloom signing times 1\nsigned 0\n{}heard 0 0 7 5\n", key_line);
     while (content(file) != expected && mono_now() < deadline) std::this_thread::yield();
     EXPECT_EQ(content(file), expected);
+}
+
+// Signed by pymavlink with the key of SetUp, at 500,000,000 s after 2015, one second later, and two seconds later.
+const std::array signed_in_turn{
+    test::hex("fd090100000101000000000000000203000403ad2f0000203d88792dcb8d7240623f"),
+    test::hex("fd090100010101000000000000000203000403bda100a0a63e88792d95625c163a12"),
+    test::hex("fd0901000201010000000000000002030004039c3b00402d4088792d328a82fa5632"),
+};
+
+// The second link's own verifier has seen nothing, so only what the group heard tells that the frame is old.
+TEST_F(SigningTimes, InAGroupAFrameThatCameLongAgoIsNotTakenFromAnotherLink) {
+    constexpr WallTime now{std::chrono::seconds{1'420'070'400 + 500'000'000}};
+    KeyStates states;
+    auto of_group = options(false, true);
+    of_group.group = "radios";
+    const auto first = Signature::load(of_group, 0, states, notices),
+               second = Signature::load(of_group, 0, states, notices);
+    ASSERT_TRUE(first && second);
+    const auto accepts = [&](const auto& signature, std::size_t n) {
+        return (*signature)->accepts(wire::FrameView::unchecked(signed_in_turn[n]), now);
+    };
+
+    EXPECT_TRUE(accepts(first, 0));
+    EXPECT_TRUE(accepts(second, 0));
+    std::this_thread::sleep_for(LateFrames::least);
+    EXPECT_TRUE(accepts(first, 1));
+    std::this_thread::sleep_for(LateFrames::least);
+    EXPECT_TRUE(accepts(first, 2));
+    std::this_thread::sleep_for(LateFrames::least);
+    EXPECT_FALSE(accepts(second, 1));
+    EXPECT_TRUE(accepts(second, 2));
 }
 
 TEST(KeyStates, WithoutAKeyThereIsNothingToDo) { EXPECT_EQ(KeyStates().due(), MonoTime::max()); }
