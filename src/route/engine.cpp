@@ -466,7 +466,7 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
 }
 
 EgressLimiter::Answer Engine::Impl::limit(Link& link, const Passage& p) noexcept {
-    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.now);
+    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.link.policy.is_verified, p.now);
     if (answer == EgressLimiter::Answer::rate_limited) link.counters.out_rate_limited.add();
     if (answer == EgressLimiter::Answer::bytes_limited) link.counters.out_bytes_limited.add();
     return answer;

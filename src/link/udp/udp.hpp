@@ -105,7 +105,7 @@ public:
 private:
     struct Part {  // one datagram of the batch being built
         UdpPeer* peer;
-        net::BlockQueue::Position until;
+        net::LaneQueue::Position until;
         std::uint32_t frames, bytes;
     };
 
