@@ -78,7 +78,8 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     link.counters.frames.add();
     count(link.counters, verdict);
     if (verdict != Verdict::forwarded) each_word(words_, [&](std::size_t w) { candidates_[w] = 0; });
-    if (has_taps_ && verdict != Verdict::tap) add_taps(p);
+    if (has_taps_ && verdict != Verdict::tap) [[unlikely]]
+        add_taps(p);
     if (p.is_copy) [[unlikely]]
         unite(recent_.sent(p.recent), candidates_.data(), words_);
     else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
@@ -121,7 +122,8 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
         leave_out(recent_.heard(p.recent), Reason::source_here);
         if (!any(candidates_.data(), words_)) return Verdict::duplicate;
     }
-    if (!has_limits_) return Verdict::forwarded;
+    if (!has_limits_) [[likely]]
+        return Verdict::forwarded;
     apply_limits(p);
     return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
 }

@@ -27,10 +27,10 @@ public:
 
     explicit LaneQueue(const BlockQueue::Limits& limits) noexcept : lanes_{BlockQueue(limits), BlockQueue(limits)} {}
 
+    // Push to the lane. Do everything else through LaneQueue.
+    [[nodiscard]] BlockQueue& lane(Lane lane) noexcept { return lanes_[static_cast<std::size_t>(lane)]; }
+
     // See BlockQueue for all that follows.
-    BlockQueue::Pushed push(Lane lane, ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
-        return at(lane).push(block, block_class, key, now);
-    }
     std::uint32_t expire(MonoTime now) noexcept { return first().expire(now) + second().expire(now); }
 
     [[nodiscard]] bool empty() const noexcept { return first().empty() && second().empty(); }
@@ -47,21 +47,20 @@ public:
     }
     void pop(Position until) noexcept {
         if (until.lane == Lane::second && !first().empty()) first().clear();
-        at(until.lane).pop(until.place);
+        lane(until.lane).pop(until.place);
     }
 
     [[nodiscard]] std::size_t pieces(std::span<iovec> room, std::size_t max_bytes = SIZE_MAX) const noexcept {
         const bool only_ends_a_block = second().has_begun() && !first().empty();
         return at(streaming()).pieces(room, only_ends_a_block ? 0 : max_bytes);
     }
-    std::size_t consume(std::size_t bytes) noexcept { return at(streaming()).consume(bytes); }
+    std::size_t consume(std::size_t bytes) noexcept { return lane(streaming()).consume(bytes); }
     void rewind() noexcept {
         first().rewind();
         second().rewind();
     }
 
 private:
-    [[nodiscard]] BlockQueue& at(Lane lane) noexcept { return lanes_[static_cast<std::size_t>(lane)]; }
     [[nodiscard]] const BlockQueue& at(Lane lane) const noexcept { return lanes_[static_cast<std::size_t>(lane)]; }
     [[nodiscard]] BlockQueue& first() noexcept { return lanes_[0]; }
     [[nodiscard]] BlockQueue& second() noexcept { return lanes_[1]; }

@@ -100,7 +100,7 @@ public:
 
     // Signs the frame if the endpoint has sign=, and queues it in the first lane. Returns true if it was queued.
     static bool send(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, net::Lane::first, departure, signed_for(link, departure.frame()), now);
+        return queue(link, link.queue.lane(net::Lane::first), departure, signed_for(link, departure.frame()), now);
     }
     bool send(Link& link, const wire::FrameView& frame) const {
         Departure departure(frame);
@@ -108,12 +108,13 @@ public:
     }
     // Queues the frame unchanged, in the second lane.
     static bool send_unverified(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, net::Lane::second, departure, departure.frame(), now);
+        return queue(link, link.queue.lane(net::Lane::second), departure, departure.frame(), now);
     }
 
 private:
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
-    static bool queue(Link& link, net::Lane lane, Departure& departure, const wire::FrameView& frame, MonoTime now);
+    static bool queue(Link& link, net::BlockQueue& lane, Departure& departure, const wire::FrameView& frame,
+                      MonoTime now);
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
     void on_bad_bytes(Link& link, const wire::ParseEvent& event);
     void run_tickers();

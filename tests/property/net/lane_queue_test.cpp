@@ -52,7 +52,7 @@ public:
         const Bytes block(*rc::gen::inRange<std::size_t>(1, 60), fill);
         const auto block_class = *rc::gen::inRange<std::uint8_t>(0, 3);
         const auto key = *rc::gen::inRange<std::uint64_t>(0, 4);
-        const auto pushed = sut_.push(lane, block, block_class, key, now);
+        const auto pushed = sut_.lane(lane).push(block, block_class, key, now);
         const auto expected = alone(lane).push(block, block_class, key, now);
         RC_ASSERT(pushed.queued == expected.queued);
         RC_ASSERT(pushed.dropped == expected.dropped);
@@ -143,7 +143,7 @@ RC_GTEST_PROP(LaneQueue, DatagramsOfTheFirstLaneComeFirstAndNeverHoldBoth, ()) {
     for (const Lane lane : {Lane::first, Lane::second})
         for (const std::uint8_t fill : fills)
             if (lane_of(fill) == lane) expected.insert(expected.end(), 1 + fill % 50, fill);
-    for (const std::uint8_t fill : fills) queue.push(lane_of(fill), Bytes(1 + fill % 50, fill), 2, 0, MonoTime{});
+    for (const std::uint8_t fill : fills) queue.lane(lane_of(fill)).push(Bytes(1 + fill % 50, fill), 2, 0, MonoTime{});
 
     const Datagrams all = gathered(queue, mtu);
     Bytes bytes;
