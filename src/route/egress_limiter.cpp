@@ -30,8 +30,8 @@ void EgressLimiter::spend(double& tokens, double bytes) const noexcept {
     tokens = std::max(tokens - bytes, -static_cast<double>(*bytes_per_s_));
 }
 
-[[gnu::noinline]] EgressLimiter::Answer EgressLimiter::admit(const wire::FrameView& frame, bool essential, bool is_verified,
-                                           MonoTime now) noexcept {
+[[gnu::noinline]] EgressLimiter::Answer EgressLimiter::admit(const wire::FrameView& frame, bool essential,
+                                                             bool is_verified, MonoTime now) noexcept {
     const auto rate = rates_.ask(frame, now, is_verified ? 1 : 0);
     if (!rate.admitted) return Answer::rate_limited;
     if (bytes_per_s_) {
