@@ -196,6 +196,17 @@ def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
         assert link["frames_in"] == sum(verdicts.values())
 
 
+def test_ctl_add_moves_no_file_away_that_is_no_recording(net, ctl, tmp_path):
+    sut = net(("udpout",))
+    hosts = tmp_path / "hosts"
+    hosts.write_text("127.0.0.1 localhost\n")
+    refused = ctl(sut.router, "add", f"tlog://{hosts}")
+
+    assert refused.status == 1 and f"{hosts} exists and is no tlog recording" in refused.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["hosts"]
+    assert hosts.read_text() == "127.0.0.1 localhost\n"
+
+
 def test_ctl_add_and_remove_while_it_runs(net, ctl):
     sut = net(("udpout", "tcpin"))
     port, near = UdpEnd(), routers.udp_port()
