@@ -1248,10 +1248,11 @@ def test_a_recording_is_no_link(net, tmp_path):
 
 def test_an_old_recording_is_kept(spawn, tmp_path):
     log = tmp_path / "x.tlog"
-    log.write_bytes(b"precious")
+    frames.write_tlog(log, [(1, attitude())])
+    precious = log.read_bytes()
     Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", f"tlog://{log}").process.stop()
 
-    assert (tmp_path / "x.tlog.1").read_bytes() == b"precious"
+    assert (tmp_path / "x.tlog.1").read_bytes() == precious
     assert log.read_bytes() == b""
 
 

@@ -31,7 +31,19 @@ bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     return found;
 }
 
+// Such a source is forged: nobody could receive an answer there, or the socket itself or a whole network would.
+bool UdpPeers::may_be_peer(const UdpPort& port, const net::Address& sender) {
+    const net::Address from = sender.unmapped();
+    if (from.port() == 0 || from.is_any() || from.is_multicast()) return false;
+    if (from.port() == port.socket().local().port() && own_.contains(from, core_.now())) return false;
+    return !own_.has_broadcast(from, core_.now());
+}
+
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
+    if (!may_be_peer(port, *datagram.from)) {
+        endpoint_.counters.bad_source.add();
+        return nullptr;
+    }
     if (!admission_.admits(*datagram.from, core_.now())) {
         endpoint_.counters.peers_refused.add();
         return nullptr;

@@ -9,6 +9,7 @@
 #include "link/admission.hpp"
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
+#include "mavloom/net/interfaces.hpp"
 
 namespace mavloom::link::detail {
 
@@ -52,6 +53,7 @@ public:
 
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
+    [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool make_room();
@@ -63,6 +65,7 @@ private:
     Nanoseconds idle_;
     wire::DatagramParser stranger_;
     Admission admission_;
+    net::OwnAddresses own_;
     PeerList<UdpPeer> peers_;
     std::size_t confirmed_ = 0;  // peers
     net::TimerId expiry_;
