@@ -52,6 +52,7 @@ auto losses_of(const feed::Totals& t) {
         Named{"unknown_flags", "frame", "with an unknown incompatibility flag", t.unknown_flags},
         Named{"bad_signature", "frame", "without a good signature", t.bad_signature},
         Named{"wrong_peer", "datagram", "from an address other than the destination", t.wrong_peer},
+        Named{"bad_source", "datagram", "from an address that can be no peer's", t.bad_source},
         Named{"stray_bytes", "byte",
               "from unknown senders, in datagrams without a valid (verify=: correctly signed) frame", t.stray_bytes},
         Named{"peers_refused", "peer", "refused because max_peers was reached", t.peers_refused},

@@ -44,6 +44,11 @@ tl::unexpected<SetupError> served(const std::filesystem::path& socket) {
         fmt::format("{} is served by another process; give this one another name with --name", socket.string()));
 }
 
+std::string in_the_way(const std::filesystem::path& socket, const struct stat& status) {
+    const std::string_view what = S_ISDIR(status.st_mode) ? "folder" : S_ISLNK(status.st_mode) ? "link" : "file";
+    return fmt::format("a {} is in the place of the socket {}; remove it", what, socket.string());
+}
+
 // Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock
 // however the router ends. With mode 0600, other users cannot open the file and hold the lock. A router that gets the
 // lock may remove a socket left behind, because the router that created it is gone.
@@ -204,16 +209,18 @@ private:
         }
     }
 
-    // Another program may have removed the socket or its folder.
+    // Another program may have removed the socket or its folder, or put something else in its place.
     void look_at_socket() {
-        if (::faccessat(AT_FDCWD, socket_.c_str(), F_OK, AT_SYMLINK_NOFOLLOW) == 0 || errno != ENOENT) return;
+        const ino_t there = inode_of(socket_);
+        if (there == inode_ && there != 0) return;
+        const std::string_view what = there == 0 ? "removed" : "replaced";
         ::mkdir(socket_.parent_path().c_str(), 0755);
         control_.close();
         const auto anew = open_socket(socket_);
         if (anew) control_.accept();
-        if (anew) tell(fmt::format("control socket {} was removed; it is created again", socket_.string()));
+        if (anew) tell(fmt::format("control socket {} was {}; it is created again", socket_.string(), what));
         else if (!reported_)
-            tell(fmt::format("control socket {} was removed: {}", socket_.string(), anew.error().text));
+            tell(fmt::format("control socket {} was {}: {}", socket_.string(), what, anew.error().text));
         reported_ = !anew;
     }
     void tell(std::string text) const {
@@ -228,8 +235,9 @@ private:
         const int error = ::connect(probe.get(), there.data(), static_cast<socklen_t>(there.size())) == 0 ? 0 : errno;
         if (error == 0 || error == EAGAIN) return served(path);
         struct stat status {};
-        const bool is_left = error == ECONNREFUSED && ::lstat(path.c_str(), &status) == 0;
-        if (is_left && S_ISSOCK(status.st_mode)) ::unlink(path.c_str());
+        if (::lstat(path.c_str(), &status) != 0) return {};
+        if (!S_ISSOCK(status.st_mode)) return setup_error(SetupCode::in_use, in_the_way(path, status));
+        if (error == ECONNREFUSED) ::unlink(path.c_str());
         return {};
     }
 

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <chrono>
@@ -15,7 +17,8 @@
 
 namespace mavloom::control {
 
-namespace http = boost::beast::http;
+namespace beast = boost::beast;
+namespace http = beast::http;
 
 constexpr auto http_patience = std::chrono::seconds(5);
 
@@ -71,15 +74,22 @@ void MetricsSession::handle() {
             parser.keep_alive()});
 }
 
-// The host without port is "localhost", or the address that the client is connected to.
-bool MetricsSession::is_host_of_this_machine(std::string_view host) const {
+// Returns the name without port, brackets and the dot that may end a full name.
+static std::string_view name_in(std::string_view host) {
     const auto bracket = host.find(']');
-    const auto colon = host.find(':', bracket == std::string_view::npos ? 0 : bracket);
-    host = host.substr(0, colon);
+    if (host.starts_with('[')) return host.substr(1, bracket == std::string_view::npos ? 0 : bracket - 1);
+    host = host.substr(0, host.find(':'));
+    return host.ends_with('.') ? host.substr(0, host.size() - 1) : host;
+}
+
+// "localhost", a loopback address, or the address that the client is connected to. Other names may lead here too, also
+// those of web pages.
+bool MetricsSession::is_host_of_this_machine(std::string_view host) const {
+    const auto name = name_in(host);
+    if (beast::iequals({name.data(), name.size()}, "localhost")) return true;
     error_code error;
-    const auto address = socket_.local_endpoint(error).address();
-    return host == "localhost" ||
-           host == (address.is_v6() ? fmt::format("[{}]", address.to_string()) : address.to_string());
+    const auto address = asio::ip::make_address(name, error);
+    return !error && (address.is_loopback() || address == socket_.local_endpoint(error).address());
 }
 
 static MetricsReports::Text text_of(std::string_view text) { return std::make_shared<const std::string>(text); }

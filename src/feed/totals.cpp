@@ -14,6 +14,7 @@ void Totals::add(const link::LinkCounters& counters) noexcept {
 void Totals::add(const link::EndpointCounters& counters) noexcept {
     kernel_drop += counters.kernel_drop.value();
     wrong_peer += counters.wrong_peer.value();
+    bad_source += counters.bad_source.value();
     stray_bytes += counters.stray_bytes.value();
     peers_refused += counters.peers_refused.value();
     add(counters.gone);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mavloom/link/links.hpp"
-#include "mavloom/net/block_queue.hpp"
+#include "mavloom/net/lane_queue.hpp"
 #include "mavloom/wire/sequence.hpp"
 
 namespace mavloom::link::detail {
@@ -51,7 +51,8 @@ struct Link {
     bool finds_in_ring = false;
     Signature* signature = nullptr;
     LinkCounters counters;
-    net::BlockQueue queue;
+    // Frames from verified senders, and the program's own, use the first lane.
+    net::LaneQueue queue;
     wire::SequenceTracker tracker;
 
 private:

@@ -166,12 +166,12 @@ std::size_t Links::send(std::span<const LinkId> links, const wire::FrameView& fr
     return taken;
 }
 
-std::size_t Links::send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) {
+std::size_t Links::send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) {
     Departure departure(frame);
     std::size_t not_signed = 0;
     for (const LinkId id : links) {
         Link* const link = core_->links.find(id);
-        if (link != nullptr && link->up && Core::send_unsigned(*link, departure, core_->now()) &&
+        if (link != nullptr && link->up && Core::send_unverified(*link, departure, core_->now()) &&
             link->signature != nullptr && link->signature->signs())
             ++not_signed;
     }

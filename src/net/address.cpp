@@ -75,6 +75,15 @@ bool Address::is_loopback() const noexcept {
     return is_v6() && (IN6_IS_ADDR_LOOPBACK(&v6) || (IN6_IS_ADDR_V4MAPPED(&v6) && v6.s6_addr[12] == 127));
 }
 
+Address Address::unmapped() const noexcept {
+    if (!is_v6() || !IN6_IS_ADDR_V4MAPPED(&storage_.v6.sin6_addr)) return *this;
+    Address v4;
+    v4.storage_.v4.sin_family = AF_INET;
+    v4.storage_.v4.sin_port = storage_.v6.sin6_port;
+    std::memcpy(&v4.storage_.v4.sin_addr, &storage_.v6.sin6_addr.s6_addr[12], sizeof v4.storage_.v4.sin_addr);
+    return v4;
+}
+
 bool Address::is_multicast() const noexcept {
     if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 28) == 0xe;
     return is_v6() && IN6_IS_ADDR_MULTICAST(&storage_.v6.sin6_addr);

@@ -29,8 +29,12 @@ BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, st
 void BlockQueue::append(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
     if (tail_ + block.size() > capacity_ || entries_.size() == entries_.capacity()) reserve(block.size());
     std::memcpy(memory_.get() + tail_, block.data(), block.size());
-    entries_.push_back(
-        {key, now, static_cast<std::uint32_t>(tail_), static_cast<std::uint32_t>(block.size()), block_class, 1});
+    entries_.push_back({.key = key,
+                        .queued = now,
+                        .offset = static_cast<std::uint32_t>(tail_),
+                        .size = static_cast<std::uint32_t>(block.size()) & Entry::largest_size,
+                        .block_class = block_class & Entry::largest_class,
+                        .live = 1});
     tail_ += block.size();
     bytes_ += block.size();
     class_bytes_[block_class] += block.size();

@@ -26,27 +26,37 @@ SetupResult<std::uint32_t> interface_index(const std::string& name) {
     return setup_error(SetupCode::not_found, fmt::format("there is no interface '{}'; there are {}", name, all_names()));
 }
 
-static std::vector<Address> read_addresses() {
-    std::vector<Address> found;
-    ifaddrs* list = nullptr;
-    if (getifaddrs(&list) != 0) return found;
-    for (const ifaddrs* it = list; it != nullptr; it = it->ifa_next) {
-        if (it->ifa_addr == nullptr) continue;
-        if (const auto address = Address::from_sockaddr(it->ifa_addr, Address::capacity))
-            found.push_back(address->with_port(0));
-    }
-    freeifaddrs(list);
-    return found;
+static void add_to(std::vector<Address>& list, const sockaddr* address) {
+    if (address == nullptr) return;
+    if (const auto found = Address::from_sockaddr(address, Address::capacity)) list.push_back(found->with_port(0));
 }
 
-bool OwnAddresses::contains(const Address& address, MonoTime now) {
+static void read_addresses(std::vector<Address>& own, std::vector<Address>& broadcasts) {
+    own.clear();
+    broadcasts.clear();
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return;
+    for (const ifaddrs* it = list; it != nullptr; it = it->ifa_next) {
+        add_to(own, it->ifa_addr);
+        if ((it->ifa_flags & IFF_BROADCAST) != 0) add_to(broadcasts, it->ifa_broadaddr);
+    }
+    freeifaddrs(list);
+}
+
+bool OwnAddresses::find(const std::vector<Address>& in, const Address& address, MonoTime now) {
     const Address host = address.with_port(0);
-    const auto is_known = [&] { return std::find(known_.begin(), known_.end(), host) != known_.end(); };
+    const auto is_known = [&] { return std::find(in.begin(), in.end(), host) != in.end(); };
     if (is_known()) return true;
     if (read_at_ != MonoTime{} && now - read_at_ < refresh_interval) return false;
-    known_ = read_addresses();
+    read_addresses(known_, broadcasts_);
     read_at_ = now;
     return is_known();
+}
+
+bool OwnAddresses::contains(const Address& address, MonoTime now) { return find(known_, address, now); }
+
+bool OwnAddresses::has_broadcast(const Address& address, MonoTime now) {
+    return address.is_broadcast() || find(broadcasts_, address, now);
 }
 
 }  // namespace mavloom::net

@@ -41,6 +41,32 @@ std::size_t record_length(ByteView bytes) noexcept {
     return length == 0 || time_length + length > bytes.size() ? 0 : time_length + length;
 }
 
+namespace {
+
+// Whether a record may begin here. A file may end inside it.
+bool looks_like_record(ByteView rest) noexcept {
+    if (rest.size() <= time_length) return rest.empty() || rest.front() == 0;
+    return has_plausible_time(rest) && wire::is_start(rest[time_length]);
+}
+
+// The length that the record here claims, which may go beyond `rest`; 0 if none begins here.
+std::size_t claimed_length(ByteView rest) noexcept {
+    if (!looks_like_record(rest)) return 0;
+    if (rest.size() < time_length + 3) return max_record_length;  // the length is cut off
+    return time_length + wire::frame_length(rest.subspan(time_length));
+}
+
+}  // namespace
+
+bool begins_recording(ByteView first_bytes) noexcept {
+    if (first_bytes.empty() || claimed_length(first_bytes) >= first_bytes.size()) return true;
+    for (auto rest = first_bytes; rest.size() >= min_record_length; rest = rest.subspan(1)) {
+        const auto length = claimed_length(rest);
+        if (length != 0 && length < rest.size() && looks_like_record(rest.subspan(length))) return true;
+    }
+    return std::ranges::all_of(first_bytes, [](auto byte) { return byte == 0; });
+}
+
 Found examine_record(ByteView bytes, const wire::MessageTable& table) noexcept {
     if (!has_plausible_time(bytes)) return {};
     const auto size = record_length(bytes);

@@ -25,6 +25,13 @@ struct Found {
 // by a start byte. The result never includes the last eight bytes.
 [[nodiscard]] std::size_t skip_startless(ByteView bytes) noexcept;
 
+// How many bytes of a file `begins_recording` looks at.
+inline constexpr std::size_t recording_bytes = 65536;
+
+// Returns whether the first bytes of a file are those of a tlog, also of one that was damaged or cut off. Zeros count:
+// they are what a power failure leaves. Looks at times and headers only.
+[[nodiscard]] bool begins_recording(ByteView first_bytes) noexcept;
+
 // Returns the length of the record at the front, from its header alone, or 0 if `bytes` does not hold all of it.
 [[nodiscard]] std::size_t record_length(ByteView bytes) noexcept;
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "record/tlog_format.hpp"
 
@@ -44,6 +45,19 @@ SetupResult<fs::path> move_away(const fs::path& path) {
                                    path.string(), path.string(), path.string(), most_old_files));
 }
 
+// A name that was mistyped must not move away a file that something else needs.
+SetupResult<void> check_is_recording(const fs::path& path) {
+    auto file = File::open_to_read(path);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    std::vector<std::uint8_t> first(recording_bytes);
+    const auto count = file->read(first);
+    if (!count) return tl::unexpected(count.error());
+    if (begins_recording(ByteView(first).first(*count))) return {};
+    return setup_error(SetupCode::in_use, fmt::format("{} exists and is no tlog recording, so it is left alone: choose "
+                                                      "another name, or move the file away",
+                                                      path.string()));
+}
+
 std::uint64_t time_on_file(WallTime time) noexcept {
     return static_cast<std::uint64_t>(
         std::clamp<std::int64_t>(unix_us(time), 0, static_cast<std::int64_t>(time_limit_us) - 1));
@@ -62,12 +76,15 @@ SetupResult<TlogWriter> TlogWriter::create(const fs::path& path, std::size_t buf
     struct stat status {};
     const bool leads_somewhere = ::stat(path.c_str(), &status) == 0;
     if (leads_somewhere && !S_ISREG(status.st_mode)) {
+        if (S_ISBLK(status.st_mode))
+            return setup_error(SetupCode::usage, fmt::format("{} is a disk: give the name of a file", path.string()));
         auto device = File::open_to_write(path);
         if (!device) return tl::unexpected(std::move(device.error()));
         return TlogWriter(std::move(*device), {}, buffer_bytes);
     }
     fs::path old;
     if (::lstat(path.c_str(), &status) == 0) {
+        if (auto checked = check_is_recording(path); !checked) return tl::unexpected(std::move(checked.error()));
         auto moved = move_away(path);
         if (!moved) return tl::unexpected(std::move(moved.error()));
         old = std::move(*moved);

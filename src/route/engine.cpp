@@ -78,7 +78,8 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     link.counters.frames.add();
     count(link.counters, verdict);
     if (verdict != Verdict::forwarded) each_word(words_, [&](std::size_t w) { candidates_[w] = 0; });
-    if (has_taps_ && verdict != Verdict::tap) add_taps(p);
+    if (has_taps_ && verdict != Verdict::tap) [[unlikely]]
+        add_taps(p);
     if (p.is_copy) [[unlikely]]
         unite(recent_.sent(p.recent), candidates_.data(), words_);
     else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
@@ -121,7 +122,8 @@ Verdict Engine::Impl::judge(Passage& p) noexcept {
         leave_out(recent_.heard(p.recent), Reason::source_here);
         if (!any(candidates_.data(), words_)) return Verdict::duplicate;
     }
-    if (!has_limits_) return Verdict::forwarded;
+    if (!has_limits_) [[likely]]
+        return Verdict::forwarded;
     apply_limits(p);
     return any(candidates_.data(), words_) ? Verdict::forwarded : Verdict::rate_limited;
 }
@@ -466,7 +468,7 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
 }
 
 EgressLimiter::Answer Engine::Impl::limit(Link& link, const Passage& p) noexcept {
-    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.now);
+    const auto answer = link.limiter.admit(p.frame, dialect::is_essential(p.id), p.link.policy.is_verified, p.now);
     if (answer == EgressLimiter::Answer::rate_limited) link.counters.out_rate_limited.add();
     if (answer == EgressLimiter::Answer::bytes_limited) link.counters.out_bytes_limited.add();
     return answer;

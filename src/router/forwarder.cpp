@@ -69,10 +69,11 @@ void Forwarder::deliver(const link::RxFrame& rx, const route::Decision& decision
     if (decision.verdict != route::Verdict::echo) count_loss(rx, from.policy);
 }
 
-// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic.
-void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool may_sign) {
-    if (may_sign) links_.send(links, rx.frame);
-    else not_signed_.add(links_.send_unsigned(links, rx.frame));
+// Signs only frames whose own signature was verified, so that the router never vouches for unverified traffic. Verified
+// frames also leave first.
+void Forwarder::send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified) {
+    if (is_verified) links_.send(links, rx.frame);
+    else not_signed_.add(links_.send_unverified(links, rx.frame));
 }
 
 // Ignores reboots shown by frames that teach no route: those from taps, and those that the input filter drops.

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] std::uint64_t not_signed() const noexcept { return not_signed_.value(); }
 
 private:
-    void send(const link::RxFrame& rx, std::span<const LinkId> links, bool may_sign);
+    void send(const link::RxFrame& rx, std::span<const LinkId> links, bool is_verified);
     void count_loss(const link::RxFrame& rx, const route::LinkPolicy& policy);
     bool send_own(LinkId link, const wire::FrameView& frame);
     [[nodiscard]] bool is_answered(LinkId link) const;

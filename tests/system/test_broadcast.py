@@ -56,11 +56,12 @@ def test_a_listener_that_answers_is_fed_alone(machines, start, host, options):
     assert (got, source[0]) == (first, here.host)
 
     answerer = there.socket()
-    answerer.sendto(next(frames.heartbeats(1, system=255, component=190)), source)
+    answers = frames.heartbeats(100, system=255, component=190)
 
     def fed():
+        answerer.sendto(next(answers), source)
         send(second)
-        answerer.settimeout(0.2)
+        answerer.settimeout(0.6)
         try:
             return answerer.recv(2048) == second
         except TimeoutError:
@@ -78,6 +79,27 @@ def test_a_listener_that_answers_is_fed_alone(machines, start, host, options):
         pass
     with pytest.raises(BlockingIOError):
         listener.recv(2048)
+
+
+def test_one_datagram_does_not_end_the_broadcast(machines, start):
+    here, there = machines
+    router = start(here, "route", f"udpin://127.0.0.1:{PORT}", f"udpbcast://10.77.0.255:{PORT}")
+    router.wait_output(r"udpin://127.0.0.1:\d+: listening", stream="err")
+    vehicle, listener, forger = here.socket(), there.socket(), there.socket()
+    listener.bind(("", PORT))
+
+    def send(frame):
+        vehicle.sendto(frame, ("127.0.0.1", PORT))
+    first, second = frames.heartbeats(2)
+    send(first)
+    while (received := listener.recvfrom(2048))[0] != first:
+        pass
+
+    forger.sendto(next(frames.heartbeats(1, system=255, component=190)), received[1])
+    router.wait_output(rf"#{there.host}:{forger.getsockname()[1]}: up", stream="err")
+    send(second)
+    while listener.recv(2048) != second:
+        pass
 
 
 def test_two_mavlooms_find_each_other(machines, start):

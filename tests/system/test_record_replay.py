@@ -66,8 +66,8 @@ def test_an_existing_file_is_renamed(run, tmp_path):
 
 
 LOSSES = ["kernel_drop", "buffer_full", "lapped", "bad_records", "other_kinds", "copies", "echo", "crc_error",
-          "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer", "stray_bytes",
-          "peers_refused"]
+          "junk_bytes", "damaged_places", "unknown_flags", "bad_signature", "wrong_peer", "bad_source",
+          "stray_bytes", "peers_refused"]
 
 
 def sums(done):

@@ -196,6 +196,17 @@ def test_each_frame_of_a_link_is_in_one_of_its_verdicts(net):
         assert link["frames_in"] == sum(verdicts.values())
 
 
+def test_ctl_add_moves_no_file_away_that_is_no_recording(net, ctl, tmp_path):
+    sut = net(("udpout",))
+    hosts = tmp_path / "hosts"
+    hosts.write_text("127.0.0.1 localhost\n")
+    refused = ctl(sut.router, "add", f"tlog://{hosts}")
+
+    assert refused.status == 1 and f"{hosts} exists and is no tlog recording" in refused.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["hosts"]
+    assert hosts.read_text() == "127.0.0.1 localhost\n"
+
+
 def test_ctl_add_and_remove_while_it_runs(net, ctl):
     sut = net(("udpout", "tcpin"))
     port, near = UdpEnd(), routers.udp_port()
@@ -329,6 +340,34 @@ def test_a_control_socket_that_somebody_removes_is_made_anew(spawn, run):
     assert os.path.exists(f"{path}.lock")
     assert router.process.stop(signal.SIGTERM).status == 143
     assert not os.path.exists(path) and not os.path.exists(f"{path}.lock")
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_what_takes_the_place_of_the_control_socket_is_reported_and_stays(spawn, run, what):
+    router = Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}")
+    path = pathlib.Path(control_path(router))
+    aside = path.with_suffix(".aside")
+    aside.mkdir() if what == "folder" else aside.write_text("precious")
+    os.unlink(path)
+    os.rename(aside, path)
+    router.process.wait_output(f"control socket {path} was (removed|replaced): a {what} is in the place of the socket "
+                               f"{path}; remove it", stream="err")
+    assert path.is_dir() if what == "folder" else path.read_text() == "precious"
+
+    os.rename(path, aside)
+    router.process.wait_output(f"control socket {path} was removed; it is created again", stream="err")
+    assert run("ctl", router.name, "links", env=router.env).status == 0
+    aside.rmdir() if what == "folder" else aside.unlink()
+
+
+def test_a_file_in_the_place_of_the_control_socket_is_named_at_the_start(run):
+    path = harness.RUN / f"test-{os.getpid()}-in-the-way.ctl"
+    path.write_text("precious")
+    refused = run("route", f"udpin://127.0.0.1:{routers.udp_port()}", "--name", path.stem)
+
+    assert refused.status == 1 and f"a file is in the place of the socket {path}; remove it" in refused.stderr
+    assert path.read_text() == "precious"
+    path.unlink()
 
 
 def test_without_a_name_a_second_router_does_without_a_socket(spawn, tmp_path):
@@ -575,7 +614,10 @@ def test_metrics_answers_what_it_does_not_serve(net):
 
 
 @pytest.mark.parametrize("host, status", [("127.0.0.1", 200), ("127.0.0.1:9090", 200), ("localhost:1", 200),
-                                          (None, 200), ("evil.example", 403), ("[::1]", 403),
+                                          ("LocalHost", 200), ("localhost.:9090", 200), ("[::1]", 200),
+                                          ("[::1]:9090", 200), ("127.0.0.2", 200), (None, 200), ("evil.example", 403),
+                                          ("localhost..", 403), ("localhost.evil.example", 403), ("10.0.0.1", 403),
+                                          ("[::1", 403), ("[::2]", 403), (".", 403),
                                           ("127.0.0.1.evil.example:9090", 403)])
 def test_a_web_page_cannot_read_the_metrics_of_this_machine(net, host, status):
     """A page's own name may lead to 127.0.0.1 (DNS rebinding); its Host header then still has that name."""
@@ -1237,10 +1279,11 @@ def test_a_recording_is_no_link(net, tmp_path):
 
 def test_an_old_recording_is_kept(spawn, tmp_path):
     log = tmp_path / "x.tlog"
-    log.write_bytes(b"precious")
+    frames.write_tlog(log, [(1, attitude())])
+    precious = log.read_bytes()
     Router(spawn, f"udpin://127.0.0.1:{routers.udp_port()}", f"tlog://{log}").process.stop()
 
-    assert (tmp_path / "x.tlog.1").read_bytes() == b"precious"
+    assert (tmp_path / "x.tlog.1").read_bytes() == precious
     assert log.read_bytes() == b""
 
 

@@ -33,11 +33,13 @@ public:
 
     [[nodiscard]] bool limits() const noexcept { return !rates_.empty(); }
 
-    // Checks whether a frame is within its rate, without counting it.
-    [[nodiscard]] Answer ask(const wire::FrameView& frame, Time now) noexcept {
+    // Checks whether a frame is within its rate, without counting it. Each lane has the whole rate: frames of one lane
+    // take nothing from those of another.
+    [[nodiscard]] Answer ask(const wire::FrameView& frame, Time now, std::uint8_t lane = 0) noexcept {
         const Nanoseconds* const interval = limits() ? rates_.interval_of(frame.id()) : nullptr;
         if (interval == nullptr) return {};
-        const auto source = std::uint64_t{frame.system().value} << 8 | frame.component().value;
+        const auto source = std::uint64_t{lane} << 16 | std::uint64_t{frame.system().value} << 8 |
+                            frame.component().value;
         Stream& stream = stream_of(source << 24 | frame.id().value);
         // A deadline more than one interval away means that the clock was set back; the frame is then not early.
         const bool is_early = now < stream.due && stream.due - now <= *interval;

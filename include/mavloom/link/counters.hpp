@@ -67,6 +67,8 @@ static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "e
 struct EndpointCounters {
     Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
     Counter wrong_peer;   // udpout: datagrams from another address
+    // Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the socket's own address.
+    Counter bad_source;
     // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
     // frame).
     Counter stray_bytes;
@@ -88,9 +90,10 @@ struct EndpointCounter {
     std::string_view name;
     Counter EndpointCounters::*word;
 };
-inline constexpr std::array<EndpointCounter, 7> endpoint_counters{{
+inline constexpr std::array<EndpointCounter, 8> endpoint_counters{{
     {"kernel_drop", &EndpointCounters::kernel_drop},
     {"wrong_peer", &EndpointCounters::wrong_peer},
+    {"bad_source", &EndpointCounters::bad_source},
     {"stray_bytes", &EndpointCounters::stray_bytes},
     {"peers_refused", &EndpointCounters::peers_refused},
     {"peers_evicted", &EndpointCounters::peers_evicted},

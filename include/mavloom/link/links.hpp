@@ -106,9 +106,10 @@ public:
     // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
     // skipped.
     virtual std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // Queues the frame without signing it, even if an endpoint has `sign=`. Returns how many links queued it unsigned
-    // although their endpoint has `sign=`.
-    virtual std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
+    // Queues a frame whose sender was not verified. It leaves after the frames of `send` that are queued for the link,
+    // and uses none of their room. It is not signed, even if an endpoint has `sign=`. Returns how many links queued it
+    // unsigned although their endpoint has `sign=`.
+    virtual std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
     // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
     // Returns a reference that is valid until the next call.
     virtual const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) = 0;
@@ -186,7 +187,7 @@ public:
     // Queue a frame for one link, and for every active link of an endpoint.
     std::size_t send(LinkId link, const wire::FrameView& frame);
     std::size_t send(EndpointId endpoint, const wire::FrameView& frame);
-    std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override;
+    std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) override;
     const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) override;
     [[nodiscard]] MonoTime now() const noexcept override;
     // True while a queued frame has not been handed to the kernel.

@@ -34,6 +34,8 @@ public:
     // Interface index of a link-local IPv6 address (the "%eth0" part). 0 means none; always 0 for IPv4.
     [[nodiscard]] std::uint32_t scope() const noexcept { return is_v6() ? storage_.v6.sin6_scope_id : 0; }
     [[nodiscard]] Address with_scope(std::uint32_t interface) const noexcept;
+    // Returns 1.2.3.4 for ::ffff:1.2.3.4, the IPv4 peer of a dual-stack socket. Returns other addresses unchanged.
+    [[nodiscard]] Address unmapped() const noexcept;
 
     [[nodiscard]] bool is_any() const noexcept;        // 0.0.0.0 or ::
     [[nodiscard]] bool is_loopback() const noexcept;   // 127.0.0.0/8, also as ::ffff:127.0.0.1, or ::1

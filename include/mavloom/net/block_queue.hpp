@@ -65,6 +65,8 @@ public:
     [[nodiscard]] bool empty() const noexcept { return blocks_ == 0; }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
     [[nodiscard]] std::size_t blocks() const noexcept { return blocks_; }
+    // True if a stream has sent a part of the first block.
+    [[nodiscard]] bool has_begun() const noexcept { return begun_ != 0; }
     // The memory that the queue has allocated, some of which it may not have touched yet.
     [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
@@ -85,6 +87,7 @@ public:
 
 private:
     struct Entry {
+        static constexpr std::uint32_t largest_size = (1u << 24) - 1, largest_class = (1u << 7) - 1;
         std::uint64_t key;
         MonoTime queued;
         std::uint32_t offset;

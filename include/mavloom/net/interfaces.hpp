@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Looks up network interfaces by name, and checks whether an address belongs to this machine.
+// Looks up network interfaces by name, and checks whether an address belongs to this machine or is a broadcast
+// address of its networks.
 //
 // A multicast or broadcast socket uses the check to recognise its own datagrams. One thread at a time. OwnAddresses
 // allocates when it reads the list of addresses, at most once a second.
@@ -23,13 +24,17 @@ class OwnAddresses {
 public:
     // Returns whether `address` is one of this machine's. Ignores the port.
     [[nodiscard]] bool contains(const Address& address, MonoTime now);
+    // Returns whether `address` is a broadcast address of one of this machine's networks, or of all. Ignores the port.
+    [[nodiscard]] bool has_broadcast(const Address& address, MonoTime now);
 
 private:
     // Addresses change over time (DHCP), so an unknown address causes the list to be read again, but at most once per
     // interval.
     static constexpr std::chrono::seconds refresh_interval{1};
 
-    std::vector<Address> known_;  // all with port 0
+    [[nodiscard]] bool find(const std::vector<Address>& in, const Address& address, MonoTime now);
+
+    std::vector<Address> known_, broadcasts_;  // all with port 0
     MonoTime read_at_{};
 };
 

@@ -18,9 +18,9 @@ class TlogWriter {
 public:
     static constexpr std::size_t default_buffer_bytes = 256 * 1024;
 
-    // Opens `path`. An existing file is first renamed to PATH.1, or to the first free one of PATH.2, PATH.3, ... So no
-    // file is overwritten, and the highest number is the newest. A device or FIFO is not renamed; the writer writes to
-    // it directly.
+    // Opens `path`. An existing recording, or an empty file, is first renamed to PATH.1, or to the first free one of
+    // PATH.2, PATH.3, ... So no file is overwritten, and the highest number is the newest. Any other file stays, and is
+    // an error (`in_use`). A character device or FIFO is not renamed; the writer writes to it directly.
     [[nodiscard]] static SetupResult<TlogWriter> create(const std::filesystem::path& path,
                                                         std::size_t buffer_bytes = default_buffer_bytes);
 

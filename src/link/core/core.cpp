@@ -97,7 +97,7 @@ wire::FrameView Core::signed_for(Link& link, const wire::FrameView& frame) {
     return link.signature == nullptr ? frame : link.signature->sign(frame, link.language->table, wall_now());
 }
 
-bool Core::queue(Link& link, Departure& departure, const wire::FrameView& frame, MonoTime now) {
+bool Core::queue(Link& link, net::BlockQueue& lane, Departure& departure, const wire::FrameView& frame, MonoTime now) {
     if (link.finds_in_ring) {
         link.counters.frames_out.add();
         link.counters.bytes_out.add(frame.size());
@@ -108,7 +108,7 @@ bool Core::queue(Link& link, Departure& departure, const wire::FrameView& frame,
         return false;
     }
     const Language& language = *link.language;
-    const auto pushed = link.queue.push(frame.bytes(), departure.block_class(language), departure.key(language), now);
+    const auto pushed = lane.push(frame.bytes(), departure.block_class(language), departure.key(language), now);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);
     if (pushed.queued && !std::exchange(link.queued, true)) link.schedule();

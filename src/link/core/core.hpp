@@ -98,22 +98,23 @@ public:
         }
     }
 
-    // Signs the frame if the endpoint has sign=, and queues it. Returns true if it was queued.
+    // Signs the frame if the endpoint has sign=, and queues it in the first lane. Returns true if it was queued.
     static bool send(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, departure, signed_for(link, departure.frame()), now);
+        return queue(link, link.queue.lane(net::Lane::first), departure, signed_for(link, departure.frame()), now);
     }
     bool send(Link& link, const wire::FrameView& frame) const {
         Departure departure(frame);
         return send(link, departure, now_);
     }
-    // Queues the frame unchanged.
-    static bool send_unsigned(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, departure, departure.frame(), now);
+    // Queues the frame unchanged, in the second lane.
+    static bool send_unverified(Link& link, Departure& departure, MonoTime now) {
+        return queue(link, link.queue.lane(net::Lane::second), departure, departure.frame(), now);
     }
 
 private:
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
-    static bool queue(Link& link, Departure& departure, const wire::FrameView& frame, MonoTime now);
+    static bool queue(Link& link, net::BlockQueue& lane, Departure& departure, const wire::FrameView& frame,
+                      MonoTime now);
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
     void on_bad_bytes(Link& link, const wire::ParseEvent& event);
     void run_tickers();

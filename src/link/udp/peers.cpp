@@ -11,7 +11,6 @@ bool UdpPeers::close(LinkId link) {
     UdpPeer* const peer = peers_.find(link);
     if (peer == nullptr) return false;
     drop(*peer, "closed");
-    if (peers_.empty()) owner_.on_last_peer_gone();
     return true;
 }
 
@@ -32,7 +31,19 @@ bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     return found;
 }
 
+// Such a source is forged: nobody could receive an answer there, or the socket itself or a whole network would.
+bool UdpPeers::may_be_peer(const UdpPort& port, const net::Address& sender) {
+    const net::Address from = sender.unmapped();
+    if (from.port() == 0 || from.is_any() || from.is_multicast()) return false;
+    if (from.port() == port.socket().local().port() && own_.contains(from, core_.now())) return false;
+    return !own_.has_broadcast(from, core_.now());
+}
+
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
+    if (!may_be_peer(port, *datagram.from)) {
+        endpoint_.counters.bad_source.add();
+        return nullptr;
+    }
     if (!admission_.admits(*datagram.from, core_.now())) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
@@ -46,13 +57,13 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         return nullptr;
     }
     admission_.note_entry();
-    if (peers_.empty()) owner_.on_first_peer(*datagram.from);
     const EndpointInfo& info = endpoint_.info;
     auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
                                           core_.languages.of(info.id).table, port, *datagram.from);
     peer->name = fmt::format("{}#{}", info.label(), datagram.from->text());
     peer->last_heard = peer->first_heard = core_.now();  // until its first frame is found
     if (must_confirm(*datagram.from)) peer->give_allowance();
+    else note_confirmed(*peer);
     port.peers().add(*datagram.from, *peer);
     if (!expiry_.valid()) expiry_ = core_.loop().start_timer(core_.now() + idle_, *this);
     return &peers_.add(std::move(peer));
@@ -73,17 +84,22 @@ bool UdpPeers::make_room() {
     return true;
 }
 
+void UdpPeers::note_confirmed(const UdpPeer& peer) {
+    if (++confirmed_ == 1) owner_.on_first_confirmed(peer.address);
+}
+
 void UdpPeers::drop(UdpPeer& peer, std::string_view why) {
+    const bool was_last = peer.is_confirmed() && --confirmed_ == 0;
     peer.settle();
     peers_.remove(peer, why);
     peer.port->forget(peer);  // after the handler, which may still have sent to this peer
+    if (was_last) owner_.on_last_confirmed_gone();
 }
 
 // Runs when the peer that has been idle longest may have expired.
 void UdpPeers::on_timer(MonoTime now) {
     const MonoTime next = peers_.expire(now, idle_, [&](UdpPeer& peer) { drop(peer, "idle"); });
     expiry_ = peers_.empty() ? net::TimerId{} : core_.loop().start_timer(next, *this);
-    if (peers_.empty()) owner_.on_last_peer_gone();
 }
 
 }  // namespace mavloom::link::detail

@@ -9,6 +9,7 @@
 #include "link/admission.hpp"
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
+#include "mavloom/net/interfaces.hpp"
 
 namespace mavloom::link::detail {
 
@@ -17,9 +18,10 @@ public:
     // The endpoint that owns the sockets.
     class Owner : public UdpOwner {
     public:
-        // Called before the first peer is added; its link is not up yet.
-        virtual void on_first_peer(const net::Address&) {}
-        virtual void on_last_peer_gone() {}
+        // Called for the first peer that is confirmed, and when the last such peer is gone. A peer that needs no
+        // confirmation is confirmed before its link is up.
+        virtual void on_first_confirmed(const net::Address&) {}
+        virtual void on_last_confirmed_gone() {}
     };
 
     static constexpr std::chrono::seconds default_idle{60};
@@ -43,12 +45,15 @@ public:
     }
     std::size_t send(const wire::FrameView& frame) { return peers_.send(frame); }
     bool close(LinkId link);
+    // Call it when a peer is confirmed that was not when it entered.
+    void note_confirmed(const UdpPeer& peer);
     [[nodiscard]] std::size_t queued_bytes() const { return peers_.queued_bytes(); }
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     void on_timer(MonoTime now) override;
 
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
+    [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool make_room();
@@ -60,7 +65,9 @@ private:
     Nanoseconds idle_;
     wire::DatagramParser stranger_;
     Admission admission_;
+    net::OwnAddresses own_;
     PeerList<UdpPeer> peers_;
+    std::size_t confirmed_ = 0;  // peers
     net::TimerId expiry_;
 };
 

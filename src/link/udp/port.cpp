@@ -16,15 +16,18 @@ static constexpr std::chrono::milliseconds retry_after{1};
 
 void UdpPeer::schedule() { port->schedule(*this); }
 
-void UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
+bool UdpPeer::note_heard(MonoTime now, std::size_t bytes) noexcept {
+    bool confirms = false;
     if (has_allowance()) [[unlikely]] {
-        if (now - first_heard >= confirmed_after) lift_allowance();
+        confirms = now - first_heard >= confirmed_after;
+        if (confirms) lift_allowance();
         else extend_allowance(answers_per_byte * static_cast<std::int64_t>(bytes));
     }
     last_heard = now;
     ++datagrams;
     listens_ = true;
     refuses_until_ = {};
+    return confirms;
 }
 
 void UdpPeer::move_to(const net::Address& where) noexcept {
@@ -145,7 +148,8 @@ void UdpPort::receive() {
         peer->parser.parse(datagram.bytes, [&](const wire::ParseEvent& event) { core_.on_event(*peer, event, time); });
         peer->counters.implausible_unknown.set(peer->parser.counters().implausible_unknown.value());
         if (peer->counters.frames_in.value() == frames_before) continue;
-        peer->note_heard(core_.now(), datagram.bytes.size());
+        if (peer->note_heard(core_.now(), datagram.bytes.size())) [[unlikely]]
+            owner_.on_confirmed(*peer);
     }
 }
 

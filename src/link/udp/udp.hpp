@@ -32,7 +32,9 @@ struct UdpPeer final : Link {
     bool held = false;
 
     // A peer that is heard for the second time at least 0.5 s after the first confirms that its address is its own.
-    void note_heard(MonoTime now, std::size_t bytes) noexcept;
+    // Returns true if this datagram did that.
+    [[nodiscard]] bool note_heard(MonoTime now, std::size_t bytes) noexcept;
+    [[nodiscard]] bool is_confirmed() const noexcept { return !has_allowance(); }
     // One datagram may be forged; a peer talks from the second on.
     [[nodiscard]] bool has_talked() const noexcept { return datagrams > 1; }
     [[nodiscard]] MonoTime silent_since() const noexcept { return last_heard; }
@@ -70,6 +72,8 @@ public:
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
     // The peer at this address; null if there is none.
     [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
+    // Called when a peer that was heard once only is heard again.
+    virtual void on_confirmed(UdpPeer&) {}
     // Called when the kernel or the network has rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;
 };
@@ -105,7 +109,7 @@ public:
 private:
     struct Part {  // one datagram of the batch being built
         UdpPeer* peer;
-        net::BlockQueue::Position until;
+        net::LaneQueue::Position until;
         std::uint32_t frames, bytes;
     };
 

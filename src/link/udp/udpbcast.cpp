@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// udpbcast: broadcasts until a peer answers. Then only the peers that answered receive frames, each over its own
-// link, until the last of them is silent for `idle`. With fixed=true a single link broadcasts to, and hears,
-// everyone.
+// udpbcast: broadcasts until a peer answers and is confirmed. Then only the peers that answered receive frames, each
+// over its own link, until the last confirmed one is silent for `idle`. A single datagram, whose sender may be forged,
+// does not end the broadcast. With fixed=true a single link broadcasts to, and hears, everyone.
 #include <fmt/format.h>
 
 #include "link/retry.hpp"
@@ -49,10 +49,11 @@ public:
 
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
     void on_send_error(net::IoError error) override;
-    void on_first_peer(const net::Address& from) override {
+    void on_first_confirmed(const net::Address& from) override {
         core_.news.set_down(everybody_, fmt::format("{} answers", from.text()));
     }
-    void on_last_peer_gone() override { core_.news.set_up(everybody_); }
+    void on_last_confirmed_gone() override { core_.news.set_up(everybody_); }
+    void on_confirmed(UdpPeer& peer) override { peers_.note_confirmed(peer); }
     void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
 private:

@@ -39,11 +39,13 @@ Bytes frame_of(const KeylessStep& s, Id source) {
 // One router with honest traffic alone, and one with adversaries beside it.
 class TwoRouters {
 public:
-    explicit TwoRouters(const Options& options)
+    TwoRouters(const Options& options, const LinkPolicy& limits)
         : quiet_(dialect::default_dialect().wire_table(), options),
           attacked_(dialect::default_dialect().wire_table(), options) {
+        LinkPolicy policy = limits;
+        policy.is_verified = true;
         for (Engine* engine : {&quiet_, &attacked_})
-            for (const LinkId link : {vehicle_link, station_link}) engine->add_link(link, {.is_verified = true});
+            for (const LinkId link : {vehicle_link, station_link}) engine->add_link(link, policy);
     }
 
     void step(const KeylessStep& s) {
@@ -100,7 +102,10 @@ RC_GTEST_PROP(Keyless, NobodyWithoutAKeyChangesTheTrafficOfVerifiedLinks, (std::
     if (bits & 1) options.dedup = 250ms;
     if (bits & 2) options.unknown_component = UnknownComponent::drop;
     if (bits & 4) options.unknown_target = UnknownTarget::flood;
-    TwoRouters sut(options);
+    LinkPolicy limits;
+    if (bits & 8) limits.max_rate = test::make_rates({{"COMMAND_LONG", 2}, {"HEARTBEAT", 2}, {"*", 1}});
+    if (bits & 16) limits.max_bytes_per_s = 200;
+    TwoRouters sut(options, limits);
     const auto steps = *rc::gen::scale(10.0, rc::gen::container<std::vector<KeylessStep>>(
                                                  rc::gen::container<KeylessStep>(rc::gen::arbitrary<std::uint8_t>())));
     for (const KeylessStep& step : steps) sut.step(step);

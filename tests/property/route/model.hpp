@@ -45,7 +45,7 @@ public:
     void add(std::uint32_t id, const ModelPolicy& policy) {
         Link link;
         link.policy = policy;
-        link.tokens = std::max(static_cast<double>(policy.bytes_per_s.value_or(0)) / 4, 560.0);
+        link.tokens = link.verified_tokens = std::max(static_cast<double>(policy.bytes_per_s.value_or(0)) / 4, 560.0);
         if (policy.group != 0 && !policy.tap) {
             if (!group_modes_.contains(policy.group)) group_modes_[policy.group] = policy.mode;
             link.policy.mode = group_modes_[policy.group];
@@ -85,6 +85,7 @@ public:
     Result route(std::uint32_t ingress, const Bytes& bytes, MonoTime now) {
         const auto frame = wire::FrameView::unchecked(bytes);
         now_ = now;
+        is_verified_ = links_.contains(ingress) && links_[ingress].policy.is_verified;
         Result result;
         if (!links_.contains(ingress)) {
             result.verdict = Verdict::unknown_link;
@@ -117,9 +118,10 @@ private:
         ModelPolicy policy{};
         std::map<std::uint8_t, Claim> claims{};  // by system
         std::optional<MonoTime> last_heard{};
-        std::uint32_t heartbeats = 0;             // against those of the other links of its group
-        std::map<std::uint64_t, MonoTime> due{};  // by source and message
-        double tokens = 0;
+        std::uint32_t heartbeats = 0;  // against those of the other links of its group
+        // By source, message and whether the frame was verified.
+        std::map<std::pair<std::uint64_t, bool>, MonoTime> due{};
+        double tokens = 0, verified_tokens = 0;  // verified frames take from both
         std::optional<MonoTime> filled{};
     };
     struct Heard {
@@ -402,19 +404,23 @@ private:
         std::optional<Nanoseconds> interval;
         if (frame.id().value == 30 && link.policy.attitude_interval) interval = link.policy.attitude_interval;
         else if (!is_spared_by_star(frame.id().value)) interval = link.policy.other_interval;
-        const std::uint64_t key = std::uint64_t{frame.system().value} << 40 |
-                                  std::uint64_t{frame.component().value} << 32 | frame.id().value;
+        const std::pair key{
+            std::uint64_t{frame.system().value} << 40 | std::uint64_t{frame.component().value} << 32 | frame.id().value,
+            is_verified_};
         const auto due = link.due.find(key);
         if (interval && due != link.due.end() && now_ < due->second) return Reason::rate_limited;
         if (link.policy.bytes_per_s) {
             const auto rate = static_cast<double>(*link.policy.bytes_per_s);
-            if (link.filled)
-                link.tokens = std::min(link.tokens + std::chrono::duration<double>(now_ - *link.filled).count() * rate,
+            for (double* tokens : {&link.tokens, &link.verified_tokens})
+                if (link.filled)
+                    *tokens = std::min(*tokens + std::chrono::duration<double>(now_ - *link.filled).count() * rate,
                                        std::max(rate / 4, 560.0));
             link.filled = now_;
             const auto size = static_cast<double>(frame.size());
-            if (!is_essential(frame.id().value) && link.tokens < size) return Reason::bytes_limited;
+            const double left = is_verified_ ? link.verified_tokens : link.tokens;
+            if (!is_essential(frame.id().value) && left < size) return Reason::bytes_limited;
             link.tokens = std::max(link.tokens - size, -rate);
+            if (is_verified_) link.verified_tokens = std::max(link.verified_tokens - size, -rate);
         }
         if (interval) {
             const bool in_step = due != link.due.end() && now_ - due->second < *interval;
@@ -433,6 +439,7 @@ private:
 
     Options options_;
     MonoTime now_{};
+    bool is_verified_ = false;  // the frame being routed
     std::map<std::uint32_t, Link> links_;
     std::map<std::uint32_t, GroupMode> group_modes_;  // the first link of a group decides
     std::map<std::uint32_t, std::uint32_t> current_;  // of a `best` group

@@ -64,6 +64,18 @@ TEST(RateLimiter, CountsSourcesAndMessagesApart) {
     EXPECT_TRUE(sut.admit(Heartbeat(1, 30).frame, t0));
 }
 
+TEST(RateLimiter, EachLaneHasTheWholeRate) {
+    Limiter sut = limiter_of({{"HEARTBEAT", 1}});
+    const Heartbeat heartbeat;
+
+    for (std::uint8_t lane = 0; lane < 2; ++lane) {
+        const auto answer = sut.ask(heartbeat.frame, t0, lane);
+        EXPECT_TRUE(answer.admitted);
+        Limiter::count(answer, t0);
+        EXPECT_FALSE(sut.ask(heartbeat.frame, t0, lane).admitted);
+    }
+}
+
 TEST(RateLimiter, TheRateForOthersIsForEachOfThem) {
     Limiter sut = limiter_of({{"HEARTBEAT", 1}, {"*", 0.5}});
 

@@ -200,7 +200,7 @@ TEST(Destinations, AQueueSmallerThanAFrameTakesOneAtATime) {
 TEST(Destinations, AFileThatWasThereIsRenamedOnlyIfEveryLinkOpens) {
     Node node;
     const test::TempDir dir;
-    const Bytes old{1, 2, 3};
+    const Bytes old = link::testing::operator+(Bytes(8), heartbeat(1));  // a recording of one frame
     test::write_file(dir / "x.tlog", old);
     const auto url = "tlog://" + (dir / "x.tlog").string();
     const auto taken = PlainSocket::udp();

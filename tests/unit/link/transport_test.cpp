@@ -60,6 +60,34 @@ TEST_P(LinksTransport, CarriesFramesBothWaysByteForByte) {
     EXPECT_EQ(far.links->queued_bytes(out), 0u);
 }
 
+TEST_P(LinksTransport, FramesOfVerifiedSendersLeaveFirst) {
+    marry();
+    const LinkId to[] = {far.links->links().at(0).id};
+    Bytes verified, others;
+    for (std::uint8_t i = 1; i <= 20; ++i) {
+        far.links->send_unverified(to, view(attitude(i)));
+        ASSERT_EQ(far.links->send(to, view(heartbeat(i, 9))), 1u);
+        others = std::move(others) + attitude(i);
+        verified = std::move(verified) + heartbeat(i, 9);
+    }
+    ASSERT_TRUE(until([&] { return near.recorder.frames.size() == 40; }, near, far));
+    EXPECT_EQ(near.recorder.bytes(), verified + others);
+}
+
+TEST_P(LinksTransport, FramesOfVerifiedSendersHaveRoomOfTheirOwn) {
+    in = near.add(listen_url());
+    out = far.add(call_url("?queue_bytes=1000"));
+    ASSERT_TRUE(until([&] { return !far.recorder.ups.empty(); }, near, far));
+    const LinkId to[] = {far.links->links().at(0).id};
+    for (int i = 0; i < 1000; ++i) far.links->send_unverified(to, view(heartbeat(1)));
+
+    const std::size_t most = 1000 / heartbeat(1).size();
+    EXPECT_EQ(far.counters(to[0]).queue_bytes.value(), 1000 - most);
+    for (std::size_t i = 0; i < most; ++i) EXPECT_EQ(far.links->send(to, view(heartbeat(1, 9))), 1u);
+    EXPECT_EQ(far.counters(to[0]).queue_bytes.value(), 1000 - most);
+    EXPECT_EQ(far.links->queued_bytes(out), 2 * most * heartbeat(1).size());
+}
+
 TEST_P(LinksTransport, CountsPerLink) {
     marry();
     const auto& counters = near.counters(near.links->links().at(0).id);

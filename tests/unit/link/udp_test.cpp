@@ -226,6 +226,38 @@ TEST(LinksUdp, UdpoutHearsItsFarSideAndCountsOthers) {
     EXPECT_EQ(node.info(out).counters->wrong_peer.value(), 1u);
 }
 
+// A UDP datagram over loopback whose source port is free to choose. Without the right to make one, returns false.
+bool send_forged(std::uint16_t from_port, std::uint16_t to_port, const Bytes& payload) {
+    const int fd = ::socket(AF_INET, SOCK_RAW, IPPROTO_UDP);
+    if (fd < 0) return false;
+    Bytes datagram;
+    const auto put = [&](std::size_t value) {
+        datagram.push_back(static_cast<std::uint8_t>(value >> 8));
+        datagram.push_back(static_cast<std::uint8_t>(value));
+    };
+    for (const std::size_t value : {std::size_t{from_port}, std::size_t{to_port}, 8 + payload.size(), std::size_t{0}})
+        put(value);
+    datagram = std::move(datagram) + payload;
+    sockaddr_in to = PlainSocket::loopback(0);
+    const ssize_t sent = ::sendto(fd, datagram.data(), datagram.size(), 0, reinterpret_cast<sockaddr*>(&to), sizeof to);
+    ::close(fd);
+    return sent == static_cast<ssize_t>(datagram.size());
+}
+
+TEST(LinksUdp, ASourceThatCanBeNoPeerIsRefused) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const std::uint16_t own = node.port(in);
+    if (!send_forged(own, own, heartbeat(1))) GTEST_SKIP() << "no right to forge";
+    ASSERT_TRUE(send_forged(0, own, heartbeat(2)));
+    ASSERT_TRUE(until([&] { return node.info(in).counters->bad_source.value() == 2; }, node));
+    EXPECT_TRUE(node.recorder.ups.empty());
+
+    ASSERT_TRUE(send_forged(static_cast<std::uint16_t>(own ^ 1), own, heartbeat(3)));
+    ASSERT_TRUE(until([&] { return node.recorder.frames.size() == 1; }, node));
+    EXPECT_EQ(node.recorder.bytes(), heartbeat(3));
+}
+
 TEST(LinksUdp, TheLongestIdleOfThreeHundredPeersGoFirst) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");

@@ -68,5 +68,11 @@ TEST(Address, RefusesOtherFamiliesAndShortLengths) {
     EXPECT_FALSE(Address::from_sockaddr(nullptr, 0));
 }
 
+TEST(Address, AnIpv4PeerOfADualStackSocketIsUnmapped) {
+    EXPECT_EQ(Address::parse("::ffff:192.0.2.1", 7)->unmapped(), *Address::parse("192.0.2.1", 7));
+    EXPECT_EQ(Address::parse("2001:db8::1", 7)->unmapped(), *Address::parse("2001:db8::1", 7));
+    EXPECT_EQ(Address::parse("192.0.2.1", 7)->unmapped(), *Address::parse("192.0.2.1", 7));
+}
+
 }  // namespace
 }  // namespace mavloom::net

@@ -23,5 +23,11 @@ TEST(OwnAddresses, KnowThisMachineWhateverThePort) {
     EXPECT_FALSE(own.contains(*Address::parse("127.0.0.2", 14550), now + std::chrono::seconds(2)));
 }
 
+TEST(OwnAddresses, KnowTheBroadcastAddressOfAllNetworks) {
+    OwnAddresses own;
+    EXPECT_TRUE(own.has_broadcast(*Address::parse("255.255.255.255", 14550), mono_now()));
+    EXPECT_FALSE(own.has_broadcast(*Address::parse("127.0.0.1", 14550), mono_now()));
+}
+
 }  // namespace
 }  // namespace mavloom::net

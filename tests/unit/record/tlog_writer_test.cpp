@@ -105,6 +105,42 @@ TEST(TlogWriter, NeverOverwritesARecording) {
     EXPECT_EQ(content_of(dir / "x.tlog")[7], 3);
 }
 
+TEST(TlogWriter, LeavesAFileAloneThatIsNoRecording) {
+    const TempDir dir;
+    const test::Bytes program = test::hex("7f454c4602010100000000000000000003003e0001000000100b00000000000040");
+    const test::Bytes stream = test::heartbeat_v2;  // frames without times
+    const std::string text = "127.0.0.1 localhost\n";
+    for (const test::Bytes& other : {program, stream, test::Bytes(text.begin(), text.end()), test::Bytes(3, 0xfd)}) {
+        test::write_file(dir / "x", other);
+
+        const auto refused = TlogWriter::create(dir / "x");
+
+        ASSERT_FALSE(refused.has_value());
+        EXPECT_EQ(refused.error().code, SetupCode::in_use);
+        EXPECT_EQ(refused.error().text, (dir / "x").string() +
+                                            " exists and is no tlog recording, so it is left alone: "
+                                            "choose another name, or move the file away");
+        EXPECT_EQ(content_of(dir / "x"), other);
+    }
+}
+
+TEST(TlogWriter, MovesDamagedRecordingsAway) {
+    const TempDir dir;
+    const test::Bytes whole = test::join({heartbeat_record, heartbeat_record});
+    std::vector<test::Bytes> all{
+        {}, test::Bytes(100, 0), test::join({test::Bytes(50, 0x55), whole}), test::join({whole, test::Bytes(9, 0x55)})};
+    for (std::size_t cut = 1; cut <= whole.size(); ++cut) all.push_back(test::copy(ByteView(whole).first(cut)));
+    int number = 0;
+    for (const test::Bytes& damaged : all) {
+        test::write_file(dir / "x.tlog", damaged);
+
+        const auto writer = created(dir / "x.tlog");
+
+        EXPECT_EQ(writer.renamed_to(), dir / ("x.tlog." + std::to_string(++number)));
+        EXPECT_EQ(content_of(writer.renamed_to()), damaged);
+    }
+}
+
 TEST(TlogWriter, AFullDiskIsAnErrorAtTheLatestAtClose) {
     auto writer = created("/dev/full");  // a device is not renamed
     ASSERT_TRUE(writer.write(heartbeat_time, view(test::heartbeat_v2)).has_value());

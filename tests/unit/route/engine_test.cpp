@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "unit/route/route_frames.hpp"
 
 namespace mavloom::route {
@@ -651,6 +653,50 @@ TEST(Engine, MaxBytesHoldsTelemetryAndLetsCommandsThrough) {
     for (int i = 0; i < 100; ++i) EXPECT_THAT(sut.command(1, gcs, {9, 9}), ElementsAre(2));
     sut.wait(1s);
     EXPECT_THAT(sut.send(1, "ATTITUDE", vehicle), IsEmpty());  // the debt of the commands
+}
+
+// Link 1 is verified, link 2 is not, link 3 is limited.
+Network& with_forger(Network& network, const LinkPolicy& limits) {
+    network.link({.is_verified = true});
+    network.link();
+    network.link(limits);
+    return network;
+}
+
+// How many frames reached link 3.
+std::size_t at_limit(const test::Ids& links) { return static_cast<std::size_t>(std::ranges::count(links, 3u)); }
+
+TEST(Engine, ForgedFramesTakeNothingFromTheRateOfVerifiedOnes) {
+    Network sut;
+    with_forger(sut, limited({{"ATTITUDE", 10}}));
+    std::size_t verified = 0, forged = 0;
+    for (std::uint32_t ms = 0; ms < 10'000; ++ms) {
+        forged += at_limit(sut.send(2, "ATTITUDE", vehicle, {{"time_boot_ms", 2 * ms}}));
+        if (ms % 100 == 50) verified += at_limit(sut.send(1, "ATTITUDE", vehicle, {{"time_boot_ms", 2 * ms + 1}}));
+        sut.wait(1ms);
+    }
+
+    EXPECT_EQ(verified, 100u);
+    EXPECT_EQ(forged, 100u);
+}
+
+TEST(Engine, ForgedFramesGetTheBytesThatVerifiedOnesLeave) {
+    Network sut;
+    with_forger(sut, {.max_bytes_per_s = 1000});
+    const std::size_t size = make_frame("ATTITUDE", vehicle, {{"yawspeed", 0x3f800000}}).size();
+    std::size_t verified = 0, forged = 0;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const auto next = [&](std::uint32_t n) {
+            return test::Fields{{"yawspeed", 0x3f800000}, {"time_boot_ms", 1000 * n + i}};
+        };
+        for (const std::uint32_t n : {1u, 2u}) forged += size * at_limit(sut.send(2, "ATTITUDE", vehicle, next(n)));
+        sut.send(2, "HEARTBEAT", vehicle, {{"custom_mode", i}});  // essential: not limited
+        if (i % 10 == 0) verified += size * at_limit(sut.send(1, "ATTITUDE", vehicle, next(3)));
+        sut.wait(10ms);
+    }
+
+    EXPECT_EQ(verified, 100 * size) << "all: they need less than the limit";
+    EXPECT_LE(forged, 10'000 + 560 - verified);
 }
 
 TEST(Engine, LimitedLinkDoesNotHoldTheOthers) {

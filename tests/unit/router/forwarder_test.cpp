@@ -38,7 +38,7 @@ public:
         last = {frame.bytes().begin(), frame.bytes().end()};
         return links.size();
     }
-    std::size_t send_unsigned(std::span<const LinkId> links, const wire::FrameView& frame) override {
+    std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) override {
         for (const LinkId link : links) sent.push_back({link.value, frame.id(), false});
         return static_cast<std::size_t>(
             std::ranges::count_if(links, [&](LinkId link) { return signing.contains(link.value); }));
