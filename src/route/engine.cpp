@@ -82,6 +82,8 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     if (p.is_copy) [[unlikely]]
         unite(recent_.sent(p.recent), candidates_.data(), words_);
     else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
+    if (has_watched_) [[unlikely]]
+        watch_for_returns(frame.system(), candidates_.data());
     return {verdict, list_candidates(link)};
 }
 
@@ -138,6 +140,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (found && counts_as_heard(p)) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
+            learn_from_echo(p);
             verdict = Verdict::echo;
             return true;
         }
@@ -220,6 +223,45 @@ void Engine::Impl::learn(Passage& p) noexcept {
     watch_for_duplicate_ids(p);
 }
 
+// An echo does not make its sender present or alive here, so frames of the sender still go to this link.
+void Engine::Impl::learn_from_echo(Passage& p) noexcept {
+    note_return(p);
+    const Returns& returns = p.link.returns;
+    const bool keeps_others = returns.kept >= kept_frames && p.now - returns.kept_since >= echo_window;
+    if (p.info == nullptr || p.frame.system().value == 0) return;
+    if (!keeps_others && routes_.find(p.slot, p.source) == nullptr) {
+        note_claim(p);
+        return;
+    }
+    if (!may_learn(p)) return;
+    RouteTable::Change change;
+    routes_.learn_from_echo(p.slot, p.source, p.now, change);
+    count_routes(change);
+}
+
+void Engine::Impl::note_return(Passage& p) noexcept {
+    Returns& returns = p.link.returns;
+    if (!has(watched_.data(), p.slot) || p.now - returns.last >= returns_forgotten_after) returns = {};
+    returns.last = p.now;
+    insert(watched_.data(), p.slot);
+    has_watched_ = true;
+    const Slot system = p.frame.system().value;
+    if (has(returns.systems.data(), system)) return;
+    insert(returns.systems.data(), system);
+    returns.kept = 0;
+}
+
+void Engine::Impl::watch_for_returns(SystemId system, ConstWords set) noexcept {
+    for (std::size_t w = 0; w < words_; ++w)
+        each_in_word(set[w] & watched_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
+            Returns& returns = links[slot]->returns;
+            if (now_ - returns.last >= returns_forgotten_after) erase(watched_.data(), slot);
+            if (has(returns.systems.data(), system.value)) return;
+            if (returns.kept++ == 0) returns.kept_since = now_;
+        });
+    has_watched_ = any(watched_.data(), words_);
+}
+
 // Without a key, nobody can prove an identity. So the rules favour the link that heard a vehicle first, and links
 // whose frames are verified.
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
@@ -258,8 +300,7 @@ Slot Engine::Impl::where_alive(const Passage& p, ConstWords links_of_system) con
     return alive;
 }
 
-// Keeps the claim of this link to the system. Returns true once it is old enough.
-bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
+Engine::Impl::Claim& Engine::Impl::note_claim(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     auto claim = std::ranges::find(p.link.claims, system, &Claim::system);
     if (claim == p.link.claims.end()) {
@@ -268,8 +309,14 @@ bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
     }
     if (p.now - claim->last >= alive_for) claim->since = p.now;
     claim->last = p.now;
-    if (p.link.policy.learns_first || p.now - claim->since < consistent_for) return false;
-    *claim = {};
+    return *claim;
+}
+
+// Returns true once the claim of this link to the system is old enough.
+bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
+    Claim& claim = note_claim(p);
+    if (p.link.policy.learns_first || p.now - claim.since < consistent_for) return false;
+    claim = {};
     note_conflict(p, first);
     return true;
 }
@@ -555,6 +602,11 @@ void Engine::Impl::note_sent(const wire::FrameView& frame, LinkId link, MonoTime
     if (!found || now_ - recent_.time(at) >= echo_window)
         if (recent_.put(hash, now_, window_, found, at)) counters.recent_evicted.add();
     insert(recent_.sent(at), slot);
+    if (has(watched_.data(), slot)) {
+        each_word(words_, [&](std::size_t w) { scratch_[w] = 0; });
+        insert(scratch_.data(), slot);
+        watch_for_returns(frame.system(), scratch_.data());
+    }
 }
 
 }  // namespace mavloom::route

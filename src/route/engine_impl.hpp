@@ -41,6 +41,13 @@ public:
         SystemId system{};  // 0: none
         MonoTime since{}, last{};
     };
+    // What happens to frames that were sent to a link on which an echo arrived. A link that sends everything back brings
+    // frames of all systems; a vehicle's heartbeats that somebody predicted are of its own system.
+    struct Returns {
+        std::array<std::uint64_t, 4> systems{};  // set of the systems of which frames came back
+        std::uint32_t kept = 0;                  // frames of other systems since `kept_since`
+        MonoTime kept_since{}, last{};           // `last`: of the last echo
+    };
     struct Link {
         LinkId id;
         LinkPolicy policy;
@@ -52,6 +59,7 @@ public:
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
         std::array<Claim, 8> claims{};  // the oldest is replaced
+        Returns returns{};
         // A cache of the last long list of links to which frames from this link were sent.
         std::size_t listed = 0;  // length; 0 if there is no list
         std::vector<std::uint64_t> listed_set{};
@@ -74,6 +82,9 @@ private:
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
     // Within this time, a restart reported by another link of the vehicle counts as the same restart.
     static constexpr std::chrono::seconds one_reboot{10};
+    // A link sends nothing back if this many frames of systems that it returned nothing of were sent to it.
+    static constexpr std::uint32_t kept_frames = 5;
+    static constexpr std::chrono::seconds returns_forgotten_after{60};
     // A source heard on A, B, A, B counts as two senders. A sender that merely moves between links does not alternate
     // like that within the timeout.
     static constexpr std::uint8_t turns_of_duplicates = 4;
@@ -114,9 +125,16 @@ private:
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
+    // The frame is an echo; learns where its sender is if the link does not send back what it gets.
+    void learn_from_echo(Passage& p) noexcept;
+    void note_return(Passage& p) noexcept;
+    // The frame of this system is sent to the links of `set`.
+    void watch_for_returns(SystemId system, ConstWords set) noexcept;
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
     [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
+    // Updates, and returns, the claim of this link to the system of the frame.
+    Claim& note_claim(const Passage& p) noexcept;
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_present(Slot slot, const Passage& p) const noexcept;
@@ -167,8 +185,9 @@ private:
     RouteTable routes_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
+    std::vector<std::uint64_t> watched_;                                          // links on which an echo arrived
     std::vector<Group> groups_;
-    bool has_taps_ = false, has_limits_ = false;
+    bool has_taps_ = false, has_limits_ = false, has_watched_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;
     ZeroedArray<Turns> turns_;            // by pair

@@ -42,7 +42,7 @@ Slot Engine::Impl::slot_of(LinkId id) const noexcept {
 void Engine::Impl::grow(std::size_t slots) {
     words_ = slots / 64;
     routes_.resize(words_);
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &candidates_, &scratch_})
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &watched_, &candidates_, &scratch_})
         set->resize(words_);
     out_.resize(slots);
     ids_.resize(slots);
@@ -68,6 +68,7 @@ void Engine::Impl::remove_link(LinkId id) {
     if (slot == no_slot) return;
     routes_.remove_link(slot);
     links[slot].reset();
+    erase(watched_.data(), slot);
     left_at_[slot] = now_;
     ids_[slot] = LinkId{};
     --link_count;
@@ -196,7 +197,7 @@ void Engine::Impl::order_groups() {
 }
 
 static void add_route(std::vector<RouteInfo>& list, LinkId link, const Route& route, MonoTime now, Nanoseconds timeout) {
-    const Nanoseconds age{now.time_since_epoch().count() - route.heard_ns};
+    const Nanoseconds age{now.time_since_epoch().count() - route.last_ns()};
     if (age < timeout) list.push_back({link, source_of(route.pair), std::max(age, Nanoseconds{}), route.frames});
 }
 
