@@ -89,7 +89,7 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
 
 // Frames of one link mostly go to the same links, so the link keeps its last long list.
 std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
-    if (from.listed != 0 && equal(candidates_.data(), from.listed_set.data(), words_))
+    if (from.listed_at == links_version_ && equal(candidates_.data(), from.listed_set.data(), words_))
         return {from.list.data(), from.listed};
     std::size_t n = 0;
     each(candidates_.data(), words_, [&](Slot to) { out_[n++] = ids_[to]; });
@@ -97,6 +97,7 @@ std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
         std::copy_n(out_.begin(), n, from.list.begin());
         assign(from.listed_set.data(), candidates_.data(), words_);
         from.listed = n;
+        from.listed_at = links_version_;
     }
     return {out_.data(), n};
 }
@@ -336,7 +337,8 @@ void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcep
         last = {link, now};
         counters.reboots.add();
     }
-    const bool was_learned = routes_.find(slot, pair_of(source)) != nullptr;
+    const Route* const known = routes_.find(slot, pair_of(source));
+    const bool was_learned = known != nullptr && known->known == Route::Known::yes;
     routes_.forget_system(slot, source.system);
     if (!was_learned) return;
     RouteTable::Change change;

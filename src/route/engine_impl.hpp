@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -61,7 +62,8 @@ public:
         std::array<Claim, 8> claims{};  // the oldest is replaced
         Returns returns{};
         // A cache of the last long list of links to which frames from this link were sent.
-        std::size_t listed = 0;  // length; 0 if there is no list
+        std::uint64_t listed_at = 0;  // links_version_ at that time; 0 if there is no list
+        std::size_t listed = 0;       // length
         std::vector<std::uint64_t> listed_set{};
         std::vector<LinkId> list{};
     };
@@ -76,7 +78,7 @@ public:
 
 private:
     static constexpr std::uint32_t no_group = ~std::uint32_t{0};
-    // More slots than this do not rest; a walk through the remembered frames then clears one.
+    // More slots than this do not rest.
     static constexpr std::size_t most_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
@@ -169,10 +171,15 @@ private:
 
     [[nodiscard]] Slot free_slot();
     void index_links();
+    [[nodiscard]] std::size_t home(Slot slot) const noexcept { return ids_[slot].value & (index_.size() - 1); }
+    void add_to_index(Slot slot);
+    void remove_from_index(Slot slot) noexcept;
     void rebuild();
+    void note_links_changed();
     void empty_groups();
     void enlist(Slot slot);
-    void order_groups();
+    void delist(Slot slot);
+    [[nodiscard]] bool has_empty_group() const noexcept;
     void grow(std::size_t slots);
     [[nodiscard]] std::uint32_t group_index(const Link& link);
 
@@ -182,6 +189,8 @@ private:
     std::vector<LinkId> ids_;  // by slot
     // When a link left the slot. Until `window_` later, remembered frames may hold the slot's bit, so it rests.
     std::vector<MonoTime> left_at_;  // by slot
+    std::deque<Slot> resting_;       // the slots without a link, in the order in which they were left
+    std::uint64_t links_version_ = 1;
     RouteTable routes_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links

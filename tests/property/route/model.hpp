@@ -61,8 +61,8 @@ public:
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
         if (source == heard_.end() || !source->known || now - source->last() >= options_.route_timeout) return false;
         for (Heard& h : heard_)
-            if (h.link == link && h.system == system) h.known = is_it(h);
-        source->time = source->since = now;
+            if (h.link == link && h.system == system) h.known = is_it(h) && !h.only_echoes;
+        if (source->known) source->time = source->since = now;
         return true;
     }
     void remove(std::uint32_t id) {
