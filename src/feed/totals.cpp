@@ -15,7 +15,7 @@ void Totals::add(const link::EndpointCounters& counters) noexcept {
     kernel_drop += counters.kernel_drop.value();
     wrong_peer += counters.wrong_peer.value();
     stray_bytes += counters.stray_bytes.value();
-    peers_refused += counters.peers_refused.value();
+    peers_refused += counters.peers_refused.value() + counters.peers_limited.value();
     add(counters.gone);
 }
 

@@ -32,20 +32,24 @@ bool UdpPeers::vouched_for(const net::Datagram& datagram) {
     return found;
 }
 
+bool UdpPeers::may_enter(const net::Address& sender) {
+    const auto answer = admission_.ask(sender, core_.now());
+    if (answer == Admission::Answer::refused) endpoint_.counters.peers_refused.add();
+    if (answer == Admission::Answer::limited) endpoint_.counters.peers_limited.add();
+    return answer == Admission::Answer::admitted;
+}
+
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
-    if (!admission_.admits(*datagram.from, core_.now())) {
-        endpoint_.counters.peers_refused.add();
-        return nullptr;
-    }
+    if (!may_enter(*datagram.from)) return nullptr;
     if (!vouched_for(datagram)) {
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }
+    admission_.note_entry();
     if (!make_room()) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
     }
-    admission_.note_entry();
     if (peers_.empty()) owner_.on_first_peer(*datagram.from);
     const EndpointInfo& info = endpoint_.info;
     auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),

@@ -49,6 +49,7 @@ public:
 
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
+    [[nodiscard]] bool may_enter(const net::Address& sender);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool make_room();
