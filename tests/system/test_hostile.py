@@ -22,9 +22,9 @@ pytestmark = pytest.mark.skipif(not FLOOD.exists(), reason="needs the test tools
 class Flood:
     """Heartbeats from invented addresses, while the block runs."""
 
-    def __init__(self, port, rate, seconds, ids=1):
-        self.process = subprocess.Popen([FLOOD, "127.0.0.1", str(port), str(rate), str(seconds), str(ids)],
-                                        stdout=subprocess.PIPE, text=True)
+    def __init__(self, port, rate, seconds, ids=1, addresses=1_000_000):
+        arguments = [port, rate, seconds, ids, addresses]
+        self.process = subprocess.Popen([FLOOD, "127.0.0.1", *map(str, arguments)], stdout=subprocess.PIPE, text=True)
 
     def __enter__(self):
         return self
@@ -78,6 +78,28 @@ def test_a_flood_of_invented_peers_takes_nothing_from_those_who_talk(pair):
     assert count - arrived <= endpoint["kernel_drop"]  # each lost one is counted
     assert endpoint["peers_refused"] > total // 2
     assert len(router.links()) <= 256
+
+
+def test_a_flood_of_peers_that_repeat_takes_nothing_from_those_who_talk(pair):
+    """Half of the frames were lost, and others came seconds late, when each sender that repeats became a peer."""
+    router, vehicle, station = pair
+    count, sent = 500, []
+    with Flood(vehicle.target[1], 20_000, 4, addresses=12_000) as flood:
+        harness.wait_for(lambda: router.stats("endpoint")[0]["peers_limited"] > 1000, what="peers that were limited")
+        for _ in range(count):
+            sent.append(attitude(VEHICLE))
+            vehicle.send(sent[-1])
+            time.sleep(0.001)
+        flood.sent()
+    vehicle.send(last := heartbeat(VEHICLE))
+    got = set(station.until(last))
+    endpoint = router.stats("endpoint")[0]
+    arrived = sum(frame in got for frame in sent)
+
+    assert arrived > 0.9 * count
+    assert count - arrived <= endpoint["kernel_drop"]
+    # 512 at once, then 50 a second; and of those that repeat, 100 at once and 100 a second.
+    assert endpoint["peers_evicted"] < 512 + 100 + 10 * (50 + 100)
 
 
 def test_invented_ids_on_many_links_starve_nobody_afterwards(pair):
