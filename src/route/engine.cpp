@@ -147,8 +147,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         }
         const Words heard = recent_.heard(p.recent);
         const bool again_here = has(heard, p.slot);
-        const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here &&
-                                   intersect(heard, groups_[p.link.group].members.data(), words_);
+        const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here && came_by_group(p);
         if (copy_in_group || (age < options.dedup && any(heard, words_))) {
             insert(heard, p.slot);
             if (!again_here) learn(p);
@@ -161,6 +160,13 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     }
     remember(p, found);
     return false;
+}
+
+bool Engine::Impl::came_by_group(const Passage& p) noexcept {
+    const Words heard = recent_.heard(p.recent);
+    std::uint64_t links_of_group = 0;
+    each_word(words_, [&](std::size_t w) { links_of_group |= heard[w] & same_place(p.link, w); });
+    return links_of_group != 0;
 }
 
 // On a verified link, what unverified links brought does not count: somebody without a key may have repeated the frame
@@ -268,11 +274,10 @@ void Engine::Impl::watch_for_returns(SystemId system, ConstWords set) noexcept {
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     const ConstWords where = routes_.links_of(system);
-    const bool is_grouped = p.link.group != no_group;
     std::uint64_t others = 0, verified = 0;
     each_word(words_, [&](std::size_t w) {
         const std::uint64_t own = w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0;
-        scratch_[w] = where[w] & ~own & ~(is_grouped ? groups_[p.link.group].members[w] : 0);
+        scratch_[w] = where[w] & ~own & ~same_place(p.link, w);
         others |= scratch_[w];
         verified |= scratch_[w] & verified_[w];
     });
@@ -487,6 +492,9 @@ void Engine::Impl::apply_groups(const Passage& p) noexcept {
         const Slot chosen = choose_member(group, scratch_.data(), p.now);
         if (chosen == no_slot) continue;
         erase(scratch_.data(), chosen);
+        // Which of the peers of the chosen endpoint is the vehicle, nobody knows.
+        if (const auto family = links[chosen]->family; family != no_family)
+            each_word(words_, [&](std::size_t w) { scratch_[w] &= ~families_[family].links[w]; });
         leave_out(scratch_.data(), Reason::other_member);
     }
 }
@@ -495,20 +503,24 @@ bool Engine::Impl::is_alive(const Link& link, MonoTime now) const noexcept {
     return link.heard && now - link.last_heard < member_silence;
 }
 
+bool Engine::Impl::is_better(const Link& a, const Link& b, GroupMode mode) noexcept {
+    if (a.policy.is_verified != b.policy.is_verified) return a.policy.is_verified;
+    if (mode == GroupMode::primary) return false;
+    return std::pair{a.beats, a.last_heard} > std::pair{b.beats, b.last_heard};
+}
+
 // Returns no_slot if no member is alive; the frame then goes to all of them.
 Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) noexcept {
     Slot best = no_slot;
     for (const Slot slot : group.order) {
         const Link& link = *links[slot];
         if (!has(candidates, slot) || !is_alive(link, now)) continue;
-        if (group.mode == GroupMode::primary) return slot;
-        if (best == no_slot || link.beats > links[best]->beats ||
-            (link.beats == links[best]->beats && link.last_heard > links[best]->last_heard))
-            best = slot;
+        if (best == no_slot || is_better(link, *links[best], group.mode)) best = slot;
     }
-    if (best == no_slot) return no_slot;
+    if (best == no_slot || group.mode == GroupMode::primary) return best;
     const Slot current = group.current;
     const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
+                       links[current]->policy.is_verified == links[best]->policy.is_verified &&
                        links[best]->beats < links[current]->beats + better_by_beats;
     if (!stays) group.current = best;
     return group.current;

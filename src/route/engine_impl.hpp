@@ -53,7 +53,8 @@ public:
         LinkId id;
         LinkPolicy policy;
         EgressLimiter limiter;
-        std::uint32_t group = no_group;  // index into groups
+        std::uint32_t group = no_group;    // index into groups_
+        std::uint32_t family = no_family;  // index into families_
         bool filters_in = false;
         bool heard = false;
         MonoTime last_heard{};
@@ -77,7 +78,7 @@ public:
     std::vector<RouteConflict> conflicts;
 
 private:
-    static constexpr std::uint32_t no_group = ~std::uint32_t{0};
+    static constexpr std::uint32_t no_group = ~std::uint32_t{0}, no_family = ~std::uint32_t{0};
     // More slots than this do not rest.
     static constexpr std::size_t most_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
@@ -97,6 +98,12 @@ private:
         std::vector<std::uint64_t> members;
         std::vector<Slot> order;  // in the order that `primary` prefers
         Slot current = no_slot;   // the link that `best` uses
+    };
+    // The unverified peers of one endpoint in a group.
+    struct Family {
+        GroupId group;
+        std::uint32_t endpoint;
+        std::vector<std::uint64_t> links;
     };
     struct OutFilter {
         Filter filter;
@@ -125,6 +132,8 @@ private:
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
     [[nodiscard]] Verdict judge(Passage& p) noexcept;
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
+    // Whether a link of this link's group delivered the frame.
+    [[nodiscard]] bool came_by_group(const Passage& p) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
     // The frame is an echo; learns where its sender is if the link does not send back what it gets.
@@ -156,6 +165,14 @@ private:
     void apply_filters(const Passage& p) noexcept;
     void apply_groups(const Passage& p) noexcept;
     [[nodiscard]] Slot choose_member(Group& group, Words candidates, MonoTime now) noexcept;
+    // Whether `choose_member` takes `a` rather than `b`, which comes first in the group's order.
+    [[nodiscard]] static bool is_better(const Link& a, const Link& b, GroupMode mode) noexcept;
+    // One word of the set of links that lead to the same place as this link, as far as it can be believed.
+    [[nodiscard]] std::uint64_t same_place(const Link& link, std::size_t w) const noexcept {
+        if (link.group == no_group) return 0;
+        const std::uint64_t members = groups_[link.group].members[w];
+        return link.family == no_family ? members : members & ~families_[link.family].links[w];
+    }
     [[nodiscard]] bool is_alive(const Link& link, MonoTime now) const noexcept;
     void apply_limits(const Passage& p) noexcept;
     [[nodiscard]] EgressLimiter::Answer limit(Link& link, const Passage& p) noexcept;
@@ -182,6 +199,7 @@ private:
     [[nodiscard]] bool has_empty_group() const noexcept;
     void grow(std::size_t slots);
     [[nodiscard]] std::uint32_t group_index(const Link& link);
+    [[nodiscard]] std::uint32_t family_index(const Link& link);
 
     Nanoseconds window_;  // how long a frame is remembered
     std::size_t words_ = 1;
@@ -196,6 +214,7 @@ private:
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
     std::vector<std::uint64_t> watched_;                                          // links on which an echo arrived
     std::vector<Group> groups_;
+    std::vector<Family> families_;  // those without links are used again
     bool has_taps_ = false, has_limits_ = false, has_watched_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;

@@ -161,6 +161,19 @@ std::uint32_t Engine::Impl::group_index(const Link& link) {
     return static_cast<std::uint32_t>(index);
 }
 
+std::uint32_t Engine::Impl::family_index(const Link& link) {
+    const LinkPolicy& policy = link.policy;
+    if (policy.endpoint == 0 || policy.is_verified) return no_family;
+    const auto same = [&](const Family& f) { return f.group == policy.group && f.endpoint == policy.endpoint; };
+    const auto is_empty = [&](const Family& f) { return !any(f.links.data(), words_); };
+    auto at = std::ranges::find_if(families_, same);
+    if (at == families_.end()) at = std::ranges::find_if(families_, is_empty);
+    if (at == families_.end()) at = families_.insert(at, {{}, 0, std::vector<std::uint64_t>(words_)});
+    at->group = policy.group;
+    at->endpoint = policy.endpoint;
+    return static_cast<std::uint32_t>(at - families_.begin());
+}
+
 // Recomputes all sets that depend on the links and their policies.
 void Engine::Impl::rebuild() {
     for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_}) std::fill(set->begin(), set->end(), 0);
@@ -189,6 +202,7 @@ void Engine::Impl::empty_groups() {
             links, [&](const auto& l) { return l != nullptr && !l->policy.tap && l->policy.group == group.id; });
     };
     std::erase_if(groups_, std::not_fn(has_link));
+    families_.clear();
     for (Group& group : groups_) {
         group.members.assign(words_, 0);
         group.order.clear();
@@ -212,6 +226,8 @@ void Engine::Impl::enlist(Slot slot) {
     }
     if (link.policy.group.value == 0) return;
     link.group = group_index(link);
+    link.family = family_index(link);
+    if (link.family != no_family) route::insert(families_[link.family].links.data(), slot);
     Group& group = groups_[link.group];
     group.members.resize(words_);
     route::insert(group.members.data(), slot);
@@ -227,6 +243,7 @@ void Engine::Impl::delist(Slot slot) {
     if (links[slot]->group == no_group) return;
     Group& group = groups_[links[slot]->group];
     erase(group.members.data(), slot);
+    if (const auto family = links[slot]->family; family != no_family) erase(families_[family].links.data(), slot);
     std::erase(group.order, slot);
     if (group.current == slot) group.current = no_slot;
 }

@@ -2,6 +2,7 @@
 """Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
 units."""
 import contextlib
+import itertools
 import pathlib
 import re
 import subprocess
@@ -131,6 +132,65 @@ def test_a_forged_restart_takes_no_commands_away(spawn):
         station.send(end := heartbeat(STATION))
 
         assert order not in attacker.until(end)
+
+
+def test_a_vehicle_whose_heartbeats_somebody_sends_first_gets_its_commands(spawn):
+    """Its own heartbeats are echoes then. It got no command at all."""
+    from frames import mavlink
+    beats = []
+    for sequence in range(256):
+        mav = mavlink.MAVLink(None, *VEHICLE)
+        mav.seq = sequence
+        beats.append(bytes(mavlink.MAVLink_heartbeat_message(2, 12, 81, 0, 4, 3).pack(mav)))
+    with Net(spawn, "udpin", 3) as net:
+        vehicle, attacker, station = net[1], net[2], net[3]
+        for end in (vehicle, attacker, station):
+            end.send(heartbeat((200, 1)))
+        net.router.wait_links(3)
+        orders, second = [], itertools.count()
+
+        def gets_a_command():
+            for beat in beats:
+                attacker.send(beat)
+            station.send(mark := heartbeat(STATION))
+            vehicle.until(mark)
+            vehicle.send(beats[next(second)])
+            time.sleep(0.6)
+            station.send(order := command(STATION, VEHICLE))
+            orders.append(order)
+            station.send(mark := heartbeat(STATION))
+            return set(orders) & set(vehicle.until(mark))
+        harness.wait_for(gets_a_command, what="a command for the vehicle")
+
+        assert net.router.link_of(vehicle)["echo"] > 0
+
+
+@pytest.mark.parametrize("mode", ["best", "primary"])
+def test_a_peer_in_a_group_does_not_take_the_vehicles_place(spawn, mode):
+    """With best, it took all commands by sending more heartbeats."""
+    ports = routers.udp_port(), routers.udp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{ports[0]}?group=air&group_mode={mode}", f"udpin://127.0.0.1:{ports[1]}")
+    with UdpEnd(("127.0.0.1", ports[0])) as attacker, UdpEnd(("127.0.0.1", ports[0])) as vehicle, \
+            UdpEnd(("127.0.0.1", ports[1])) as station:
+        attacker.send(heartbeat(VEHICLE))  # it is first, also in the group's order
+        vehicle.send(heartbeat(VEHICLE))
+        station.send(heartbeat(STATION))
+        router.wait_links(3)
+        harness.wait_for(lambda: send_beats(vehicle, attacker) and sum(r[0] == 1 for r in router.routes()) == 2,
+                         what="both routes")
+        for _ in range(20):
+            send_beats(vehicle, attacker)
+            station.send(order := command(STATION, VEHICLE))
+            vehicle.until(order)
+
+
+def send_beats(vehicle, attacker):
+    """One second of a vehicle, and of somebody who sends more."""
+    vehicle.send(heartbeat(VEHICLE))
+    for _ in range(10):
+        attacker.send(heartbeat(VEHICLE))
+    time.sleep(0.1)
+    return True
 
 
 def test_one_frame_with_the_vehicles_id_costs_a_station_no_telemetry(spawn):

@@ -21,6 +21,7 @@ struct ModelPolicy {
     std::uint32_t group = 0;
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
+    std::uint32_t endpoint = 0;
     bool tap = false, is_private = false, is_verified = false, learns_first = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
@@ -184,7 +185,7 @@ private:
             }
             const bool again = r->heard.contains(ingress);
             const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
-                return id != gone && link.policy.group != 0 && links_[id].policy.group == link.policy.group;
+                return id != gone && id != ingress && is_same_place(link, links_[id]);
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
@@ -309,14 +310,21 @@ private:
         heard->echoed = now_;
     }
 
+    // Links of a group lead to the same place, but nobody knows that of the unverified peers of one endpoint.
+    static bool are_peers(const Link& a, const Link& b) {
+        return a.policy.endpoint != 0 && a.policy.endpoint == b.policy.endpoint && !a.policy.is_verified &&
+               !b.policy.is_verified;
+    }
+    static bool is_same_place(const Link& a, const Link& b) {
+        return a.policy.group != 0 && a.policy.group == b.policy.group && !are_peers(a, b);
+    }
+
     // A vehicle that is alive elsewhere is learned only after 5 s without a gap of 2 s. Verified links come first.
     bool may_learn(std::uint32_t ingress, std::uint8_t system) {
         Link& link = links_[ingress];
         std::vector<std::uint32_t> others;
         for (const auto& [id, other] : links_)
-            if (id != ingress && is_fresh(id, system, -1) &&
-                (link.policy.group == 0 || other.policy.group != link.policy.group))
-                others.push_back(id);
+            if (id != ingress && is_fresh(id, system, -1) && !is_same_place(link, other)) others.push_back(id);
         if (others.empty()) return true;
         const auto is_verified = [&](std::uint32_t id) { return links_[id].policy.is_verified; };
         if (link.policy.is_verified) {
@@ -427,6 +435,8 @@ private:
         for (const auto id : members)
             if (!is_silent(links_[id])) alive.push_back(id);
         if (alive.empty()) return;
+        if (std::ranges::any_of(alive, [&](auto id) { return links_[id].policy.is_verified; }))
+            std::erase_if(alive, [&](auto id) { return !links_[id].policy.is_verified; });
         std::stable_sort(alive.begin(), alive.end(),
                          [&](auto a, auto b) { return links_[a].policy.order < links_[b].policy.order; });
         std::uint32_t chosen = alive.front();
@@ -441,7 +451,7 @@ private:
             current_[group] = chosen;
         }
         for (const auto id : members)
-            if (id != chosen) why[id] = Reason::other_member;
+            if (id != chosen && !are_peers(links_[id], links_[chosen])) why[id] = Reason::other_member;
     }
 
     // docs/guide/queues.md: of class 0 the test has HEARTBEAT, COMMAND_LONG, SET_MODE; of class 1 MANUAL_CONTROL.
