@@ -47,6 +47,18 @@ public:
         if (!has_repeated(sender, now)) return Answer::refused;
         return repeater_tokens_ >= 1 ? Answer::admitted : Answer::limited;
     }
+    // Returns whether the sender also sent 0.5 to 10 s ago.
+    [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
+        if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
+        const std::uint64_t hash = sender.hash();
+        Seen& seen = seen_[hash % remembered];
+        const auto tag = static_cast<std::uint32_t>(hash >> 32) | 1u;
+        const auto now_ms = static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1});
+        const std::chrono::milliseconds age{now_ms - seen.at_ms};  // modulo 2^32, 50 days
+        if (seen.tag == tag && age <= remembered_for) return age >= repeats_after;
+        seen = {tag, now_ms};
+        return false;
+    }
     void note_entry() noexcept { --(tokens_ >= 1 ? tokens_ : repeater_tokens_); }
 
 private:
@@ -62,17 +74,6 @@ private:
             repeater_tokens_ = std::min(repeater_tokens_ + passed * repeaters_per_second, most_repeaters_at_once);
         }
         refilled_ = now;
-    }
-    bool has_repeated(const net::Address& sender, MonoTime now) {
-        if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
-        const std::uint64_t hash = sender.hash();
-        Seen& seen = seen_[hash % remembered];
-        const auto tag = static_cast<std::uint32_t>(hash >> 32) | 1u;
-        const auto now_ms = static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1});
-        const std::chrono::milliseconds age{now_ms - seen.at_ms};  // modulo 2^32, 50 days
-        if (seen.tag == tag && age <= remembered_for) return age >= repeats_after;
-        seen = {tag, now_ms};
-        return false;
     }
 
     double burst_, tokens_;

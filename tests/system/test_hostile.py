@@ -193,6 +193,34 @@ def send_beats(vehicle, attacker):
     return True
 
 
+def test_talkers_that_came_first_do_not_keep_a_vehicle_out(spawn):
+    port = routers.udp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{port}?max_peers=32")
+    with contextlib.ExitStack() as ends:
+        station, *talkers = (ends.enter_context(UdpEnd(("127.0.0.1", port))) for _ in range(32))
+        vehicle = ends.enter_context(UdpEnd(("127.0.0.1", port)))
+
+        def all_send():
+            station.send(heartbeat(STATION))
+            for n, talker in enumerate(talkers):
+                talker.send(heartbeat((10 + n, 1)))
+        for _ in range(2):
+            all_send()
+        router.wait_links(32)
+
+        def has_a_route():
+            all_send()
+            vehicle.send(heartbeat(VEHICLE))
+            time.sleep(0.6)
+            return any(r[:2] == VEHICLE for r in router.routes())
+        harness.wait_for(has_a_route, what="the vehicle's route")
+
+        assert any(r[:2] == STATION for r in router.routes()), "it was there before most others"
+        assert router.stats("endpoint")[0]["peers_displaced"] > 0
+        station.send(order := command(STATION, VEHICLE))
+        vehicle.until(order)
+
+
 def test_one_frame_with_the_vehicles_id_costs_a_station_no_telemetry(spawn):
     with Net(spawn, "udpin", 2) as net:
         vehicle, station = net[1], net[2]

@@ -46,7 +46,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         return nullptr;
     }
     admission_.note_entry();
-    if (!make_room()) {
+    if (!make_room(*datagram.from)) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
     }
@@ -65,15 +65,27 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
 // Returns true if the sender's address may be forged: then the peer gets little before it repeats itself.
 bool UdpPeers::must_confirm(const net::Address& sender) const {
     const auto& options = endpoint_.info.endpoint.options;
-    return !sender.is_loopback() && !options.trusted && !(endpoint_.signature && endpoint_.signature->verifies());
+    return !sender.is_loopback() && !options.trusted && !verifies();
 }
 
-bool UdpPeers::make_room() {
+bool UdpPeers::verifies() const { return endpoint_.signature && endpoint_.signature->verifies(); }
+
+bool UdpPeers::make_room(const net::Address& newcomer) {
     if (!peers_.is_full()) return true;
     UdpPeer* const first = peers_.to_evict(core_.now());
-    if (first == nullptr) return false;
+    if (first == nullptr) return displace_for(newcomer);
     endpoint_.counters.peers_evicted.add();
     drop(*first, "max_peers is reached, and this peer was silent longest");
+    return true;
+}
+
+// All peers talk. Verified ones keep their places.
+bool UdpPeers::displace_for(const net::Address& newcomer) {
+    if (!admission_.has_repeated(newcomer, core_.now()) || verifies()) return false;
+    UdpPeer* const peer = displacement_.choose(peers_.all(), core_.now());
+    if (peer == nullptr) return false;
+    endpoint_.counters.peers_displaced.add();
+    drop(*peer, "max_peers is reached, and others wait");
     return true;
 }
 

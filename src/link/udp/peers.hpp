@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "link/admission.hpp"
+#include "link/displacement.hpp"
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
 
@@ -52,7 +53,9 @@ private:
     [[nodiscard]] bool may_enter(const net::Address& sender);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
-    [[nodiscard]] bool make_room();
+    [[nodiscard]] bool verifies() const;
+    [[nodiscard]] bool make_room(const net::Address& newcomer);
+    [[nodiscard]] bool displace_for(const net::Address& newcomer);
     void drop(UdpPeer& peer, std::string_view why);
 
     Core& core_;
@@ -61,6 +64,7 @@ private:
     Nanoseconds idle_;
     wire::DatagramParser stranger_;
     Admission admission_;
+    Displacement displacement_;
     PeerList<UdpPeer> peers_;
     net::TimerId expiry_;
 };
