@@ -4,8 +4,8 @@
 //
 // The first senders enter at once, later ones at a steady rate. During a flood, a sender that is turned away may still
 // enter by repetition: when it sends again 0.5 to 10 s later, as everybody who speaks MAVLink does. Invented addresses
-// mostly do not repeat; if many do, these enter at a steady rate too. Asking allocates nothing, except for the memory of
-// such senders when the first one is turned away.
+// mostly do not repeat; if many do, these enter at a steady rate too. Asking allocates nothing, except for the memory
+// of such senders when the first one is turned away.
 // docs/design/security.md
 #pragma once
 

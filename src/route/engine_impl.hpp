@@ -42,8 +42,8 @@ public:
         SystemId system{};  // 0: none
         MonoTime since{}, last{};
     };
-    // What happens to frames that were sent to a link on which an echo arrived. A link that sends everything back brings
-    // frames of all systems; a vehicle's heartbeats that somebody predicted are of its own system.
+    // Of a link on which an echo arrived: whether frames that are sent to it come back. A link that sends everything
+    // back brings frames of all systems. A vehicle whose heartbeats somebody predicted brings those of its own.
     struct Returns {
         std::array<std::uint64_t, 4> systems{};  // set of the systems of which frames came back
         std::uint32_t kept = 0;                  // frames of other systems since `kept_since`
@@ -212,7 +212,7 @@ private:
     RouteTable routes_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
-    std::vector<std::uint64_t> watched_;                                          // links on which an echo arrived
+    std::vector<std::uint64_t> watched_;                                         // links on which an echo arrived
     std::vector<Group> groups_;
     std::vector<Family> families_;  // those without links are used again
     bool has_taps_ = false, has_limits_ = false, has_watched_ = false;

@@ -189,7 +189,8 @@ void Engine::Impl::note_links_changed() {
     ++links_version_;
     has_taps_ = any(taps_.data(), words_);
     has_limits_ = any(limited_.data(), words_);
-    chooses_members_ = std::ranges::any_of(groups_, [](const Group& group) { return group.mode != GroupMode::all && group.order.size() > 1; });
+    chooses_members_ = std::ranges::any_of(
+        groups_, [](const Group& group) { return group.mode != GroupMode::all && group.order.size() > 1; });
     // Remembers frames from the first link on: what the router itself sends there may come back on a second link.
     const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
     recent_.resize(remembers ? options.recent_frames : 0, words_);

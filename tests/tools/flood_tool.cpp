@@ -2,8 +2,9 @@
 // An attacker for tests/system/test_hostile.py: sends heartbeats from invented addresses.
 //   flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]
 // Every datagram is a HEARTBEAT from another address of HOST's /8 network, RATE a second. IDS is how many system and
-// component ids it uses (default 1). ADDRESSES is after how many the first address comes again. Prints how many datagrams it sent. Works on loopback without privileges, because
-// all of 127.0.0.0/8 belongs to this machine. Another network needs `ip route add local 10.0.0.0/8 dev lo`.
+// component ids it uses (default 1). ADDRESSES is how many addresses it uses in turn. Prints how many datagrams it
+// sent. Works on loopback without privileges, because all of 127.0.0.0/8 belongs to this machine. Another network
+// needs `ip route add local 10.0.0.0/8 dev lo`.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>

@@ -73,7 +73,7 @@ struct EndpointCounters {
     // New peers turned away: max_peers is reached, and no peer may be evicted; or very many new addresses send
     // (docs/guide/queues.md).
     Counter peers_refused;
-    Counter peers_limited;  // new peers turned away although they repeat, because too many do
+    Counter peers_limited;    // new peers turned away although they repeat, because too many do
     Counter peers_evicted;    // the longest idle peers, evicted for new ones
     Counter peers_displaced;  // peers that talked, and left for others (docs/guide/queues.md)
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.

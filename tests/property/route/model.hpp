@@ -107,7 +107,8 @@ public:
     [[nodiscard]] std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> routes(MonoTime now) const {
         std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> list;
         for (const Heard& h : heard_)
-            if (h.known && now - h.last() < options_.route_timeout) list.emplace(h.link, h.system, h.component, h.frames);
+            if (h.known && now - h.last() < options_.route_timeout)
+                list.emplace(h.link, h.system, h.component, h.frames);
         return list;
     }
 

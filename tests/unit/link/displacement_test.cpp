@@ -27,7 +27,9 @@ public:
         for (Talker& peer : peers_) list.push_back(&peer);
         return list;
     }
-    [[nodiscard]] std::size_t place_of(const Talker* peer) const { return static_cast<std::size_t>(peer - peers_.data()); }
+    [[nodiscard]] std::size_t place_of(const Talker* peer) const {
+        return static_cast<std::size_t>(peer - peers_.data());
+    }
 
 private:
     std::vector<Talker> peers_;
@@ -74,7 +76,7 @@ TEST(Displacement, FourLeaveAtOnceThenOneEachTwoSeconds) {
     EXPECT_EQ(until(61s, 62s), 4);
 }
 
-// 256 talkers came before the vehicle. Whoever had to leave tries again.
+// 256 talkers came before the vehicle. A peer that had to leave tries again.
 TEST(Displacement, ALateVehicleHasAPlaceMostOfTheTime) {
     std::vector<std::unique_ptr<Talker>> inside;
     for (int i = 0; i < 256; ++i) inside.push_back(std::make_unique<Talker>(Talker{long_ago + i * 10ms}));

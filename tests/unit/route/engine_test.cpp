@@ -92,7 +92,8 @@ class QuickTurnover : public testing::Test {
 protected:
     QuickTurnover() { sut.links(101); }
     void replace_a_hundred() {
-        for (int i = 0; i < 100; ++i) sut.engine.remove_link(LinkId{sut.last_link - 99 + static_cast<std::uint32_t>(i)});
+        for (int i = 0; i < 100; ++i)
+            sut.engine.remove_link(LinkId{sut.last_link - 99 + static_cast<std::uint32_t>(i)});
         sut.links(100);
     }
 

@@ -24,7 +24,8 @@ class Predicted : public testing::Test {
 protected:
     void one_second(std::uint8_t second) {
         sut.hears(3, gcs);
-        for (std::uint32_t sequence = 0; sequence < 256; ++sequence) sut.pass(1, beat(static_cast<std::uint8_t>(sequence)));
+        for (std::uint32_t sequence = 0; sequence < 256; ++sequence)
+            sut.pass(1, beat(static_cast<std::uint8_t>(sequence)));
         sut.wait(500ms);
         sut.pass(2, beat(second));
         sut.wait(500ms);
