@@ -141,7 +141,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (found && counts_as_heard(p)) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
-            learn_from_echo(p);
+            learn_from_echo(p.frame, p.info, p.slot);
             verdict = Verdict::echo;
             return true;
         }
@@ -223,15 +223,18 @@ void Engine::Impl::learn(Passage& p) noexcept {
     if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);
     p.link.heard = true;
     p.link.last_heard = p.now;
-    if (p.info == nullptr || p.frame.system().value == 0 || !may_learn(p)) return;
+    if (p.info == nullptr || p.frame.system().value == 0) return;
+    const bool is_elsewhere = has_other(routes_.links_of(p.frame.system()), p.slot, words_);
+    if (is_elsewhere && !may_learn(p)) return;
     RouteTable::Change change;
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
-    watch_for_duplicate_ids(p);
+    if (is_elsewhere) watch_for_duplicate_ids(p);
 }
 
 // An echo does not make its sender present or alive here, so frames of the sender still go to this link.
-void Engine::Impl::learn_from_echo(Passage& p) noexcept {
+void Engine::Impl::learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info, Slot slot) noexcept {
+    Passage p{frame, 0, info, frame.id(), pair_of(frame.source()), slot, *links[slot], now_};
     note_return(p);
     const Returns& returns = p.link.returns;
     const bool keeps_others = returns.kept >= kept_frames && p.now - returns.kept_since >= echo_window;
@@ -274,22 +277,20 @@ void Engine::Impl::watch_for_returns(SystemId system, ConstWords set) noexcept {
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     const ConstWords where = routes_.links_of(system);
-    std::uint64_t others = 0, verified = 0;
+    std::uint64_t others = 0;
     each_word(words_, [&](std::size_t w) {
         const std::uint64_t own = w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0;
         scratch_[w] = where[w] & ~own & ~same_place(p.link, w);
         others |= scratch_[w];
-        verified |= scratch_[w] & verified_[w];
     });
-    if (others == 0) [[likely]]
-        return true;
+    if (others == 0) return true;
     if (p.link.policy.is_verified) {
         each(scratch_.data(), words_, [&](Slot slot) {
             if (!has(verified_.data(), slot)) routes_.forget_system(slot, system);
         });
         return true;
     }
-    if (verified != 0) return false;
+    if (intersect(scratch_.data(), verified_.data(), words_)) return false;
     if (has(where, p.slot)) return true;
     const Slot first = where_alive(p, scratch_.data());
     return first == no_slot || is_consistent(p, first);
@@ -354,11 +355,7 @@ void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcep
 
 void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
     const ConstWords where = routes_.links_of(p.source);
-    std::uint64_t others = 0;
-    each_word(words_,
-              [&](std::size_t w) { others |= where[w] & ~(w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0); });
-    if (others == 0) [[likely]]
-        return;
+    if (!has_other(where, p.slot, words_)) return;
     Turns& turns = turns_[p.source];
     if (turns.last == p.link.id) return;
     const Slot last = slot_of(turns.last);

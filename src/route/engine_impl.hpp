@@ -137,10 +137,12 @@ private:
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
     // The frame is an echo; learns where its sender is if the link does not send back what it gets.
-    void learn_from_echo(Passage& p) noexcept;
+    // It is not inlined and takes no Passage, so that the compiler keeps that of `route` in registers.
+    [[gnu::noinline]] void learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info,
+                                           Slot slot) noexcept;
     void note_return(Passage& p) noexcept;
     // The frame of this system is sent to the links of `set`.
-    void watch_for_returns(SystemId system, ConstWords set) noexcept;
+    [[gnu::noinline]] void watch_for_returns(SystemId system, ConstWords set) noexcept;
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
     [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;

@@ -61,7 +61,7 @@ private:
         return static_cast<std::int64_t>(cells_[index + 1]);
     }
 
-    void remove_stale(std::size_t index) noexcept;
+    [[gnu::noinline]] void remove_stale(std::size_t index) noexcept;
 
     // Each place holds the hash (0 if empty), the time, and the sets `heard` and `sent`. With up to 64 links, a bucket
     // takes two cache lines.
