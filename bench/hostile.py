@@ -2,7 +2,9 @@
 """A flood of heartbeats from invented addresses at one udpin, while a vehicle sends to a ground station through it.
 Prints loss and delay of the vehicle's frames, and how long `ctl` and `stat` take. docs/performance.md
 
-    build/venv/bin/python bench/hostile.py [RATE...]
+    build/venv/bin/python bench/hostile.py [RATE[/ADDRESSES]...]
+
+With ADDRESSES, each address sends again after so many others.
 
 Needs root, the program, and tests/bin/flood_tool of the release build. The router gets the receive buffer that it asks
 for. All run in a network namespace of their own, with addresses that are not loopback: peers on loopback are
@@ -66,7 +68,7 @@ def asked(*arguments):
     return time.monotonic() - begin
 
 
-def measure(rate):
+def measure(rate, addresses=0):
     port = routers.udp_port()
     target = (HOST, port)
     name = f"hostile-{os.getpid()}-{rate}"
@@ -82,7 +84,8 @@ def measure(rate):
         station.sendto(routers.heartbeat(STATION), target)
         time.sleep(0.6)
     sent_at = multiprocessing.Array("d", FRAMES_PER_S * SECONDS, lock=False)
-    flood = subprocess.Popen([BUILD / "tests/bin/flood_tool", HOST, str(port), str(rate), str(SECONDS + 1)],
+    flood = subprocess.Popen([BUILD / "tests/bin/flood_tool", HOST, str(port), str(rate), str(SECONDS + 1),
+                              *(["1", str(addresses)] if addresses else [])],
                              stdout=subprocess.PIPE, text=True) if rate else None
     begin = time.monotonic() + 0.5
     sender = multiprocessing.Process(target=send, args=(vehicle, target, begin, sent_at))
@@ -97,8 +100,9 @@ def measure(rate):
     router.wait()
     in_order = sorted(delays.values()) or [float("nan")]
     p99 = in_order[int(0.99 * len(in_order))]
-    print(f"| {rate:,} | {offered:,.0f} | {FRAMES_PER_S * SECONDS - len(delays)} | {statistics.median(in_order):.2f} | "
-          f"{p99:.2f} | {in_order[-1]:.1f} | {max(answers):.2f} |", flush=True)
+    asked_for = f"{rate:,} from {addresses:,}" if addresses else f"{rate:,}"
+    print(f"| {asked_for} | {offered:,.0f} | {FRAMES_PER_S * SECONDS - len(delays)} | "
+          f"{statistics.median(in_order):.2f} | {p99:.2f} | {in_order[-1]:.1f} | {max(answers):.2f} |", flush=True)
     return stats
 
 
@@ -110,5 +114,5 @@ if __name__ == "__main__":
     os.environ.setdefault("MAVLOOM_RUN", tempfile.mkdtemp(prefix="mv-"))
     print("| flood asked, datagrams/s | sent | frames lost of 5,000 | delay, median (ms) | p99 | max | "
           "slowest ctl, stat (s) |\n|---|---|---|---|---|---|---|", flush=True)
-    for rate in [int(text) for text in sys.argv[1:]] or [0, 20_000, 100_000]:
-        measure(rate)
+    for text in sys.argv[1:] or ["0", "20000", "100000"]:
+        measure(*(int(part) for part in text.split("/")))

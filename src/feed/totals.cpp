@@ -16,7 +16,7 @@ void Totals::add(const link::EndpointCounters& counters) noexcept {
     wrong_peer += counters.wrong_peer.value();
     bad_source += counters.bad_source.value();
     stray_bytes += counters.stray_bytes.value();
-    peers_refused += counters.peers_refused.value();
+    peers_refused += counters.peers_refused.value() + counters.peers_limited.value();
     add(counters.gone);
 }
 

@@ -4,7 +4,8 @@
 //
 // The first senders enter at once, later ones at a steady rate. During a flood, a sender that is turned away may still
 // enter by repetition: when it sends again 0.5 to 10 s later, as everybody who speaks MAVLink does. Invented addresses
-// do not repeat. Asking allocates nothing, except for the memory of such senders when the first one is turned away.
+// mostly do not repeat; if many do, these enter at a steady rate too. Asking allocates nothing, except for the memory
+// of such senders when the first one is turned away.
 // docs/design/security.md
 #pragma once
 
@@ -20,7 +21,13 @@ namespace mavloom::link::detail {
 
 class Admission {
 public:
+    enum class Answer : std::uint8_t {
+        admitted,
+        refused,  // too many new senders; it may enter when it repeats
+        limited,  // it repeated, as too many others did
+    };
     static constexpr double per_second = 50;
+    static constexpr double repeaters_per_second = 100, most_repeaters_at_once = 100;
     static constexpr std::chrono::milliseconds repeats_after{500};
     static constexpr std::chrono::seconds remembered_for{10};
     static constexpr std::size_t remembered = 1u << 16;
@@ -32,25 +39,16 @@ public:
     // `burst`: how many may enter at once.
     explicit Admission(std::size_t burst) noexcept : burst_(static_cast<double>(burst)), tokens_(burst_) {}
 
-    // Returns whether this sender may become a peer now. If it then does, call `note_entry`.
-    [[nodiscard]] bool admits(const net::Address& sender, MonoTime now) {
+    // Returns whether this sender may become a peer now. If it does, or is turned away after more work than this, call
+    // `note_entry`.
+    [[nodiscard]] Answer ask(const net::Address& sender, MonoTime now) {
         refill(now);
-        return tokens_ >= 1 || has_repeated(sender, now);
+        if (tokens_ >= 1) return Answer::admitted;
+        if (!has_repeated(sender, now)) return Answer::refused;
+        return repeater_tokens_ >= 1 ? Answer::admitted : Answer::limited;
     }
-    void note_entry() noexcept { tokens_ = std::max(tokens_ - 1, 0.0); }
-
-private:
-    struct Seen {
-        std::uint32_t tag = 0;
-        std::uint32_t at_ms = 0;
-    };
-
-    void refill(MonoTime now) noexcept {
-        const double passed = std::chrono::duration<double>(now - refilled_).count();
-        if (refilled_ != MonoTime{}) tokens_ = std::min(tokens_ + passed * per_second, burst_);
-        refilled_ = now;
-    }
-    bool has_repeated(const net::Address& sender, MonoTime now) {
+    // Returns whether the sender also sent 0.5 to 10 s ago.
+    [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
         if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
         const std::uint64_t hash = sender.hash();
         Seen& seen = seen_[hash % remembered];
@@ -61,8 +59,25 @@ private:
         seen = {tag, now_ms};
         return false;
     }
+    void note_entry() noexcept { --(tokens_ >= 1 ? tokens_ : repeater_tokens_); }
+
+private:
+    struct Seen {
+        std::uint32_t tag = 0;
+        std::uint32_t at_ms = 0;
+    };
+
+    void refill(MonoTime now) noexcept {
+        const double passed = std::chrono::duration<double>(now - refilled_).count();
+        if (refilled_ != MonoTime{}) {
+            tokens_ = std::min(tokens_ + passed * per_second, burst_);
+            repeater_tokens_ = std::min(repeater_tokens_ + passed * repeaters_per_second, most_repeaters_at_once);
+        }
+        refilled_ = now;
+    }
 
     double burst_, tokens_;
+    double repeater_tokens_ = most_repeaters_at_once;
     MonoTime refilled_{};
     std::unique_ptr<Seen[]> seen_;
 };

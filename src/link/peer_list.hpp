@@ -29,6 +29,11 @@ public:
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }
     [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
     [[nodiscard]] bool is_full() const noexcept { return size() >= endpoint_.info.endpoint.options.max_peers; }
+    [[nodiscard]] std::vector<Peer*> all() const {
+        std::vector<Peer*> list(peers_.size());
+        std::ranges::transform(peers_, list.begin(), &std::unique_ptr<Peer>::get);
+        return list;
+    }
     // Returns null if no peer has this link id.
     [[nodiscard]] Peer* find(LinkId link) const noexcept {
         const auto at = std::ranges::find_if(peers_, [&](const auto& peer) { return peer->id == link; });

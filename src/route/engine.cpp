@@ -83,12 +83,14 @@ Decision Engine::Impl::route(const wire::FrameView& frame, std::uint64_t hash, c
     if (p.is_copy) [[unlikely]]
         unite(recent_.sent(p.recent), candidates_.data(), words_);
     else if (p.is_remembered) assign(recent_.sent(p.recent), candidates_.data(), words_);
+    if (has_watched_) [[unlikely]]
+        watch_for_returns(frame.system(), candidates_.data());
     return {verdict, list_candidates(link)};
 }
 
 // Frames of one link mostly go to the same links, so the link keeps its last long list.
 std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
-    if (from.listed != 0 && equal(candidates_.data(), from.listed_set.data(), words_))
+    if (from.listed_at == links_version_ && equal(candidates_.data(), from.listed_set.data(), words_))
         return {from.list.data(), from.listed};
     std::size_t n = 0;
     each(candidates_.data(), words_, [&](Slot to) { out_[n++] = ids_[to]; });
@@ -96,6 +98,7 @@ std::span<const LinkId> Engine::Impl::list_candidates(Link& from) noexcept {
         std::copy_n(out_.begin(), n, from.list.begin());
         assign(from.listed_set.data(), candidates_.data(), words_);
         from.listed = n;
+        from.listed_at = links_version_;
     }
     return {out_.data(), n};
 }
@@ -140,13 +143,13 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     if (found && counts_as_heard(p)) {
         const Nanoseconds age = p.now - recent_.time(p.recent);
         if (age < echo_window && has(recent_.sent(p.recent), p.slot)) {
+            learn_from_echo(p.frame, p.info, p.slot);
             verdict = Verdict::echo;
             return true;
         }
         const Words heard = recent_.heard(p.recent);
         const bool again_here = has(heard, p.slot);
-        const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here &&
-                                   intersect(heard, groups_[p.link.group].members.data(), words_);
+        const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here && came_by_group(p);
         if (copy_in_group || (age < options.dedup && any(heard, words_))) {
             insert(heard, p.slot);
             if (!again_here) learn(p);
@@ -159,6 +162,13 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
     }
     remember(p, found);
     return false;
+}
+
+bool Engine::Impl::came_by_group(const Passage& p) noexcept {
+    const Words heard = recent_.heard(p.recent);
+    std::uint64_t links_of_group = 0;
+    each_word(words_, [&](std::size_t w) { links_of_group |= heard[w] & same_place(p.link, w); });
+    return links_of_group != 0;
 }
 
 // On a verified link, what unverified links brought does not count: somebody without a key may have repeated the frame
@@ -215,11 +225,53 @@ void Engine::Impl::learn(Passage& p) noexcept {
     if (p.link.group != no_group && groups_[p.link.group].mode == GroupMode::best) count_beats(p);
     p.link.heard = true;
     p.link.last_heard = p.now;
-    if (p.info == nullptr || p.frame.system().value == 0 || !may_learn(p)) return;
+    if (p.info == nullptr || p.frame.system().value == 0) return;
+    const bool is_elsewhere = has_other(routes_.links_of(p.frame.system()), p.slot, words_);
+    if (is_elsewhere && !may_learn(p)) return;
     RouteTable::Change change;
     routes_.learn(p.slot, p.source, p.now, change);
     count_routes(change);
-    watch_for_duplicate_ids(p);
+    if (is_elsewhere) watch_for_duplicate_ids(p);
+}
+
+// An echo does not make its sender present or alive here, so frames of the sender still go to this link.
+void Engine::Impl::learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info, Slot slot) noexcept {
+    Passage p{frame, 0, info, frame.id(), pair_of(frame.source()), slot, *links[slot], now_};
+    note_return(p);
+    const Returns& returns = p.link.returns;
+    const bool keeps_others = returns.kept >= kept_frames && p.now - returns.kept_since >= echo_window;
+    if (p.info == nullptr || p.frame.system().value == 0) return;
+    if (!keeps_others && routes_.find(p.slot, p.source) == nullptr) {
+        note_claim(p);
+        return;
+    }
+    if (!may_learn(p)) return;
+    RouteTable::Change change;
+    routes_.learn_from_echo(p.slot, p.source, p.now, change);
+    count_routes(change);
+}
+
+void Engine::Impl::note_return(Passage& p) noexcept {
+    Returns& returns = p.link.returns;
+    if (!has(watched_.data(), p.slot) || p.now - returns.last >= returns_forgotten_after) returns = {};
+    returns.last = p.now;
+    insert(watched_.data(), p.slot);
+    has_watched_ = true;
+    const Slot system = p.frame.system().value;
+    if (has(returns.systems.data(), system)) return;
+    insert(returns.systems.data(), system);
+    returns.kept = 0;
+}
+
+void Engine::Impl::watch_for_returns(SystemId system, ConstWords set) noexcept {
+    for (std::size_t w = 0; w < words_; ++w)
+        each_in_word(set[w] & watched_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
+            Returns& returns = links[slot]->returns;
+            if (now_ - returns.last >= returns_forgotten_after) erase(watched_.data(), slot);
+            if (has(returns.systems.data(), system.value)) return;
+            if (returns.kept++ == 0) returns.kept_since = now_;
+        });
+    has_watched_ = any(watched_.data(), words_);
 }
 
 // Without a key, nobody can prove an identity. So the rules favour the link that heard a vehicle first, and links
@@ -227,23 +279,20 @@ void Engine::Impl::learn(Passage& p) noexcept {
 bool Engine::Impl::may_learn(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     const ConstWords where = routes_.links_of(system);
-    const bool is_grouped = p.link.group != no_group;
-    std::uint64_t others = 0, verified = 0;
+    std::uint64_t others = 0;
     each_word(words_, [&](std::size_t w) {
         const std::uint64_t own = w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0;
-        scratch_[w] = where[w] & ~own & ~(is_grouped ? groups_[p.link.group].members[w] : 0);
+        scratch_[w] = where[w] & ~own & ~same_place(p.link, w);
         others |= scratch_[w];
-        verified |= scratch_[w] & verified_[w];
     });
-    if (others == 0) [[likely]]
-        return true;
+    if (others == 0) return true;
     if (p.link.policy.is_verified) {
         each(scratch_.data(), words_, [&](Slot slot) {
             if (!has(verified_.data(), slot)) routes_.forget_system(slot, system);
         });
         return true;
     }
-    if (verified != 0) return false;
+    if (intersect(scratch_.data(), verified_.data(), words_)) return false;
     if (has(where, p.slot)) return true;
     const Slot first = where_alive(p, scratch_.data());
     return first == no_slot || is_consistent(p, first);
@@ -260,8 +309,7 @@ Slot Engine::Impl::where_alive(const Passage& p, ConstWords links_of_system) con
     return alive;
 }
 
-// Keeps the claim of this link to the system. Returns true once it is old enough.
-bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
+Engine::Impl::Claim& Engine::Impl::note_claim(const Passage& p) noexcept {
     const SystemId system = p.frame.system();
     auto claim = std::ranges::find(p.link.claims, system, &Claim::system);
     if (claim == p.link.claims.end()) {
@@ -270,8 +318,14 @@ bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
     }
     if (p.now - claim->last >= alive_for) claim->since = p.now;
     claim->last = p.now;
-    if (p.link.policy.learns_first || p.now - claim->since < consistent_for) return false;
-    *claim = {};
+    return *claim;
+}
+
+// Returns true once the claim of this link to the system is old enough.
+bool Engine::Impl::is_consistent(const Passage& p, Slot first) noexcept {
+    Claim& claim = note_claim(p);
+    if (p.link.policy.learns_first || p.now - claim.since < consistent_for) return false;
+    claim = {};
     note_conflict(p, first);
     return true;
 }
@@ -291,7 +345,8 @@ void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcep
         last = {link, now};
         counters.reboots.add();
     }
-    const bool was_learned = routes_.find(slot, pair_of(source)) != nullptr;
+    const Route* const known = routes_.find(slot, pair_of(source));
+    const bool was_learned = known != nullptr && known->known == Route::Known::yes;
     routes_.forget_system(slot, source.system);
     if (!was_learned) return;
     RouteTable::Change change;
@@ -302,11 +357,7 @@ void Engine::Impl::note_reboot(LinkId link, Source source, MonoTime now) noexcep
 
 void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
     const ConstWords where = routes_.links_of(p.source);
-    std::uint64_t others = 0;
-    each_word(words_,
-              [&](std::size_t w) { others |= where[w] & ~(w == p.slot / 64 ? std::uint64_t{1} << (p.slot % 64) : 0); });
-    if (others == 0) [[likely]]
-        return;
+    if (!has_other(where, p.slot, words_)) return;
     Turns& turns = turns_[p.source];
     if (turns.last == p.link.id) return;
     const Slot last = slot_of(turns.last);
@@ -440,6 +491,9 @@ void Engine::Impl::apply_groups(const Passage& p) noexcept {
         const Slot chosen = choose_member(group, scratch_.data(), p.now);
         if (chosen == no_slot) continue;
         erase(scratch_.data(), chosen);
+        // Which of the peers of the chosen endpoint is the vehicle, nobody knows.
+        if (const auto family = links[chosen]->family; family != no_family)
+            each_word(words_, [&](std::size_t w) { scratch_[w] &= ~families_[family].links[w]; });
         leave_out(scratch_.data(), Reason::other_member);
     }
 }
@@ -448,20 +502,24 @@ bool Engine::Impl::is_alive(const Link& link, MonoTime now) const noexcept {
     return link.heard && now - link.last_heard < member_silence;
 }
 
+bool Engine::Impl::is_better(const Link& a, const Link& b, GroupMode mode) noexcept {
+    if (a.policy.is_verified != b.policy.is_verified) return a.policy.is_verified;
+    if (mode == GroupMode::primary) return false;
+    return std::pair{a.beats, a.last_heard} > std::pair{b.beats, b.last_heard};
+}
+
 // Returns no_slot if no member is alive; the frame then goes to all of them.
 Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) noexcept {
     Slot best = no_slot;
     for (const Slot slot : group.order) {
         const Link& link = *links[slot];
         if (!has(candidates, slot) || !is_alive(link, now)) continue;
-        if (group.mode == GroupMode::primary) return slot;
-        if (best == no_slot || link.beats > links[best]->beats ||
-            (link.beats == links[best]->beats && link.last_heard > links[best]->last_heard))
-            best = slot;
+        if (best == no_slot || is_better(link, *links[best], group.mode)) best = slot;
     }
-    if (best == no_slot) return no_slot;
+    if (best == no_slot || group.mode == GroupMode::primary) return best;
     const Slot current = group.current;
     const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
+                       links[current]->policy.is_verified == links[best]->policy.is_verified &&
                        links[best]->beats < links[current]->beats + better_by_beats;
     if (!stays) group.current = best;
     return group.current;
@@ -557,6 +615,11 @@ void Engine::Impl::note_sent(const wire::FrameView& frame, LinkId link, MonoTime
     if (!found || now_ - recent_.time(at) >= echo_window)
         if (recent_.put(hash, now_, window_, found, at)) counters.recent_evicted.add();
     insert(recent_.sent(at), slot);
+    if (has(watched_.data(), slot)) {
+        each_word(words_, [&](std::size_t w) { scratch_[w] = 0; });
+        insert(scratch_.data(), slot);
+        watch_for_returns(frame.system(), scratch_.data());
+    }
 }
 
 }  // namespace mavloom::route

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -41,19 +42,29 @@ public:
         SystemId system{};  // 0: none
         MonoTime since{}, last{};
     };
+    // Of a link on which an echo arrived: whether frames that are sent to it come back. A link that sends everything
+    // back brings frames of all systems. A vehicle whose heartbeats somebody predicted brings those of its own.
+    struct Returns {
+        std::array<std::uint64_t, 4> systems{};  // set of the systems of which frames came back
+        std::uint32_t kept = 0;                  // frames of other systems since `kept_since`
+        MonoTime kept_since{}, last{};           // `last`: of the last echo
+    };
     struct Link {
         LinkId id;
         LinkPolicy policy;
         EgressLimiter limiter;
-        std::uint32_t group = no_group;  // index into groups
+        std::uint32_t group = no_group;    // index into groups_
+        std::uint32_t family = no_family;  // index into families_
         bool filters_in = false;
         bool heard = false;
         MonoTime last_heard{};
         std::uint32_t beats = 0;  // HEARTBEATs received, for `best`; see count_beats
         LinkCounters counters{};
         std::array<Claim, 8> claims{};  // the oldest is replaced
+        Returns returns{};
         // A cache of the last long list of links to which frames from this link were sent.
-        std::size_t listed = 0;  // length; 0 if there is no list
+        std::uint64_t listed_at = 0;  // links_version_ at that time; 0 if there is no list
+        std::size_t listed = 0;       // length
         std::vector<std::uint64_t> listed_set{};
         std::vector<LinkId> list{};
     };
@@ -67,13 +78,16 @@ public:
     std::vector<RouteConflict> conflicts;
 
 private:
-    static constexpr std::uint32_t no_group = ~std::uint32_t{0};
-    // More slots than this do not rest; a walk through the remembered frames then clears one.
+    static constexpr std::uint32_t no_group = ~std::uint32_t{0}, no_family = ~std::uint32_t{0};
+    // More slots than this do not rest.
     static constexpr std::size_t most_resting = 64;
     static constexpr std::size_t worth_a_list = 8;
     static constexpr std::size_t most_listed = 1024;  // with more links, the lists would take too much memory
     // Within this time, a restart reported by another link of the vehicle counts as the same restart.
     static constexpr std::chrono::seconds one_reboot{10};
+    // A link sends nothing back if this many frames of systems that it returned nothing of were sent to it.
+    static constexpr std::uint32_t kept_frames = 5;
+    static constexpr std::chrono::seconds returns_forgotten_after{60};
     // A source heard on A, B, A, B counts as two senders. A sender that merely moves between links does not alternate
     // like that within the timeout.
     static constexpr std::uint8_t turns_of_duplicates = 4;
@@ -84,6 +98,12 @@ private:
         std::vector<std::uint64_t> members;
         std::vector<Slot> order;  // in the order that `primary` prefers
         Slot current = no_slot;   // the link that `best` uses
+    };
+    // The unverified peers of one endpoint in a group.
+    struct Family {
+        GroupId group;
+        std::uint32_t endpoint;
+        std::vector<std::uint64_t> links;
     };
     struct OutFilter {
         Filter filter;
@@ -112,11 +132,22 @@ private:
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
     [[nodiscard]] Verdict judge(Passage& p) noexcept;
     [[nodiscard]] bool is_heard_before(Passage& p, Verdict& verdict) noexcept;
+    // Whether a link of this link's group delivered the frame.
+    [[nodiscard]] bool came_by_group(const Passage& p) noexcept;
     void remember(Passage& p, bool found) noexcept;
     void learn(Passage& p) noexcept;
+    // The frame is an echo; learns where its sender is if the link does not send back what it gets.
+    // It is not inlined and takes no Passage, so that the compiler keeps that of `route` in registers.
+    [[gnu::noinline]] void learn_from_echo(const wire::FrameView& frame, const wire::MessageInfo* info,
+                                           Slot slot) noexcept;
+    void note_return(Passage& p) noexcept;
+    // The frame of this system is sent to the links of `set`.
+    [[gnu::noinline]] void watch_for_returns(SystemId system, ConstWords set) noexcept;
     // Whether the route of a frame may be learned. docs/design/security.md has the table of decisions.
     [[nodiscard]] bool may_learn(const Passage& p) noexcept;
     [[nodiscard]] Slot where_alive(const Passage& p, ConstWords links) const noexcept;
+    // Updates, and returns, the claim of this link to the system of the frame.
+    Claim& note_claim(const Passage& p) noexcept;
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_present(Slot slot, const Passage& p) const noexcept;
@@ -136,6 +167,14 @@ private:
     void apply_filters(const Passage& p) noexcept;
     void apply_groups(const Passage& p) noexcept;
     [[nodiscard]] Slot choose_member(Group& group, Words candidates, MonoTime now) noexcept;
+    // Whether `choose_member` takes `a` rather than `b`, which comes first in the group's order.
+    [[nodiscard]] static bool is_better(const Link& a, const Link& b, GroupMode mode) noexcept;
+    // One word of the set of links that lead to the same place as this link, as far as it can be believed.
+    [[nodiscard]] std::uint64_t same_place(const Link& link, std::size_t w) const noexcept {
+        if (link.group == no_group) return 0;
+        const std::uint64_t members = groups_[link.group].members[w];
+        return link.family == no_family ? members : members & ~families_[link.family].links[w];
+    }
     [[nodiscard]] bool is_alive(const Link& link, MonoTime now) const noexcept;
     void apply_limits(const Passage& p) noexcept;
     [[nodiscard]] EgressLimiter::Answer limit(Link& link, const Passage& p) noexcept;
@@ -151,12 +190,18 @@ private:
 
     [[nodiscard]] Slot free_slot();
     void index_links();
+    [[nodiscard]] std::size_t home(Slot slot) const noexcept { return ids_[slot].value & (index_.size() - 1); }
+    void add_to_index(Slot slot);
+    void remove_from_index(Slot slot) noexcept;
     void rebuild();
+    void note_links_changed();
     void empty_groups();
     void enlist(Slot slot);
-    void order_groups();
+    void delist(Slot slot);
+    [[nodiscard]] bool has_empty_group() const noexcept;
     void grow(std::size_t slots);
     [[nodiscard]] std::uint32_t group_index(const Link& link);
+    [[nodiscard]] std::uint32_t family_index(const Link& link);
 
     Nanoseconds window_;  // how long a frame is remembered
     std::size_t words_ = 1;
@@ -164,11 +209,15 @@ private:
     std::vector<LinkId> ids_;  // by slot
     // When a link left the slot. Until `window_` later, remembered frames may hold the slot's bit, so it rests.
     std::vector<MonoTime> left_at_;  // by slot
+    std::deque<Slot> resting_;       // the slots without a link, in the order in which they were left
+    std::uint64_t links_version_ = 1;
     RouteTable routes_;
     RecentFrames recent_;
     std::vector<std::uint64_t> ordinary_, taps_, private_, limited_, verified_;  // sets of links
+    std::vector<std::uint64_t> watched_;                                         // links on which an echo arrived
     std::vector<Group> groups_;
-    bool has_taps_ = false, has_limits_ = false;
+    std::vector<Family> families_;  // those without links are used again
+    bool has_taps_ = false, has_limits_ = false, has_watched_ = false;
     bool chooses_members_ = false;  // some group of at least two links is `best` or `primary`
     std::vector<OutFilter> filters_;
     ZeroedArray<Turns> turns_;            // by pair

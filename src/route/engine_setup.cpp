@@ -42,7 +42,7 @@ Slot Engine::Impl::slot_of(LinkId id) const noexcept {
 void Engine::Impl::grow(std::size_t slots) {
     words_ = slots / 64;
     routes_.resize(words_);
-    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &candidates_, &scratch_})
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &watched_, &candidates_, &scratch_})
         set->resize(words_);
     out_.resize(slots);
     ids_.resize(slots);
@@ -50,6 +50,7 @@ void Engine::Impl::grow(std::size_t slots) {
 
 bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
     if (id.value == 0 || link_count >= max_links || slot_of(id) != no_slot) return false;
+    const std::size_t words = words_;
     const Slot slot = free_slot();
     links[slot].reset(new Link{.id = id,
                                .policy = policy,
@@ -58,8 +59,13 @@ bool Engine::Impl::add_link(LinkId id, const LinkPolicy& policy) {
     ids_[slot] = id;
     ++link_count;
     routes_.add_link(slot);
-    index_links();
-    rebuild();
+    add_to_index(slot);
+    if (words != words_) {
+        rebuild();
+        return true;
+    }
+    enlist(slot);
+    note_links_changed();
     return true;
 }
 
@@ -67,25 +73,27 @@ void Engine::Impl::remove_link(LinkId id) {
     const Slot slot = slot_of(id);
     if (slot == no_slot) return;
     routes_.remove_link(slot);
+    delist(slot);
+    remove_from_index(slot);
     links[slot].reset();
     left_at_[slot] = now_;
     ids_[slot] = LinkId{};
+    resting_.push_back(slot);
     --link_count;
-    index_links();
-    rebuild();
+    if (has_empty_group()) rebuild();
+    else note_links_changed();
 }
 
-// Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest, and removes its
-// bit from all remembered frames.
+// Prefers a slot that has rested, then a new one. If many rest, takes the one that has rested longest.
 Slot Engine::Impl::free_slot() {
-    Slot longest_free = no_slot;
-    for (Slot slot = 0; slot < links.size(); ++slot)
-        if (links[slot] == nullptr && (longest_free == no_slot || left_at_[slot] < left_at_[longest_free]))
-            longest_free = slot;
-    if (longest_free != no_slot && now_ - left_at_[longest_free] >= window_) return longest_free;
-    if (longest_free != no_slot && links.size() >= std::min(link_count + most_resting, max_links)) {
-        recent_.forget(longest_free);
-        return longest_free;
+    if (!resting_.empty()) {
+        const Slot slot = resting_.front();
+        const bool has_rested = now_ - left_at_[slot] >= window_;
+        if (has_rested || resting_.size() >= most_resting || links.size() >= max_links) {
+            if (!has_rested) recent_.retake(slot, now_, window_);
+            resting_.pop_front();
+            return slot;
+        }
     }
     if (links.size() == words_ * 64) grow(2 * words_ * 64);
     links.emplace_back();
@@ -125,12 +133,45 @@ void Engine::Impl::index_links() {
     }
 }
 
+void Engine::Impl::add_to_index(Slot slot) {
+    if (index_.size() < 2 * links.size()) return index_links();
+    std::size_t at = home(slot);
+    while (index_[at] != no_slot) at = (at + 1) & (index_.size() - 1);
+    index_[at] = slot;
+}
+
+// Moves later entries into the hole, so that a search from an entry's home still reaches it before an empty place.
+void Engine::Impl::remove_from_index(Slot slot) noexcept {
+    const std::size_t mask = index_.size() - 1;
+    std::size_t hole = home(slot);
+    while (index_[hole] != slot) hole = (hole + 1) & mask;
+    for (std::size_t at = (hole + 1) & mask; index_[at] != no_slot; at = (at + 1) & mask) {
+        if (((at - home(index_[at])) & mask) < ((at - hole) & mask)) continue;
+        index_[hole] = index_[at];
+        hole = at;
+    }
+    index_[hole] = no_slot;
+}
+
 std::uint32_t Engine::Impl::group_index(const Link& link) {
     const auto same = [&](const Group& group) { return group.id == link.policy.group; };
     const auto index = std::find_if(groups_.begin(), groups_.end(), same) - groups_.begin();
     if (index == std::ssize(groups_))
         groups_.push_back({.id = link.policy.group, .mode = link.policy.group_mode, .members{}, .order{}});
     return static_cast<std::uint32_t>(index);
+}
+
+std::uint32_t Engine::Impl::family_index(const Link& link) {
+    const LinkPolicy& policy = link.policy;
+    if (policy.endpoint == 0 || policy.is_verified) return no_family;
+    const auto same = [&](const Family& f) { return f.group == policy.group && f.endpoint == policy.endpoint; };
+    const auto is_empty = [&](const Family& f) { return !any(f.links.data(), words_); };
+    auto at = std::ranges::find_if(families_, same);
+    if (at == families_.end()) at = std::ranges::find_if(families_, is_empty);
+    if (at == families_.end()) at = families_.insert(at, {{}, 0, std::vector<std::uint64_t>(words_)});
+    at->group = policy.group;
+    at->endpoint = policy.endpoint;
+    return static_cast<std::uint32_t>(at - families_.begin());
 }
 
 // Recomputes all sets that depend on the links and their policies.
@@ -140,9 +181,16 @@ void Engine::Impl::rebuild() {
     filters_.clear();
     for (Slot slot = 0; slot < links.size(); ++slot)
         if (links[slot] != nullptr) enlist(slot);
+    note_links_changed();
+}
+
+// Computes what depends on the sets of links as a whole.
+void Engine::Impl::note_links_changed() {
+    ++links_version_;
     has_taps_ = any(taps_.data(), words_);
     has_limits_ = any(limited_.data(), words_);
-    order_groups();
+    chooses_members_ = std::ranges::any_of(
+        groups_, [](const Group& group) { return group.mode != GroupMode::all && group.order.size() > 1; });
     // Remembers frames from the first link on: what the router itself sends there may come back on a second link.
     const bool remembers = link_count > 0 || options.dedup > Nanoseconds{} || recent_.active();
     recent_.resize(remembers ? options.recent_frames : 0, words_);
@@ -155,6 +203,7 @@ void Engine::Impl::empty_groups() {
             links, [&](const auto& l) { return l != nullptr && !l->policy.tap && l->policy.group == group.id; });
     };
     std::erase_if(groups_, std::not_fn(has_link));
+    families_.clear();
     for (Group& group : groups_) {
         group.members.assign(words_, 0);
         group.order.clear();
@@ -164,7 +213,6 @@ void Engine::Impl::empty_groups() {
 // Adds the link to the sets that it belongs to.
 void Engine::Impl::enlist(Slot slot) {
     Link& link = *links[slot];
-    link.listed = 0;
     link.listed_set.resize(words_);
     link.list.resize(words_ * 64 <= most_listed ? words_ * 64 : 0);
     auto& kind = link.policy.tap ? taps_ : link.policy.is_private ? private_ : ordinary_;
@@ -179,24 +227,34 @@ void Engine::Impl::enlist(Slot slot) {
     }
     if (link.policy.group.value == 0) return;
     link.group = group_index(link);
+    link.family = family_index(link);
+    if (link.family != no_family) route::insert(families_[link.family].links.data(), slot);
     Group& group = groups_[link.group];
     group.members.resize(words_);
     route::insert(group.members.data(), slot);
-    group.order.push_back(slot);
+    const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
+    group.order.insert(std::ranges::upper_bound(group.order, rank(slot), {}, rank), slot);
 }
 
-void Engine::Impl::order_groups() {
-    const auto rank = [&](Slot s) { return std::pair{links[s]->policy.group_order, links[s]->id}; };
-    chooses_members_ = false;
-    for (Group& group : groups_) {
-        std::ranges::sort(group.order, {}, rank);
-        if (group.current != no_slot && !has(group.members.data(), group.current)) group.current = no_slot;
-        chooses_members_ = chooses_members_ || (group.mode != GroupMode::all && group.order.size() > 1);
-    }
+// Removes the link from the sets that it belongs to.
+void Engine::Impl::delist(Slot slot) {
+    for (auto* set : {&ordinary_, &taps_, &private_, &limited_, &verified_, &watched_}) erase(set->data(), slot);
+    for (OutFilter& filter : filters_) erase(filter.links.data(), slot);
+    std::erase_if(filters_, [&](const OutFilter& filter) { return !any(filter.links.data(), words_); });
+    if (links[slot]->group == no_group) return;
+    Group& group = groups_[links[slot]->group];
+    erase(group.members.data(), slot);
+    if (const auto family = links[slot]->family; family != no_family) erase(families_[family].links.data(), slot);
+    std::erase(group.order, slot);
+    if (group.current == slot) group.current = no_slot;
+}
+
+bool Engine::Impl::has_empty_group() const noexcept {
+    return std::ranges::any_of(groups_, [](const Group& group) { return group.order.empty(); });
 }
 
 static void add_route(std::vector<RouteInfo>& list, LinkId link, const Route& route, MonoTime now, Nanoseconds timeout) {
-    const Nanoseconds age{now.time_since_epoch().count() - route.heard_ns};
+    const Nanoseconds age{now.time_since_epoch().count() - route.last_ns()};
     if (age < timeout) list.push_back({link, source_of(route.pair), std::max(age, Nanoseconds{}), route.frames});
 }
 

@@ -49,15 +49,28 @@ void RecentFrames::resize(std::size_t capacity, std::size_t words) {
         assign(grown.heard(at), heard(i), kept);
         assign(grown.sent(at), sent(i), kept);
     }
+    grown.last_retake_ns_ = last_retake_ns_;
+    grown.retaken_ = std::move(retaken_);
+    grown.taken_ns_ = std::move(taken_ns_);
     *this = std::move(grown);
 }
 
-void RecentFrames::forget(Slot slot) noexcept {
-    for (std::size_t i = 0; i < end(); i += stride_) {
-        if (hash(i) == 0) continue;
-        erase(heard(i), slot);
-        erase(sent(i), slot);
-    }
+void RecentFrames::retake(Slot slot, MonoTime now, Nanoseconds window) {
+    const std::int64_t now_ns = now.time_since_epoch().count();
+    if (now_ns - last_retake_ns_ >= window.count()) std::ranges::fill(retaken_, 0);
+    retaken_.resize(words_);
+    taken_ns_.resize(64 * words_);
+    route::insert(retaken_.data(), slot);
+    taken_ns_[slot] = last_retake_ns_ = now_ns;
+}
+
+void RecentFrames::remove_stale(std::size_t index) noexcept {
+    for (std::size_t w = 0; w < retaken_.size(); ++w)
+        each_in_word((heard(index)[w] | sent(index)[w]) & retaken_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
+            if (time_ns(index) > taken_ns_[slot]) return;
+            erase(heard(index), slot);
+            erase(sent(index), slot);
+        });
 }
 
 }  // namespace mavloom::route

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "mavloom/base/bytes.hpp"
 #include "mavloom/base/clock.hpp"
@@ -33,7 +34,7 @@ public:
 
     // Returns whether the frame is known. `index` becomes its place, or the first place of its bucket if it is unknown.
     // The index is valid until the next `put` or `resize`.
-    [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) const noexcept;
+    [[nodiscard]] bool find(std::uint64_t hash, std::size_t& index) noexcept;
     // Starts a new entry, with empty link sets, at the place that `find` returned. If the frame was not `found`, this
     // evicts the oldest of the bucket and updates `index`. Returns true if the evicted entry was younger than `window`.
     bool put(std::uint64_t hash, MonoTime now, Nanoseconds window, bool found, std::size_t& index) noexcept;
@@ -42,8 +43,9 @@ public:
     [[nodiscard]] Words heard(std::size_t index) noexcept { return &cells_[index + 2]; }
     [[nodiscard]] Words sent(std::size_t index) noexcept { return heard(index) + words_; }
 
-    // Removes a link from all sets, because its slot will be reused.
-    void forget(Slot slot) noexcept;
+    // Another link takes the slot while remembered frames may still hold the bit of the last one. The bits in frames up
+    // to `now` are removed when `find` meets them. `window`: how long frames are remembered. Allocates.
+    void retake(Slot slot, MonoTime now, Nanoseconds window);
 
 private:
     static constexpr std::size_t ways = 4;
@@ -59,18 +61,25 @@ private:
         return static_cast<std::int64_t>(cells_[index + 1]);
     }
 
+    [[gnu::noinline]] void remove_stale(std::size_t index) noexcept;
+
     // Each place holds the hash (0 if empty), the time, and the sets `heard` and `sent`. With up to 64 links, a bucket
     // takes two cache lines.
     ZeroedArray<std::uint64_t> cells_;
     std::size_t places_ = 0;  // a power of two
     std::size_t words_ = 0, stride_ = 0;
+    std::int64_t last_retake_ns_ = 0;
+    std::vector<std::uint64_t> retaken_;  // set of slots
+    std::vector<std::int64_t> taken_ns_;  // by slot; of those in retaken_
 };
 
-inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) const noexcept {
+inline bool RecentFrames::find(std::uint64_t wanted, std::size_t& index) noexcept {
     std::size_t i = index = bucket(wanted);
     for (std::size_t way = 0; way < ways; ++way, i += stride_) {
         if (hash(i) != wanted) continue;
         index = i;
+        if (time_ns(i) <= last_retake_ns_) [[unlikely]]
+            remove_stale(i);
         return true;
     }
     return false;

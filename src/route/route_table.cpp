@@ -27,7 +27,7 @@ void RouteTable::resize(std::size_t words) {
     system_counts_ = ZeroedArray<std::uint16_t>(systems * words * 64);
     for (const Link& link : links_)
         for (std::uint32_t i = link.oldest; i != none; i = routes_[i].newer)
-            if (routes_[i].known) set_known(routes_[i]);
+            if (routes_[i].is_known()) set_known(routes_[i]);
 }
 
 void RouteTable::add_link(Slot slot) {
@@ -44,7 +44,7 @@ void RouteTable::set_timeout(Nanoseconds timeout) noexcept {
     next_expiry_ns_ = 0;  // the next `expire` recomputes it
 }
 
-Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
+inline Route& RouteTable::renew(Slot slot, Pair pair, Change& change) noexcept {
     Link& link = links_[slot];
     std::uint32_t index = link.newest;
     if (index == none || routes_[index].pair != pair) {
@@ -57,16 +57,35 @@ Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noe
             append(index);
         }
     }
-    Route& route = routes_[index];
+    return routes_[index];
+}
+
+Route& RouteTable::learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
+    Route& route = renew(slot, pair, change);
     route.heard_ns = now.time_since_epoch().count();
     ++route.frames;
-    if (!route.known) [[unlikely]] {
-        set_known(route);
+    if (route.known != Route::Known::yes) [[unlikely]] {
         route.since_ns = route.heard_ns;
-        ++change.learned;
-        next_expiry_ns_ = std::min(next_expiry_ns_, route.heard_ns + timeout_ns_);
+        set_learned(route, now, change);
+        route.known = Route::Known::yes;
     }
     return route;
+}
+
+void RouteTable::learn_from_echo(Slot slot, Pair pair, MonoTime now, Change& change) noexcept {
+    Route& route = renew(slot, pair, change);
+    route.echoed_ns = now.time_since_epoch().count();
+    if (route.is_known()) return;
+    route.heard_ns = route.since_ns = Route::never_heard;
+    set_learned(route, now, change);
+    route.known = Route::Known::by_echo;
+}
+
+void RouteTable::set_learned(Route& route, MonoTime now, Change& change) noexcept {
+    if (route.is_known()) return;
+    set_known(route);
+    ++change.learned;
+    next_expiry_ns_ = std::min(next_expiry_ns_, now.time_since_epoch().count() + timeout_ns_);
 }
 
 // The place of the route in index_, or the empty place where it belongs.
@@ -88,8 +107,15 @@ Route& RouteTable::insert(Slot slot, Pair pair, std::size_t place, Change& chang
     } else {
         index = static_cast<std::uint32_t>(used_++);
     }
-    routes_[index] = Route{
-        .heard_ns = 0, .since_ns = 0, .frames = 0, .older = none, .newer = none, .slot = slot, .pair = pair, .known = false};
+    routes_[index] = Route{.heard_ns = Route::never_heard,
+                           .since_ns = Route::never_heard,
+                           .echoed_ns = Route::never_heard,
+                           .frames = 0,
+                           .older = none,
+                           .newer = none,
+                           .slot = slot,
+                           .pair = pair,
+                           .known = Route::Known::no};
     index_[place] = index + 1;
     append(index);
     ++links_[slot].count;
@@ -107,7 +133,6 @@ void RouteTable::make_room(Slot slot, Change& change) noexcept {
 
 void RouteTable::set_known(Route& route) noexcept {
     const std::size_t system = route.pair >> 8;
-    route.known = true;
     route::insert(&pair_links_[route.pair * words_], route.slot);
     if (system_counts_[system * words_ * 64 + route.slot]++ == 0)
         route::insert(&system_links_[system * words_], route.slot);
@@ -115,7 +140,7 @@ void RouteTable::set_known(Route& route) noexcept {
 
 void RouteTable::set_unknown(Route& route) noexcept {
     const std::size_t system = route.pair >> 8;
-    route.known = false;
+    route.known = Route::Known::no;
     erase(&pair_links_[route.pair * words_], route.slot);
     if (--system_counts_[system * words_ * 64 + route.slot] == 0) erase(&system_links_[system * words_], route.slot);
 }
@@ -137,7 +162,7 @@ void RouteTable::unlink(std::uint32_t index) noexcept {
 
 void RouteTable::remove(std::uint32_t index) noexcept {
     Route& route = routes_[index];
-    if (route.known) set_unknown(route);
+    if (route.is_known()) set_unknown(route);
     erase_place(place_of(route.slot, route.pair));
     unlink(index);
     --links_[route.slot].count;
@@ -161,18 +186,18 @@ void RouteTable::erase_place(std::size_t place) noexcept {
 
 void RouteTable::forget_system(Slot slot, SystemId system) noexcept {
     for (std::uint32_t i = links_[slot].oldest; i != none; i = routes_[i].newer)
-        if (routes_[i].known && routes_[i].pair >> 8 == system.value) set_unknown(routes_[i]);
+        if (routes_[i].is_known() && routes_[i].pair >> 8 == system.value) set_unknown(routes_[i]);
 }
 
 void RouteTable::expire_now(std::int64_t now_ns, Change& change) noexcept {
     next_expiry_ns_ = never;
     for (Link& link : links_) {
-        while (link.oldest != none && now_ns - routes_[link.oldest].heard_ns >= timeout_ns_) {
-            change.expired += routes_[link.oldest].known ? 1 : 0;
+        while (link.oldest != none && now_ns - routes_[link.oldest].last_ns() >= timeout_ns_) {
+            change.expired += routes_[link.oldest].is_known() ? 1 : 0;
             remove(link.oldest);
         }
         if (link.oldest != none)
-            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].heard_ns + timeout_ns_);
+            next_expiry_ns_ = std::min(next_expiry_ns_, routes_[link.oldest].last_ns() + timeout_ns_);
     }
 }
 

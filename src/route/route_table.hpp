@@ -6,6 +6,7 @@
 // its link, or, if the table is full, that of the link with the most routes. Private to module route; one owner thread.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -27,13 +28,22 @@ using Pair = std::uint16_t;  // system * 256 + component
 }
 
 struct Route {
-    std::int64_t heard_ns;  // steady clock
-    std::int64_t since_ns;  // when the route became known
+    std::int64_t heard_ns;   // steady clock; `never_heard` if there were only echoes
+    std::int64_t since_ns;   // when the route became known, other than by an echo
+    std::int64_t echoed_ns;  // the last frame that was an echo
     std::uint64_t frames;
     std::uint32_t older, newer;  // neighbors in the list of the link's routes by age
     Slot slot;
     Pair pair;
-    bool known;  // false if a reboot made the table forget the route; the entry then only keeps `frames`
+    enum class Known : std::uint8_t {
+        no,  // a reboot made the table forget the route; the entry then only keeps `frames`
+        by_echo,
+        yes
+    } known;
+
+    static constexpr std::int64_t never_heard = std::numeric_limits<std::int64_t>::min() / 2;
+    [[nodiscard]] bool is_known() const noexcept { return known != Known::no; }
+    [[nodiscard]] std::int64_t last_ns() const noexcept { return std::max(heard_ns, echoed_ns); }
 };
 
 class RouteTable {
@@ -57,12 +67,14 @@ public:
     }
     // Adds or refreshes the route for a frame of this source. The reference is valid until the next call.
     Route& learn(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
+    // The same for an echo. It counts neither as heard nor as a frame.
+    void learn_from_echo(Slot slot, Pair pair, MonoTime now, Change& change) noexcept;
     // Forgets all routes of the system on one link.
     void forget_system(Slot slot, SystemId system) noexcept;
     // Null if the source is not known on the link. Valid until the next call that changes the table.
     [[nodiscard]] const Route* find(Slot slot, Pair pair) const noexcept {
         const std::uint32_t index = index_[place_of(slot, pair)] - 1;
-        return index == none || !routes_[index].known ? nullptr : &routes_[index];
+        return index == none || !routes_[index].is_known() ? nullptr : &routes_[index];
     }
 
     [[nodiscard]] ConstWords links_of(Pair pair) const noexcept { return &pair_links_[pair * words_]; }
@@ -77,7 +89,7 @@ public:
     template <class F>
     void each_known(Slot slot, F&& f) const {
         for (std::uint32_t i = links_[slot].oldest; i != none; i = routes_[i].newer)
-            if (routes_[i].known) f(routes_[i]);
+            if (routes_[i].is_known()) f(routes_[i]);
     }
 
 private:
@@ -93,6 +105,9 @@ private:
         return ((slot << 16 | pair) * 0x9e3779b1u) >> shift_;
     }
     [[nodiscard]] std::size_t place_of(Slot slot, Pair pair) const noexcept;
+    // Finds or adds the entry, and makes it the newest of its link.
+    Route& renew(Slot slot, Pair pair, Change& change) noexcept;
+    void set_learned(Route& route, MonoTime now, Change& change) noexcept;
     Route& insert(Slot slot, Pair pair, std::size_t place, Change& change) noexcept;
     void make_room(Slot slot, Change& change) noexcept;
     void set_known(Route& route) noexcept;

@@ -23,6 +23,7 @@ SetupResult<void> RoutedEndpoints::add(const endpoint::Endpoint& endpoint) {
     if (!policy) return tl::unexpected(std::move(policy.error()).within(endpoint.label()));
     const auto id = links_.add(endpoint);
     if (!id) return tl::unexpected(id.error());
+    policy->endpoint = id->value + 1;  // 0 has a meaning of its own
     keep(endpoints_.emplace_back(), {.id = *id,
                                      .endpoint = endpoint,
                                      .policy = std::move(*policy),

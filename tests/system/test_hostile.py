@@ -2,6 +2,7 @@
 """Attacks without a key, on a running router. docs/design/security.md lists them; the rules themselves are tested in
 units."""
 import contextlib
+import itertools
 import pathlib
 import re
 import subprocess
@@ -22,9 +23,9 @@ pytestmark = pytest.mark.skipif(not FLOOD.exists(), reason="needs the test tools
 class Flood:
     """Heartbeats from invented addresses, while the block runs."""
 
-    def __init__(self, port, rate, seconds, ids=1):
-        self.process = subprocess.Popen([FLOOD, "127.0.0.1", str(port), str(rate), str(seconds), str(ids)],
-                                        stdout=subprocess.PIPE, text=True)
+    def __init__(self, port, rate, seconds, ids=1, addresses=1_000_000):
+        arguments = [port, rate, seconds, ids, addresses]
+        self.process = subprocess.Popen([FLOOD, "127.0.0.1", *map(str, arguments)], stdout=subprocess.PIPE, text=True)
 
     def __enter__(self):
         return self
@@ -80,6 +81,28 @@ def test_a_flood_of_invented_peers_takes_nothing_from_those_who_talk(pair):
     assert len(router.links()) <= 256
 
 
+def test_a_flood_of_peers_that_repeat_takes_nothing_from_those_who_talk(pair):
+    """Half of the frames were lost, and others came seconds late, when each sender that repeats became a peer."""
+    router, vehicle, station = pair
+    count, sent = 500, []
+    with Flood(vehicle.target[1], 20_000, 4, addresses=12_000) as flood:
+        harness.wait_for(lambda: router.stats("endpoint")[0]["peers_limited"] > 1000, what="peers that were limited")
+        for _ in range(count):
+            sent.append(attitude(VEHICLE))
+            vehicle.send(sent[-1])
+            time.sleep(0.001)
+        flood.sent()
+    vehicle.send(last := heartbeat(VEHICLE))
+    got = set(station.until(last))
+    endpoint = router.stats("endpoint")[0]
+    arrived = sum(frame in got for frame in sent)
+
+    assert arrived > 0.9 * count
+    assert count - arrived <= endpoint["kernel_drop"]
+    # 512 at once, then 50 a second; and of those that repeat, 100 at once and 100 a second.
+    assert endpoint["peers_evicted"] < 512 + 100 + 10 * (50 + 100)
+
+
 def test_invented_ids_on_many_links_starve_nobody_afterwards(pair):
     router, vehicle, station = pair
     with Flood(vehicle.target[1], 8_000, 1, ids=8_000) as flood:
@@ -109,6 +132,93 @@ def test_a_forged_restart_takes_no_commands_away(spawn):
         station.send(end := heartbeat(STATION))
 
         assert order not in attacker.until(end)
+
+
+def test_a_vehicle_whose_heartbeats_somebody_sends_first_gets_its_commands(spawn):
+    """Its own heartbeats are echoes then. It got no command at all."""
+    from frames import mavlink
+    beats = []
+    for sequence in range(256):
+        mav = mavlink.MAVLink(None, *VEHICLE)
+        mav.seq = sequence
+        beats.append(bytes(mavlink.MAVLink_heartbeat_message(2, 12, 81, 0, 4, 3).pack(mav)))
+    with Net(spawn, "udpin", 3) as net:
+        vehicle, attacker, station = net[1], net[2], net[3]
+        for end in (vehicle, attacker, station):
+            end.send(heartbeat((200, 1)))
+        net.router.wait_links(3)
+        orders, second = [], itertools.count()
+
+        def gets_a_command():
+            for beat in beats:
+                attacker.send(beat)
+            station.send(mark := heartbeat(STATION))
+            vehicle.until(mark)
+            vehicle.send(beats[next(second)])
+            time.sleep(0.6)
+            station.send(order := command(STATION, VEHICLE))
+            orders.append(order)
+            station.send(mark := heartbeat(STATION))
+            return set(orders) & set(vehicle.until(mark))
+        harness.wait_for(gets_a_command, what="a command for the vehicle")
+
+        assert net.router.link_of(vehicle)["echo"] > 0
+
+
+@pytest.mark.parametrize("mode", ["best", "primary"])
+def test_a_peer_in_a_group_does_not_take_the_vehicles_place(spawn, mode):
+    """With best, it took all commands by sending more heartbeats."""
+    ports = routers.udp_port(), routers.udp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{ports[0]}?group=air&group_mode={mode}", f"udpin://127.0.0.1:{ports[1]}")
+    with UdpEnd(("127.0.0.1", ports[0])) as attacker, UdpEnd(("127.0.0.1", ports[0])) as vehicle, \
+            UdpEnd(("127.0.0.1", ports[1])) as station:
+        attacker.send(heartbeat(VEHICLE))  # it is first, also in the group's order
+        vehicle.send(heartbeat(VEHICLE))
+        station.send(heartbeat(STATION))
+        router.wait_links(3)
+        harness.wait_for(lambda: send_beats(vehicle, attacker) and sum(r[0] == 1 for r in router.routes()) == 2,
+                         what="both routes")
+        for _ in range(20):
+            send_beats(vehicle, attacker)
+            station.send(order := command(STATION, VEHICLE))
+            vehicle.until(order)
+
+
+def send_beats(vehicle, attacker):
+    """One second of a vehicle, and of somebody who sends more."""
+    vehicle.send(heartbeat(VEHICLE))
+    for _ in range(10):
+        attacker.send(heartbeat(VEHICLE))
+    time.sleep(0.1)
+    return True
+
+
+def test_talkers_that_came_first_do_not_keep_a_vehicle_out(spawn):
+    port = routers.udp_port()
+    router = Router(spawn, f"udpin://127.0.0.1:{port}?max_peers=32")
+    with contextlib.ExitStack() as ends:
+        station, *talkers = (ends.enter_context(UdpEnd(("127.0.0.1", port))) for _ in range(32))
+        vehicle = ends.enter_context(UdpEnd(("127.0.0.1", port)))
+
+        def all_send():
+            station.send(heartbeat(STATION))
+            for n, talker in enumerate(talkers):
+                talker.send(heartbeat((10 + n, 1)))
+        for _ in range(2):
+            all_send()
+        router.wait_links(32)
+
+        def has_a_route():
+            all_send()
+            vehicle.send(heartbeat(VEHICLE))
+            time.sleep(0.6)
+            return any(r[:2] == VEHICLE for r in router.routes())
+        harness.wait_for(has_a_route, what="the vehicle's route")
+
+        assert any(r[:2] == STATION for r in router.routes()), "it was there before most others"
+        assert router.stats("endpoint")[0]["peers_displaced"] > 0
+        station.send(order := command(STATION, VEHICLE))
+        vehicle.until(order)
 
 
 def test_one_frame_with_the_vehicles_id_costs_a_station_no_telemetry(spawn):

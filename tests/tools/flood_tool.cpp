@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // An attacker for tests/system/test_hostile.py: sends heartbeats from invented addresses.
-//   flood_tool HOST PORT RATE SECONDS [IDS]
+//   flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]
 // Every datagram is a HEARTBEAT from another address of HOST's /8 network, RATE a second. IDS is how many system and
-// component ids it uses (default 1). Prints how many datagrams it sent. Works on loopback without privileges, because
-// all of 127.0.0.0/8 belongs to this machine. Another network needs `ip route add local 10.0.0.0/8 dev lo`.
+// component ids it uses (default 1). ADDRESSES is how many addresses it uses in turn. Prints how many datagrams it
+// sent. Works on loopback without privileges, because all of 127.0.0.0/8 belongs to this machine. Another network
+// needs `ip route add local 10.0.0.0/8 dev lo`.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -36,7 +37,7 @@ struct Datagram {
 
 class Flood {
 public:
-    Flood(const char* host, std::uint16_t port, unsigned ids) : ids_(ids) {
+    Flood(const char* host, std::uint16_t port, unsigned ids, unsigned addresses) : ids_(ids), addresses_(addresses) {
         to_.sin_family = AF_INET;
         to_.sin_port = htons(port);
         if (inet_pton(AF_INET, host, &to_.sin_addr) != 1) std::exit(2);
@@ -72,7 +73,7 @@ private:
     void renew(Datagram& datagram) {
         ++count_;
         in_pktinfo info{};
-        info.ipi_spec_dst.s_addr = htonl((ntohl(to_.sin_addr.s_addr) & 0xff000000u) + 0x00010000u + count_ % 0x00fe0000u);
+        info.ipi_spec_dst.s_addr = htonl((ntohl(to_.sin_addr.s_addr) & 0xff000000u) + 0x00010000u + count_ % addresses_);
         std::memcpy(CMSG_DATA(reinterpret_cast<cmsghdr*>(datagram.control.data())), &info, sizeof info);
         const unsigned id = count_ % ids_;
         msg::Heartbeat beat;
@@ -90,7 +91,7 @@ private:
         datagram.part.iov_len = frame.size();
     }
 
-    unsigned ids_;
+    unsigned ids_, addresses_;
     std::uint32_t count_ = 0;
     sockaddr_in to_{};
     std::array<Datagram, batch> datagrams_{};
@@ -101,12 +102,13 @@ private:
 
 int main(int argc, char** argv) {
     if (argc < 5) {
-        fmt::print(stderr, "usage: flood_tool HOST PORT RATE SECONDS [IDS]\n");
+        fmt::print(stderr, "usage: flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]\n");
         return 2;
     }
     const double rate = std::atof(argv[3]), seconds = std::atof(argv[4]);
     Flood flood(argv[1], static_cast<std::uint16_t>(std::atoi(argv[2])),
-                argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1u);
+                argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1u,
+                argc > 6 ? static_cast<unsigned>(std::atoi(argv[6])) : 0x00fe0000u);
     const int fd = ::socket(AF_INET, SOCK_DGRAM, 0);
     const auto start = Clock::now();
     std::size_t sent = 0;

@@ -72,9 +72,12 @@ struct EndpointCounters {
     // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
     // frame).
     Counter stray_bytes;
-    // New peers turned away: max_peers is reached, and no peer may be evicted (docs/guide/queues.md).
+    // New peers turned away: max_peers is reached, and no peer may be evicted; or very many new addresses send
+    // (docs/guide/queues.md).
     Counter peers_refused;
-    Counter peers_evicted;  // the longest idle peers, evicted for new ones
+    Counter peers_limited;    // new peers turned away although they repeat, because too many do
+    Counter peers_evicted;    // the longest idle peers, evicted for new ones
+    Counter peers_displaced;  // peers that talked, and left for others (docs/guide/queues.md)
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;
     Counter reconnects;
@@ -90,13 +93,15 @@ struct EndpointCounter {
     std::string_view name;
     Counter EndpointCounters::*word;
 };
-inline constexpr std::array<EndpointCounter, 8> endpoint_counters{{
+inline constexpr std::array<EndpointCounter, 10> endpoint_counters{{
     {"kernel_drop", &EndpointCounters::kernel_drop},
     {"wrong_peer", &EndpointCounters::wrong_peer},
     {"bad_source", &EndpointCounters::bad_source},
     {"stray_bytes", &EndpointCounters::stray_bytes},
     {"peers_refused", &EndpointCounters::peers_refused},
+    {"peers_limited", &EndpointCounters::peers_limited},
     {"peers_evicted", &EndpointCounters::peers_evicted},
+    {"peers_displaced", &EndpointCounters::peers_displaced},
     {"send_errors", &EndpointCounters::send_errors},
     {"reconnects", &EndpointCounters::reconnects},
 }};

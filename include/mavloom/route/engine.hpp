@@ -46,6 +46,9 @@ struct LinkPolicy {
     GroupId group{};
     GroupMode group_mode = GroupMode::all;  // the first link of a group sets the mode of the group
     std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
+    // Links with the same number are peers of one endpoint, which anybody may become. In a group, unverified peers do
+    // not believe each other. 0: the only link of its endpoint.
+    std::uint32_t endpoint = 0;
     // A tap gets every good frame from the other links, whatever its verdict. Frames from a tap go nowhere.
     bool tap = false;
     // Frames from a private link go to taps only. A private link gets only frames whose target system and component

@@ -135,7 +135,7 @@ void TcpIn::admit(net::TcpStream stream) {
 
 // Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate.
 bool TcpIn::make_room(const net::Address& newcomer) {
-    if (!admission_.admits(newcomer, core_.now())) return false;
+    if (admission_.ask(newcomer, core_.now()) != Admission::Answer::admitted) return false;
     TcpPeer* const first = peers_.to_evict(core_.now());
     if (first == nullptr) return false;
     admission_.note_entry();

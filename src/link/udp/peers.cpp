@@ -39,24 +39,28 @@ bool UdpPeers::may_be_peer(const UdpPort& port, const net::Address& sender) {
     return !own_.has_broadcast(from, core_.now());
 }
 
+bool UdpPeers::may_enter(const net::Address& sender) {
+    const auto answer = admission_.ask(sender, core_.now());
+    if (answer == Admission::Answer::refused) endpoint_.counters.peers_refused.add();
+    if (answer == Admission::Answer::limited) endpoint_.counters.peers_limited.add();
+    return answer == Admission::Answer::admitted;
+}
+
 UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     if (!may_be_peer(port, *datagram.from)) {
         endpoint_.counters.bad_source.add();
         return nullptr;
     }
-    if (!admission_.admits(*datagram.from, core_.now())) {
-        endpoint_.counters.peers_refused.add();
-        return nullptr;
-    }
+    if (!may_enter(*datagram.from)) return nullptr;
     if (!vouched_for(datagram)) {
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }
-    if (!make_room()) {
+    admission_.note_entry();
+    if (!make_room(*datagram.from)) {
         endpoint_.counters.peers_refused.add();
         return nullptr;
     }
-    admission_.note_entry();
     const EndpointInfo& info = endpoint_.info;
     auto peer = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
                                           core_.languages.of(info.id).table, port, *datagram.from);
@@ -72,13 +76,15 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
 // Returns true if the sender's address may be forged: then the peer gets little before it repeats itself.
 bool UdpPeers::must_confirm(const net::Address& sender) const {
     const auto& options = endpoint_.info.endpoint.options;
-    return !sender.is_loopback() && !options.trusted && !(endpoint_.signature && endpoint_.signature->verifies());
+    return !sender.is_loopback() && !options.trusted && !verifies();
 }
 
-bool UdpPeers::make_room() {
+bool UdpPeers::verifies() const { return endpoint_.signature && endpoint_.signature->verifies(); }
+
+bool UdpPeers::make_room(const net::Address& newcomer) {
     if (!peers_.is_full()) return true;
     UdpPeer* const first = peers_.to_evict(core_.now());
-    if (first == nullptr) return false;
+    if (first == nullptr) return displace_for(newcomer);
     endpoint_.counters.peers_evicted.add();
     drop(*first, "max_peers is reached, and this peer was silent longest");
     return true;
@@ -86,6 +92,16 @@ bool UdpPeers::make_room() {
 
 void UdpPeers::note_confirmed(const UdpPeer& peer) {
     if (++confirmed_ == 1) owner_.on_first_confirmed(peer.address);
+}
+
+// All peers talk. Verified ones keep their places.
+bool UdpPeers::displace_for(const net::Address& newcomer) {
+    if (!admission_.has_repeated(newcomer, core_.now()) || verifies()) return false;
+    UdpPeer* const peer = displacement_.choose(peers_.all(), core_.now());
+    if (peer == nullptr) return false;
+    endpoint_.counters.peers_displaced.add();
+    drop(*peer, "max_peers is reached, and others wait");
+    return true;
 }
 
 void UdpPeers::drop(UdpPeer& peer, std::string_view why) {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "link/admission.hpp"
+#include "link/displacement.hpp"
 #include "link/peer_list.hpp"
 #include "link/udp/udp.hpp"
 #include "mavloom/net/interfaces.hpp"
@@ -54,9 +55,12 @@ public:
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
+    [[nodiscard]] bool may_enter(const net::Address& sender);
     [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
-    [[nodiscard]] bool make_room();
+    [[nodiscard]] bool verifies() const;
+    [[nodiscard]] bool make_room(const net::Address& newcomer);
+    [[nodiscard]] bool displace_for(const net::Address& newcomer);
     void drop(UdpPeer& peer, std::string_view why);
 
     Core& core_;
@@ -66,6 +70,7 @@ private:
     wire::DatagramParser stranger_;
     Admission admission_;
     net::OwnAddresses own_;
+    Displacement displacement_;
     PeerList<UdpPeer> peers_;
     std::size_t confirmed_ = 0;  // peers
     net::TimerId expiry_;

@@ -40,6 +40,7 @@ ModelPolicy policy_of(const Step& s) {
     policy.group = s[5] % 4 == 3 ? 0 : s[5] % 4;
     policy.mode = static_cast<GroupMode>(s[6] % 3);
     policy.order = s[6] / 3 % 3;
+    policy.endpoint = s[6] / 9 % 4 == 2 ? 1 + s[4] % 2 : 0;
     policy.tap = s[5] / 4 % 8 == 1;
     policy.is_private = s[5] / 4 % 8 == 2;
     policy.is_verified = s[5] / 32 % 4 == 1;
@@ -56,6 +57,7 @@ LinkPolicy compiled(const ModelPolicy& policy) {
                     .group = GroupId{policy.group},
                     .group_mode = policy.mode,
                     .group_order = policy.order,
+                    .endpoint = policy.endpoint,
                     .tap = policy.tap,
                     .is_private = policy.is_private,
                     .is_verified = policy.is_verified,

@@ -21,6 +21,7 @@ struct ModelPolicy {
     std::uint32_t group = 0;
     GroupMode mode = GroupMode::all;
     std::uint32_t order = 0;
+    std::uint32_t endpoint = 0;
     bool tap = false, is_private = false, is_verified = false, learns_first = false;
     std::optional<Nanoseconds> attitude_interval{}, other_interval{};
     std::optional<std::uint64_t> bytes_per_s{};
@@ -59,10 +60,10 @@ public:
             return h.link == link && h.system == system && h.component == component;
         };
         const auto source = std::find_if(heard_.begin(), heard_.end(), is_it);
-        if (source == heard_.end() || !source->known || now - source->time >= options_.route_timeout) return false;
+        if (source == heard_.end() || !source->known || now - source->last() >= options_.route_timeout) return false;
         for (Heard& h : heard_)
-            if (h.link == link && h.system == system) h.known = is_it(h);
-        source->time = source->since = now;
+            if (h.link == link && h.system == system) h.known = is_it(h) && !h.only_echoes;
+        if (source->known) source->time = source->since = now;
         return true;
     }
     void remove(std::uint32_t id) {
@@ -92,13 +93,14 @@ public:
             for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
             return result;
         }
-        std::erase_if(heard_, [&](const Heard& h) { return now - h.time >= options_.route_timeout; });
+        std::erase_if(heard_, [&](const Heard& h) { return now - h.last() >= options_.route_timeout; });
         for (const auto& [id, link] : links_) result.why[id] = Reason::dropped;
         Recent* remembered = nullptr;
         result.verdict = judge(ingress, bytes, frame, result.why, remembered);
         if (result.verdict != Verdict::tap) give_to_taps(frame, result.why);
         if (remembered != nullptr)
             for (const auto id : result.links()) remembered->sent.insert(id);
+        for (const auto id : result.links()) note_kept(links_[id], frame.system().value);
         return result;
     }
 
@@ -106,7 +108,8 @@ public:
     [[nodiscard]] std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> routes(MonoTime now) const {
         std::set<std::tuple<std::uint32_t, int, int, std::uint64_t>> list;
         for (const Heard& h : heard_)
-            if (h.known && now - h.time < options_.route_timeout) list.emplace(h.link, h.system, h.component, h.frames);
+            if (h.known && now - h.last() < options_.route_timeout)
+                list.emplace(h.link, h.system, h.component, h.frames);
         return list;
     }
 
@@ -117,6 +120,9 @@ private:
     struct Link {
         ModelPolicy policy{};
         std::map<std::uint8_t, Claim> claims{};  // by system
+        std::optional<MonoTime> last_echo{};
+        std::set<std::uint8_t> returned{};  // systems of which an echo came
+        std::vector<MonoTime> kept{};       // when frames of other systems were sent here, since the last of them came
         std::optional<MonoTime> last_heard{};
         std::uint32_t heartbeats = 0;  // against those of the other links of its group
         // By source, message and whether the frame was verified.
@@ -130,6 +136,10 @@ private:
         MonoTime time, since;
         std::uint64_t frames = 0;
         bool known = true;
+        bool only_echoes = false;
+        std::optional<MonoTime> echoed{};
+
+        [[nodiscard]] MonoTime last() const { return only_echoes ? *echoed : std::max(time, echoed.value_or(time)); }
     };
     struct Recent {
         Bytes bytes;
@@ -172,10 +182,13 @@ private:
                 return remember(ingress, bytes, frame, why, remembered);
             }
             const auto age = now_ - r->time;
-            if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) return Verdict::echo;
+            if (age < std::chrono::seconds{2} && r->sent.contains(ingress)) {
+                learn_from_echo(ingress, frame);
+                return Verdict::echo;
+            }
             const bool again = r->heard.contains(ingress);
             const bool by_member = std::any_of(r->heard.begin(), r->heard.end(), [&](std::uint32_t id) {
-                return id != gone && link.policy.group != 0 && links_[id].policy.group == link.policy.group;
+                return id != gone && id != ingress && is_same_place(link, links_[id]);
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
@@ -259,10 +272,54 @@ private:
         if (std::none_of(heard_.begin(), heard_.end(), same))
             heard_.push_back({ingress, system, component, now_, now_});
         Heard& heard = *std::find_if(heard_.begin(), heard_.end(), same);
-        if (!heard.known) heard.since = now_;
+        if (!heard.known || heard.only_echoes) heard.since = now_;
         heard.known = true;
+        heard.only_echoes = false;
         heard.time = now_;
         ++heard.frames;
+    }
+
+    // For a minute after each echo, what the link does not send back is looked at.
+    void note_kept(Link& link, std::uint8_t system) const {
+        const bool is_watched = link.last_echo && now_ - *link.last_echo < std::chrono::seconds{60};
+        if (is_watched && !link.returned.contains(system)) link.kept.push_back(now_);
+    }
+
+    // A link that kept five frames of systems of which it returned nothing, the first of them 2 s ago, does not send
+    // back what it gets: then an echo shows where its sender is. An echo also refreshes a route.
+    void learn_from_echo(std::uint32_t ingress, const wire::FrameView& frame) {
+        Link& link = links_[ingress];
+        const auto system = frame.system().value, component = frame.component().value;
+        if (link.last_echo && now_ - *link.last_echo >= std::chrono::seconds{60}) link.returned.clear();
+        link.last_echo = now_;
+        if (link.returned.insert(system).second) link.kept.clear();
+        const bool keeps_others = link.kept.size() >= 5 && now_ - link.kept.front() >= std::chrono::seconds{2};
+        if (system == 0 || info(frame) == nullptr) return;
+        if (!keeps_others && !is_fresh(ingress, system, component)) {
+            claim(link, system);
+            return;
+        }
+        if (!may_learn(ingress, system)) return;
+        const auto same = [&](const Heard& h) {
+            return h.link == ingress && h.system == system && h.component == component;
+        };
+        auto heard = std::find_if(heard_.begin(), heard_.end(), same);
+        if (heard == heard_.end()) {
+            heard_.push_back({ingress, system, component, {}, {}, 0, false});
+            heard = heard_.end() - 1;
+        }
+        if (!heard->known) heard->only_echoes = true;
+        heard->known = true;
+        heard->echoed = now_;
+    }
+
+    // Links of a group lead to the same place, but nobody knows that of the unverified peers of one endpoint.
+    static bool are_peers(const Link& a, const Link& b) {
+        return a.policy.endpoint != 0 && a.policy.endpoint == b.policy.endpoint && !a.policy.is_verified &&
+               !b.policy.is_verified;
+    }
+    static bool is_same_place(const Link& a, const Link& b) {
+        return a.policy.group != 0 && a.policy.group == b.policy.group && !are_peers(a, b);
     }
 
     // A vehicle that is alive elsewhere is learned only after 5 s without a gap of 2 s. Verified links come first.
@@ -270,9 +327,7 @@ private:
         Link& link = links_[ingress];
         std::vector<std::uint32_t> others;
         for (const auto& [id, other] : links_)
-            if (id != ingress && is_fresh(id, system, -1) &&
-                (link.policy.group == 0 || other.policy.group != link.policy.group))
-                others.push_back(id);
+            if (id != ingress && is_fresh(id, system, -1) && !is_same_place(link, other)) others.push_back(id);
         if (others.empty()) return true;
         const auto is_verified = [&](std::uint32_t id) { return links_[id].policy.is_verified; };
         if (link.policy.is_verified) {
@@ -283,22 +338,26 @@ private:
         if (std::ranges::any_of(others, is_verified)) return false;
         if (is_fresh(ingress, system, -1)) return true;
         const bool is_alive = std::ranges::any_of(heard_, [&](const Heard& h) {
-            return h.known && in(others, h.link) && h.system == system && h.component == 1 &&
+            return h.known && !h.only_echoes && in(others, h.link) && h.system == system && h.component == 1 &&
                    now_ - h.time < std::chrono::seconds{2};
         });
         if (!is_alive) return true;
-        const auto [claim, is_new] = link.claims.try_emplace(system, Claim{now_, now_});
-        if (now_ - claim->second.last >= std::chrono::seconds{2}) claim->second.since = now_;
-        claim->second.last = now_;
-        if (link.policy.learns_first || now_ - claim->second.since < std::chrono::seconds{5}) return false;
-        link.claims.erase(claim);
+        const Claim made = claim(link, system);
+        if (link.policy.learns_first || now_ - made.since < std::chrono::seconds{5}) return false;
+        link.claims.erase(system);
         return true;
+    }
+    Claim claim(Link& link, std::uint8_t system) const {
+        Claim& claim = link.claims.try_emplace(system, Claim{now_, now_}).first->second;
+        if (now_ - claim.last >= std::chrono::seconds{2}) claim.since = now_;
+        claim.last = now_;
+        return claim;
     }
 
     // Heard twice at least half a second apart, and in the last 3 s.
     [[nodiscard]] bool is_present(std::uint32_t link, std::uint8_t system, std::uint8_t component) const {
         return std::ranges::any_of(heard_, [&](const Heard& h) {
-            return h.known && h.link == link && h.system == system && h.component == component &&
+            return h.known && !h.only_echoes && h.link == link && h.system == system && h.component == component &&
                    h.time - h.since >= std::chrono::milliseconds{500} && now_ - h.time < std::chrono::seconds{3};
         });
     }
@@ -379,6 +438,8 @@ private:
         for (const auto id : members)
             if (!is_silent(links_[id])) alive.push_back(id);
         if (alive.empty()) return;
+        if (std::ranges::any_of(alive, [&](auto id) { return links_[id].policy.is_verified; }))
+            std::erase_if(alive, [&](auto id) { return !links_[id].policy.is_verified; });
         std::stable_sort(alive.begin(), alive.end(),
                          [&](auto a, auto b) { return links_[a].policy.order < links_[b].policy.order; });
         std::uint32_t chosen = alive.front();
@@ -393,7 +454,7 @@ private:
             current_[group] = chosen;
         }
         for (const auto id : members)
-            if (id != chosen) why[id] = Reason::other_member;
+            if (id != chosen && !are_peers(links_[id], links_[chosen])) why[id] = Reason::other_member;
     }
 
     // docs/guide/queues.md: of class 0 the test has HEARTBEAT, COMMAND_LONG, SET_MODE; of class 1 MANUAL_CONTROL.

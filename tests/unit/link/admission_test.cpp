@@ -15,10 +15,14 @@ net::Address sender(std::uint32_t number) {
 
 constexpr MonoTime start{std::chrono::hours{1000}};
 
+bool admits(Admission& admission, const net::Address& who, MonoTime now) {
+    return admission.ask(who, now) == Admission::Answer::admitted;
+}
+
 Admission used_up(std::size_t burst) {
     Admission admission(burst);
     for (std::uint32_t i = 0; i < burst; ++i) {
-        EXPECT_TRUE(admission.admits(sender(1000 + i), start));
+        EXPECT_TRUE(admits(admission, sender(1000 + i), start));
         admission.note_entry();
     }
     return admission;
@@ -26,11 +30,11 @@ Admission used_up(std::size_t burst) {
 
 TEST(Admission, LetsABurstInThenFiftyASecond) {
     Admission sut = used_up(64);
-    EXPECT_FALSE(sut.admits(sender(1), start));
+    EXPECT_FALSE(admits(sut, sender(1), start));
 
     int entered = 0;
     for (int ms = 1; ms <= 1000; ++ms) {
-        if (!sut.admits(sender(static_cast<std::uint32_t>(2000 + ms)), start + ms * 1ms)) continue;
+        if (!admits(sut, sender(static_cast<std::uint32_t>(2000 + ms)), start + ms * 1ms)) continue;
         sut.note_entry();
         ++entered;
     }
@@ -41,26 +45,58 @@ TEST(Admission, LetsABurstInThenFiftyASecond) {
 TEST(Admission, LetsASenderInThatRepeatsWithinTenSeconds) {
     for (const auto& [wait, enters] : {std::pair{499ms, false}, std::pair{500ms, true}, std::pair{10'000ms, true}}) {
         Admission sut = used_up(64);
-        ASSERT_FALSE(sut.admits(sender(1), start));
+        ASSERT_FALSE(admits(sut, sender(1), start));
         // A flood keeps the steady rate used up.
         for (int i = 0; i < 600; ++i) {
             const MonoTime now = start + wait * i / 600;
-            if (sut.admits(sender(static_cast<std::uint32_t>(2000 + i)), now)) sut.note_entry();
+            if (admits(sut, sender(static_cast<std::uint32_t>(2000 + i)), now)) sut.note_entry();
         }
-        while (sut.admits(sender(70000), start + wait)) sut.note_entry();
+        while (admits(sut, sender(70000), start + wait)) sut.note_entry();
 
-        EXPECT_EQ(sut.admits(sender(1), start + wait), enters) << wait.count();
+        EXPECT_EQ(admits(sut, sender(1), start + wait), enters) << wait.count();
     }
 }
 
 TEST(Admission, ASenderThatComesBackAfterALongTimeIsNew) {
     Admission sut = used_up(64);
-    ASSERT_FALSE(sut.admits(sender(1), start));
+    ASSERT_FALSE(admits(sut, sender(1), start));
     const MonoTime later = start + 10'001ms;
-    while (sut.admits(sender(70000), later)) sut.note_entry();
+    while (admits(sut, sender(70000), later)) sut.note_entry();
 
-    EXPECT_FALSE(sut.admits(sender(1), later));
-    EXPECT_TRUE(sut.admits(sender(1), later + 500ms));
+    EXPECT_FALSE(admits(sut, sender(1), later));
+    EXPECT_TRUE(admits(sut, sender(1), later + 500ms));
+}
+
+// 12,000 addresses, each of which sends every 0.6 s.
+TEST(Admission, LetsAHundredRepeatersInASecond) {
+    Admission sut = used_up(64);
+    int entered = 0, limited = 0;
+    for (std::uint32_t i = 0; i < 120'000; ++i) {
+        const auto answer = sut.ask(sender(i % 12'000), start + i * 50us);
+        if (answer == Admission::Answer::admitted) {
+            sut.note_entry();
+            ++entered;
+        }
+        limited += answer == Admission::Answer::limited ? 1 : 0;
+    }
+
+    EXPECT_GE(entered, 6 * (50 + 100) - 100);
+    EXPECT_LE(entered, 6 * (50 + 100) + 100);
+    EXPECT_GT(limited, 100'000);
+}
+
+TEST(Admission, LetsARepeaterInAtOnceAmongInventedAddresses) {
+    Admission sut = used_up(64);
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        const MonoTime now = start + i * 50us;
+        if (admits(sut, sender(i), now)) sut.note_entry();
+        if (i == 1000) {
+            ASSERT_FALSE(admits(sut, sender(64'000), now));
+        }
+        if (i == 15'000) {
+            EXPECT_TRUE(admits(sut, sender(64'000), now));
+        }
+    }
 }
 
 }  // namespace

@@ -292,6 +292,40 @@ TEST(LinksUdp, AFloodOfStrangersDoesNotPushOutThoseWhoTalk) {
     EXPECT_THAT(node.links->links(), SizeIs(2));
 }
 
+// All peers talk; a newcomer sends twice.
+class LinksUdpFull : public ::testing::Test {
+protected:
+    bool newcomer_enters(int max_peers) {
+        const auto in = node.add(fmt::format("udpin://127.0.0.1:0?max_peers={}", max_peers));
+        for (int i = 0; i < max_peers; ++i) talkers.push_back(PlainSocket::udp());
+        const auto newcomer = PlainSocket::udp();
+        const auto all_talk = [&] {
+            for (const auto& talker : talkers) talker.send_to(node.port(in), heartbeat(0));
+        };
+        const auto& counters = *node.info(in).counters;
+        const auto newcomer_sends = [&](std::uint64_t answers) {
+            newcomer.send_to(node.port(in), heartbeat(1));
+            const auto seen = [&] { return counters.peers_displaced.value() + counters.peers_refused.value(); };
+            EXPECT_TRUE(until([&] { return seen() == answers; }, node));
+        };
+        all_talk();
+        all_talk();
+        newcomer_sends(1);
+        std::this_thread::sleep_for(std::chrono::milliseconds{600});
+        all_talk();
+        newcomer_sends(2);
+        EXPECT_THAT(node.links->links(), SizeIs(static_cast<std::size_t>(max_peers)));
+        return counters.peers_displaced.value() == 1;
+    }
+
+    Node node;
+    std::vector<PlainSocket> talkers;
+};
+
+TEST_F(LinksUdpFull, ATalkerLeavesForASenderThatRepeats) { EXPECT_TRUE(newcomer_enters(16)); }
+
+TEST_F(LinksUdpFull, AmongFewTalkersNobodyLeaves) { EXPECT_FALSE(newcomer_enters(15)); }
+
 TEST(LinksUdp, JunkDoesNotKeepAPeer) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0?idle=50ms");

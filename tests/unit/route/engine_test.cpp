@@ -89,6 +89,42 @@ TEST(Engine, LinkInTheSlotOfAnotherInheritsNothing) {
     EXPECT_EQ(sut.counters(3).echo.value(), 0u);
 }
 
+// So many links come and go within two seconds that slots are taken again at once.
+class QuickTurnover : public testing::Test {
+protected:
+    QuickTurnover() { sut.links(101); }
+    void replace_a_hundred() {
+        for (int i = 0; i < 100; ++i)
+            sut.engine.remove_link(LinkId{sut.last_link - 99 + static_cast<std::uint32_t>(i)});
+        sut.links(100);
+    }
+
+    Network sut;
+    const Bytes frame = make_frame("ATTITUDE", vehicle);
+};
+
+TEST_F(QuickTurnover, NewLinksInheritNothing) {
+    ASSERT_EQ(sut.pass(1, frame).size(), 100u);
+    for (int round = 0; round < 3; ++round) replace_a_hundred();
+
+    for (std::uint32_t link = sut.last_link - 99; link <= sut.last_link; ++link) {
+        sut.pass(link, frame);
+        ASSERT_EQ(sut.counters(link).echo.value(), 0u) << link;
+    }
+    ASSERT_THAT(sut.engine.links(), 101u);
+}
+
+TEST_F(QuickTurnover, EchoesOnNewLinksAreKnown) {
+    for (int round = 0; round < 3; ++round) replace_a_hundred();
+    sut.wait(1ns);
+    ASSERT_EQ(sut.pass(1, frame).size(), 100u);
+
+    for (std::uint32_t link = sut.last_link - 99; link <= sut.last_link; ++link) {
+        EXPECT_THAT(sut.pass(link, frame), IsEmpty());
+        ASSERT_EQ(sut.verdict, Verdict::echo) << link;
+    }
+}
+
 TEST(Engine, KeepsWhatItKnowsWhenTheSixtyFifthLinkComes) {
     Network sut;
     sut.links(64);

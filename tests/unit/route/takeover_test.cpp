@@ -106,6 +106,28 @@ TEST_F(Takeover, LearnFirstKeepsTheFirstUntilItIsSilent) {
     EXPECT_THAT(command(), ElementsAre(1, 2));
 }
 
+TEST_F(Takeover, LearnFirstOnTheAttackersLinkDoesNotKeepTheVehicleOut) {
+    sut.link();
+    sut.link({.learns_first = true});
+    sut.link();
+    only(2, 10s);
+
+    both_send(5100ms);
+
+    EXPECT_THAT(command(), ElementsAre(1, 2));
+}
+
+TEST_F(Takeover, LearnFirstDoesNotKeepAVerifiedVehicleOut) {
+    sut.link({.is_verified = true, .learns_first = true});
+    sut.link({.learns_first = true});
+    sut.link();
+    only(2, 10s);
+
+    sut.hears(1, vehicle);
+
+    EXPECT_THAT(command(), ElementsAre(1));
+}
+
 TEST_F(Takeover, LinksOfAGroupBringTheSameVehicleAtOnce) {
     sut.links(2, {.group = GroupId{1}});
     sut.link();

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Peers of one endpoint in a group. Anybody may become a peer, so they do not believe each other as links of different
+// endpoints do. Links 1 and 2 are peers of one udpin, of which 1 is the vehicle and 2 an attacker; link 3 is a station.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/route/route_frames.hpp"
+
+namespace mavloom::route {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Bytes;
+using test::gcs;
+using test::make_frame;
+using test::Network;
+using test::vehicle;
+using testing::Contains;
+using testing::ElementsAre;
+
+LinkPolicy peer(GroupMode mode, std::uint32_t endpoint = 7) {
+    return {.group = GroupId{1}, .group_mode = mode, .endpoint = endpoint};
+}
+
+class GroupPeers : public testing::TestWithParam<GroupMode> {
+protected:
+    void both_send(Nanoseconds time) {
+        for (Nanoseconds passed{}; passed < time; passed += 100ms) {
+            sut.wait(100ms);
+            sut.hears(1, vehicle);
+            for (int i = 0; i < 10; ++i) sut.hears(2, vehicle);
+        }
+    }
+    [[nodiscard]] test::Ids command() { return sut.command(3, gcs, vehicle); }
+
+    Network sut;
+};
+INSTANTIATE_TEST_SUITE_P(Modes, GroupPeers, testing::Values(GroupMode::all, GroupMode::best, GroupMode::primary));
+
+TEST_P(GroupPeers, APeerIsNotBelievedAtOnce) {
+    sut.links(2, peer(GetParam()));
+    sut.link();
+    sut.settles(1, vehicle);
+
+    both_send(5s);
+
+    EXPECT_THAT(command(), ElementsAre(1));
+}
+
+TEST_P(GroupPeers, APeerThatIsBelievedDoesNotTakeTheVehiclesPlace) {
+    sut.links(2, peer(GetParam()));
+    sut.link();
+    sut.settles(1, vehicle);
+    both_send(60s);
+
+    EXPECT_THAT(command(), Contains(1));
+}
+
+TEST_P(GroupPeers, APeerThatCameFirstDoesNotKeepTheVehicleOut) {
+    sut.links(2, peer(GetParam()));
+    sut.link();
+    for (int i = 0; i < 50; ++i) {
+        sut.hears(2, vehicle);
+        sut.wait(100ms);
+    }
+    both_send(6s);
+
+    EXPECT_THAT(command(), Contains(1));
+}
+
+TEST_P(GroupPeers, ACopyThatAPeerBroughtFirstTeachesTheVehiclesRoute) {
+    sut.links(2, peer(GetParam()));
+    sut.link();
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        const Bytes beat = make_frame("HEARTBEAT", vehicle, {{"custom_mode", i}});
+        sut.pass(2, beat);
+        sut.pass(1, beat);
+        sut.wait(1s);
+    }
+
+    EXPECT_THAT(command(), Contains(1));
+}
+
+TEST_P(GroupPeers, LinksOfTwoEndpointsAreBelievedAtOnce) {
+    sut.link(peer(GetParam(), 7));
+    sut.link(peer(GetParam(), 8));
+    sut.link();
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.engine.routes(sut.now), testing::SizeIs(2));
+}
+
+TEST_P(GroupPeers, VerifiedPeersOfOneEndpointAreBelievedAtOnce) {
+    auto policy = peer(GetParam());
+    policy.is_verified = true;
+    sut.links(2, policy);
+    sut.link();
+    sut.hears(1, vehicle);
+    sut.hears(2, vehicle);
+
+    EXPECT_THAT(sut.engine.routes(sut.now), testing::SizeIs(2));
+}
+
+// Link 1 is unverified and the better one by all other rules, link 2 verified.
+class VerifiedMember : public GroupPeers {
+protected:
+    VerifiedMember() {
+        sut.link(peer(GetParam(), 7));
+        auto verified = peer(GetParam(), 8);
+        verified.is_verified = true;
+        sut.link(verified);
+        sut.link();
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Modes, VerifiedMember, testing::Values(GroupMode::best, GroupMode::primary));
+
+TEST_P(VerifiedMember, IsPreferred) {
+    sut.hears(1, gcs);
+    sut.command(3, vehicle, gcs);
+    sut.hears(2, gcs);
+    for (int i = 0; i < 100; ++i) {
+        sut.wait(100ms);
+        for (int n = 0; n < 5; ++n) sut.hears(1, gcs);
+        sut.hears(2, gcs);
+    }
+
+    EXPECT_THAT(sut.send(3, "ATTITUDE", vehicle), ElementsAre(2));
+}
+
+TEST_P(VerifiedMember, GivesItsPlaceWhileItIsSilent) {
+    sut.hears(2, gcs);
+    sut.wait(3s);
+    sut.hears(1, {1, 191});
+
+    EXPECT_THAT(sut.send(3, "ATTITUDE", vehicle), ElementsAre(1));
+}
+
+}  // namespace
+}  // namespace mavloom::route
