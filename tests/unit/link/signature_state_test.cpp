@@ -228,7 +228,7 @@ const std::array signed_in_turn{
     test::hex("fd0901000201010000000000000002030004039c3b00402d4088792d328a82fa5632"),
 };
 
-// The second link's own verifier has seen nothing, so only what the group heard tells that the frame is old.
+// The second link's own verifier has seen nothing, so only what the group heard states that the frame is old.
 TEST_F(SigningTimes, InAGroupAFrameThatCameLongAgoIsNotTakenFromAnotherLink) {
     constexpr WallTime now{std::chrono::seconds{1'420'070'400 + 500'000'000}};
     KeyStates states;
