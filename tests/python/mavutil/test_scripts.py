@@ -37,6 +37,7 @@ def test_there_are_twenty_scripts_and_one_line_of_each_changes(sides):
 
 # ---- recordings
 
+@pytest.mark.unsanitized
 @pytest.mark.parametrize("script", ["log_to_csv", "log_numpy", "log_pandas", "log_statistics", "log_modes",
                                     "log_battery", "log_split"])
 def test_scripts_that_read_a_recording(script, sides, flight, tmp_path, child_environment):
