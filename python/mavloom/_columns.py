@@ -59,6 +59,8 @@ class Columns(dict[str, Array]):
     `numpy.asarray(cols)`, `polars.DataFrame(cols)`. `to_pandas` and `to_arrow` also convert times and text. These
     libraries need one-dimensional columns, so `keys`, `values` and `items` list an array field as `voltages[0]`,
     `voltages[1]`, ...
+    `json.dumps(dict(cols.items()), default=numpy.ndarray.tolist)` writes them. If `cols` has no rows,
+    `json.dumps(cols, indent=1)` writes {}, because `len(cols)` is 0.
     """
 
     # A dict, because pandas.DataFrame takes columns from nothing else. The dict itself holds the one-dimensional

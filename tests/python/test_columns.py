@@ -242,6 +242,9 @@ def test_columns_in_reverse_order_and_as_json(flight):
     loaded = json.loads(json.dumps(targets, default=np.ndarray.tolist))
     assert list(loaded) == ["time_ns", "sys", "comp", "q[0]", "q[1]", "q[2]", "q[3]", "thrust"] == targets.keys()
     assert loaded["q[1]"] == targets["q"][:, 1].tolist() and {**targets}.keys() == loaded.keys()
+    none = dict(mavloom.columns(flight, "ATTITUDE_TARGET", fields=["q"], end=1).items())
+    assert json.loads(json.dumps(none, default=np.ndarray.tolist, indent=1)) == dict.fromkeys(
+        ["time_ns", "sys", "comp", "q[0]", "q[1]", "q[2]", "q[3]"], [])
 
 
 def test_several_files_follow_each_other(flight, tmp_path):

@@ -320,6 +320,21 @@ def test_arguments_that_are_no_integers_are_named(call, text):
         call(link)
 
 
+@pytest.mark.parametrize("call, text", [
+    (lambda link: link.send(None), "send() takes (message: str | Message, /, **fields: Any), not (None)"),
+    (lambda link: link.forward(None), "forward() takes (message: Message | Buffer, /), not (None)"),
+    (lambda link: mavloom.RingReader(5), "RingReader() takes (name: str, *, "),
+    (lambda link: mavloom.RingReader("x", lossless="a", start=3), "'newest', foreign: bool = False), "
+     "not (str, lossless=str, start=int)"),
+    (lambda link: mavloom.remove_ring(b"x"), "remove_ring() takes (name: str), not (bytes)"),
+    (lambda link: mavloom.rings("x"), "rings() takes (), not (str)"),
+    (lambda link: mavloom.Dialect().decode(), "decode() takes (frame: Buffer, time_ns: int = 0), not ()")])
+def test_arguments_of_a_wrong_type_or_number_get_one_plain_line(call, text, link):
+    with pytest.raises(TypeError) as caught:
+        call(link)
+    assert text in str(caught.value) and "\n" not in str(caught.value)
+
+
 def test_what_is_no_ring_is_named():
     with mavloom.connect("udpin://127.0.0.1:0") as link:
         with pytest.raises(mavloom.UsageError, match=r"serve_inlet\(\) takes the name of a ring, not 5"):

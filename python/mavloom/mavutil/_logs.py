@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
-from .._core import MavutilLog
+from .._core import MavutilLog, MavutilTypes
 from .._errors import UsageError
 from ._connection import Types
 from ._services import mavfile
@@ -36,6 +36,7 @@ class mavlogfile(mavfile):
         self.link = None
         self._ended = False
         self._log_file: MavutilLog | None = None
+        self._match: Callable[[Any, MavutilTypes | None], MAVLink_message | None] | None = None
         self._raw: Iterator[MAVLink_message] | None = None
         self._out: BinaryIO | None = None
         if self.writeable:
@@ -43,7 +44,8 @@ class mavlogfile(mavfile):
         elif notimestamps:
             self._raw = self._read_raw()
         else:
-            self._log_file = MavutilLog(self.filename, self.mav._dialect, MAVLink_bad_data)
+            self._log_file = MavutilLog(self.filename, self.mav._dialect, MAVLink_bad_data, self._state)
+            self._match = self._log_file.match
         self.filesize = 0 if self.writeable else os.path.getsize(self.filename)
 
     # ---- reading
@@ -80,15 +82,15 @@ class mavlogfile(mavfile):
     def recv_match(self, condition: str | None = None, type: Types = None, blocking: bool = False,
                    timeout: float | None = None) -> Any:
         """Returns the next message of these types for which the condition is true; None at the end."""
-        mav = self.mav
-        if (self._log_file is None or not self.stop_on_EOF or self.idle_hooks or self.message_hooks or self._records
+        mav, match = self.mav, self._match
+        if (match is None or not self.stop_on_EOF or self.idle_hooks or self.message_hooks or self._records
                 or mav.callback is not None or mav.signing.secret_key is not None):
             return super().recv_match(condition, type, blocking and not self.stop_on_EOF, timeout)
         types = None if type is None else self._types_of(type)
-        while True:
-            message: MAVLink_message | None = self._log_file.match(self._state, self, types)
-            if condition is None or message is None or self._agrees(message, condition):
-                return message
+        message = match(self, types)
+        while condition is not None and message is not None and not self._agrees(message, condition):
+            message = match(self, types)
+        return message
 
     def recv_msg(self) -> Any:
         if self._raw is None and not self.idle_hooks:
@@ -138,7 +140,7 @@ class mavmmaplog(mavlogfile):
         super().__init__(filename, source_system=source_system, source_component=source_component)
         self._flightmodes: list[tuple[str, float, float]] | None = None
         assert self._log_file is not None
-        self._counts: dict[str, int] = self._log_file.index(self._state, self, progress_callback)
+        self._counts: dict[str, int] = self._log_file.index(self, progress_callback)
         self._change_version()
         for state in self.sysid_state.values():
             state.flightmode = "UNKNOWN"

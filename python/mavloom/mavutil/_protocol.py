@@ -170,20 +170,6 @@ class MAVLink:
                                      0 if key is None else signing.next_timestamp())
         return frame
 
-    if not TYPE_CHECKING:  # the stub of each module has the calls
-        def __getattr__(self, call: str) -> Callable[..., Any]:
-            name, _, verb = call.rpartition("_")
-            dialect = type(self)._module.dialect
-            if verb not in ("send", "encode") or name.upper() not in dialect:
-                raise AttributeError(f"MAVLink has no {call}: use NAME_send or NAME_encode, for example heartbeat_send")
-            setattr(type(self), call, make_call(type(self)._module, name, verb, dialect[name.upper()].fields))
-            made: Callable[..., Any] = getattr(self, call)
-            return made
-
-    def __dir__(self) -> list[str]:
-        names = [name.lower() for name in type(self)._module.dialect.message_names]
-        return sorted({*object.__dir__(self), *(f"{name}_{verb}" for name in names for verb in ("send", "encode"))})
-
     # ---- receiving
 
     def buf_len(self) -> int:
@@ -298,8 +284,31 @@ def make_call(module: MavlinkModule, name: str, verb: str, fields: list[FieldInf
     return made
 
 
+class Call:
+    """The method NAME_send or NAME_encode, which is made when it is first read.
+
+    Not a method `__getattr__`, which would slow down every other attribute.
+    """
+
+    def __init__(self, module: MavlinkModule, message: str, verb: str) -> None:
+        self.module = module
+        self.message = message
+        self.verb = verb
+
+    def __set_name__(self, owner: type[Any], name: str) -> None:
+        self.owner = owner
+        self.name = name
+
+    def __get__(self, instance: object, owner: type[Any]) -> Any:
+        made = make_call(self.module, self.message.lower(), self.verb, self.module.dialect[self.message].fields)
+        setattr(self.owner, self.name, made)
+        return getattr(owner if instance is None else instance, self.name)
+
+
 def new_class(module: MavlinkModule) -> type[MAVLink]:
-    return type("MAVLink", (MAVLink,), {"_module": module, "__module__": module.__name__})
+    calls = {f"{name.lower()}_{verb}": Call(module, name, verb)
+             for name in module.dialect.message_names for verb in ("send", "encode")}
+    return type("MAVLink", (MAVLink,), {"_module": module, "__module__": module.__name__, **calls})
 
 
 def dialect_of(mav: MAVLink) -> Dialect:

@@ -64,10 +64,12 @@ constexpr std::size_t longest_damage = 4096;       // bytes of one BAD_DATA mess
 
 }  // namespace
 
-MavutilLog::MavutilLog(std::string path, const nb::object& dialect, nb::object bad_data)
+MavutilLog::MavutilLog(std::string path, const nb::object& dialect, nb::object bad_data, nb::object state)
     : path_(std::move(path)),
       origin_(std::make_shared<Origin>(dialect)),
       bad_data_(std::move(bad_data)),
+      state_object_(std::move(state)),
+      state_(nb::cast<MavutilState&>(state_object_)),
       reader_(value_or_raise(open())),
       size_(reader_->size()) {
     origin_->link_names().add(LinkId{0}, "tlog://" + path_);
@@ -196,11 +198,11 @@ nb::object MavutilLog::message_of(const Entry& entry) const {
     return made;
 }
 
-nb::object MavutilLog::match(MavutilState& state, const nb::object& owner, const MavutilTypes* types) {
+nb::object MavutilLog::match(const nb::object& owner, const MavutilTypes* types) {
     for (;;) {
         nb::object message = next();
         if (!message.is_valid()) return nb::none();
-        if (state.note(message)) owner.attr("_notice")(message);
+        if (state_.note(message)) owner.attr("_notice")(message);
         if (types == nullptr || types->takes(*mavutil_message(message))) return message;
     }
 }
@@ -277,15 +279,15 @@ void add_all(record::TlogReader& file, Index& index, const nb::object& progress)
 
 }  // namespace
 
-nb::dict MavutilLog::index(MavutilState& state, const nb::object& owner, const nb::object& progress) {
+nb::dict MavutilLog::index(const nb::object& owner, const nb::object& progress) {
     Index index(origin_->dialect());
     auto file = value_or_raise(open());
     add_all(file, index, progress);
     for (const auto& first : index.firsts) {
         const nb::object message = make_mavutil_message(origin_, first.definition, first.time_ns, 0,
                                                         wire::FrameView::unchecked(first.frame), 0);
-        if (!first.is_instance && state.note(message)) owner.attr("_notice")(message);
-        state.add_to_target(message);
+        if (!first.is_instance && state_.note(message)) owner.attr("_notice")(message);
+        state_.add_to_target(message);
     }
     nb::dict names;
     for (const auto* definition : index.order)
@@ -333,18 +335,18 @@ void bind_mavutil_log(nb::module_& module) {
     nb::class_<MavutilLog>(module, "MavutilLog", nb::is_final(), "Reads a recording for mavloom.mavutil.")
         .def(
             "__init__",
-            [](MavutilLog* self, const nb::object& path, const nb::object& dialect, nb::object bad_data) {
-                new (self) MavutilLog(path_of(path), dialect, std::move(bad_data));
+            [](MavutilLog* self, const nb::object& path, const nb::object& dialect, nb::object bad_data,
+               nb::object state) {
+                new (self) MavutilLog(path_of(path), dialect, std::move(bad_data), std::move(state));
             },
-            nb::arg("path"), nb::arg("dialect"), nb::arg("bad_data"),
+            nb::arg("path"), nb::arg("dialect"), nb::arg("bad_data"), nb::arg("state"),
             nb::sig("def __init__(self, path: str | os.PathLike[str], dialect: Dialect, bad_data: "
-                    "collections.abc.Callable[[bytes, str], MavutilMessage]) -> None"))
-        .def("index", &MavutilLog::index, nb::arg("state"), nb::arg("owner"), nb::arg("progress").none(),
-             nb::sig("def index(self, state: MavutilState, owner: typing.Any, "
+                    "collections.abc.Callable[[bytes, str], MavutilMessage], state: MavutilState) -> None"))
+        .def("index", &MavutilLog::index, nb::arg("owner"), nb::arg("progress").none(),
+             nb::sig("def index(self, owner: typing.Any, "
                      "progress: collections.abc.Callable[[int], object] | None) -> dict[str, int]"))
-        .def("match", &MavutilLog::match, nb::arg("state"), nb::arg("owner"), nb::arg("types").none(),
-             nb::sig(
-                 "def match(self, state: MavutilState, owner: typing.Any, types: MavutilTypes | None) -> typing.Any"))
+        .def("match", &MavutilLog::match, nb::arg("owner"), nb::arg("types").none(),
+             nb::sig("def match(self, owner: typing.Any, types: MavutilTypes | None) -> typing.Any"))
         .def(
             "next",
             [](MavutilLog& log) {

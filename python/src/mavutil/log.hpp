@@ -34,18 +34,18 @@ private:
 
 class MavutilLog {
 public:
-    // `bad_data(bytes, reason)` makes a message of the bytes that are no message.
-    MavutilLog(std::string path, const nb::object& dialect, nb::object bad_data);
+    // `bad_data(bytes, reason)` makes a message of the bytes that are no message. `state` is a MavutilState.
+    MavutilLog(std::string path, const nb::object& dialect, nb::object bad_data, nb::object state);
 
-    // Reads the whole file: counts its messages, and notes the first one of each type in `state`, as pymavlink does
+    // Reads the whole file: counts its messages, and notes the first one of each type, as pymavlink does
     // when it opens a file. These, and further instances, also become messages of the target. Calls owner._notice() for
     // those that concern it, and progress(percent) unless it is None. Returns {name: count}.
-    nb::dict index(MavutilState& state, const nb::object& owner, const nb::object& progress);
+    nb::dict index(const nb::object& owner, const nb::object& progress);
     // Returns the next message; an invalid object at the end, until the file grows. Notes nothing.
     nb::object next();
-    // Returns the next message of these types, or None at the end. Notes every message that it passes in `state`, and
+    // Returns the next message of these types, or None at the end. Notes every message that it passes, and
     // calls owner._notice() for those that concern it.
-    nb::object match(MavutilState& state, const nb::object& owner, const MavutilTypes* types);
+    nb::object match(const nb::object& owner, const MavutilTypes* types);
 
     void rewind();
     // The place of the last message that was returned, in percent of the file.
@@ -77,6 +77,8 @@ private:
     const std::string path_;
     const std::shared_ptr<Origin> origin_;
     const nb::object bad_data_;
+    const nb::object state_object_;
+    MavutilState& state_;  // in state_object_
     std::mutex mutex_;
     // Guarded by mutex_:
     std::optional<record::TlogReader> reader_;  // empty: closed

@@ -280,16 +280,6 @@ nb::object mavutil_type(const MavutilMessage& message) {
     return nb::cast(fmt::format("UNKNOWN_{}", message.base.size == 0 ? 0 : message.base.frame().id().value));
 }
 
-// A field, or what it was set to.
-nb::object current(const MavutilMessage& message, const Field& field, const nb::object& name) {
-    if (message.extra.is_valid()) {
-        PyObject* set = PyDict_GetItemWithError(message.extra.ptr(), name.ptr());
-        if (set != nullptr) return nb::borrow(set);
-        if (PyErr_Occurred() != nullptr) throw nb::python_error();
-    }
-    return nb::steal(read_field(message, field));
-}
-
 nb::list field_list(const MavutilMessage& message) {
     nb::list list;
     const auto shown = message.fields().size();
@@ -298,17 +288,42 @@ nb::list field_list(const MavutilMessage& message) {
     return list;
 }
 
+// The fields that were set replace those of the payload.
+void replace_set_fields(const nb::dict& extra, nb::dict& dict) {
+    for (const auto& [name, value] : extra) {
+        const int is_field = PyDict_Contains(dict.ptr(), name.ptr());
+        if (is_field < 0 || (is_field == 1 && PyDict_SetItem(dict.ptr(), name.ptr(), value.ptr()) != 0))
+            throw nb::python_error();
+    }
+}
+
 void add_fields(const MavutilMessage& message, nb::dict& dict) {
     const auto fields = message.fields();
     if (fields.empty()) return;
-    const auto& names = message.base.origin->definitions()->names(*message.base.definition).fields;
-    for (std::size_t i = 0; i < fields.size(); ++i) set_item(dict, names[i], current(message, fields[i], names[i]));
+    const auto& definition = *message.base.definition;
+    const auto& names = message.base.origin->definitions()->names(definition).fields;
+    const auto payload = message.payload();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        set_item(dict, names[i], nb::steal(value_of(definition, payload, fields[i], TextForm::ascii)));
+    if (message.extra.is_valid()) replace_set_fields(nb::borrow<nb::dict>(message.extra), dict);
+}
+
+// Has the keys of all fields already, unless some are hidden.
+nb::dict unfilled_dict(const MavutilMessage& message) {
+    const auto* definition = message.base.definition;
+    const auto& definitions = *message.base.origin->definitions();
+    if (definition != nullptr && message.fields().size() == definition->fields.size())
+        return copy_of(definitions.names(*definition).unfilled);
+    nb::dict dict;
+    set_item(dict, definitions.type_key(), mavutil_type(message));
+    return dict;
 }
 
 nb::dict mavutil_dict(const MavutilMessage& message) {
-    nb::dict dict;
-    set_item(dict, message.base.origin->definitions()->type_key(), mavutil_type(message));
+    auto dict = unfilled_dict(message);
     add_fields(message, dict);
+    if (message.extra.is_valid())  // an attribute may have the key's name
+        set_item(dict, message.base.origin->definitions()->type_key(), mavutil_type(message));
     return dict;
 }
 

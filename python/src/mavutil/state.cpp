@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "mavutil/state.hpp"
 
-#include <fmt/format.h>
-
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "mavloom/feed/instance.hpp"
@@ -12,7 +10,6 @@
 #include "mavloom/msg/heartbeat.hpp"
 #include "mavloom/msg/high_latency2.hpp"
 #include "mavloom/msg/param_value.hpp"
-#include "strings.hpp"
 
 namespace mavloom::python {
 namespace {
@@ -30,6 +27,12 @@ bool is_from_vehicle(const wire::FrameView& frame) noexcept {
     if (frame.id() != msg::HighLatency2::id) return feed::is_vehicle_heartbeat(frame);
     const auto summary = msg::HighLatency2::decode(frame.payload());
     return feed::is_vehicle(summary.type, summary.autopilot);
+}
+
+nb::object name_of_instance(const nb::object& name, const nb::object& value) {
+    auto text = nb::steal(PyUnicode_FromFormat("%U[%S]", name.ptr(), value.ptr()));
+    if (!text.is_valid()) throw nb::python_error();
+    return text;
 }
 
 }  // namespace
@@ -94,15 +97,16 @@ void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& m
     const nb::object value = nb::steal(value_of(*of.base.definition, of.payload(), instance, TextForm::ascii));
     if (!value.is_valid()) throw nb::python_error();
     const nb::object previous = nb::borrow(PyDict_GetItem(messages.ptr(), name.ptr()));
-    nb::object instances = previous.is_valid() ? nb::getattr(previous, "_instances", nb::none()) : nb::none();
+    nb::object instances = previous.is_valid() ? nb::getattr(previous, instances_key_, nb::none()) : nb::none();
     if (!nb::isinstance<nb::dict>(instances)) instances = nb::dict();  // a program may set the attribute
-    nb::setattr(message, "_instances", instances);
+    nb::setattr(message, instances_key_, instances);
     if (nb::len(instances) >= static_cast<std::size_t>(most_messages) &&
         PyDict_Contains(instances.ptr(), value.ptr()) != 1)
         return;
-    nb::borrow<nb::dict>(instances)[value] = message;
-    messages[name] = message;  // before its instances, in the order of the dict
-    messages[nb::str(fmt::format("{}[{}]", nb::str(name).c_str(), escaped(nb::str(value))).c_str())] = message;
+    nb::dict of_message = nb::borrow<nb::dict>(instances), of_system = messages;
+    set_item(of_message, value, message);
+    if (!previous.is_valid()) set_item(of_system, name, message);  // before its instances, in the order of the dict
+    set_item(of_system, name_of_instance(name, value), message);
 }
 
 void MavutilState::add_to_target(const nb::object& message) {

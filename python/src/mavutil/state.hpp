@@ -39,12 +39,13 @@ private:
     void add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of);
     // Messages of a radio concern all systems behind it.
     void add_to_all(const nb::object& message, const MavutilMessage& of);
-    static void add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
-                                const dialect::Field& instance);
+    void add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
+                         const dialect::Field& instance);
     void note_sequence(const wire::FrameView& frame);
     void note_uptime(const MavutilMessage& message);
 
     nb::object messages_of_;
+    nb::object instances_key_ = nb::steal(PyUnicode_InternFromString("_instances"));
     std::array<nb::object, 256> messages_;  // by system
     std::map<Source, std::uint8_t> sequences_;
     std::map<Source, std::uint8_t>::iterator last_ = sequences_.end();  // of the last message

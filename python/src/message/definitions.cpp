@@ -15,6 +15,7 @@
 #include "mavloom/base/suggest.hpp"
 #include "message/encode.hpp"
 #include "message/message.hpp"
+#include "message/values.hpp"
 #include "strings.hpp"
 
 namespace mavloom::python {
@@ -204,10 +205,12 @@ Definitions::Definitions(dialect::Dialect dialect, std::string path)
     constexpr std::string_view of_header[] = {"frame", "id", "seq", "version"};
     names_.reserve(dialect_.messages().size());
     for (const auto& message : dialect_.messages()) {
-        Names names{interned(message.name), {}, {}, {}};
+        Names names{interned(message.name), {}, {}, {}, {}};
+        set_item(names.unfilled, type_key_, names.message);
         for (const auto& field : message.fields) {
             names.fields.push_back(interned(field.name));
             const auto& name = names.fields.back();
+            set_item(names.unfilled, name, nb::none());
             const bool ambiguous = std::ranges::find(of_header, field.name) != std::end(of_header);
             const bool taken = !ambiguous && PyObject_HasAttr(message_type.ptr(), name.ptr()) != 0;
             names.attributes.push_back(taken ? nullptr : name.ptr());

@@ -24,6 +24,8 @@ public:
         std::vector<nb::object> fields;
         // The same, but null if an attribute of class Message takes precedence, such as `name`.
         std::vector<PyObject*> attributes;
+        // The dict that to_dict() copies and then fills: {"mavpackettype": name, field: None, ...}.
+        nb::dict unfilled;
         // Whether the attribute could mean the field as well as the frame's header: `frame`, `id`, `seq`, `version`.
         std::vector<bool> ambiguous;
     };

@@ -144,12 +144,16 @@ nb::object item(const Message& message, std::string_view name) {
 }
 
 nb::dict to_dict(const Message& message) {
-    nb::dict dict;
-    set_item(dict, message.origin->definitions()->type_key(), type_object(message));
-    if (message.definition == nullptr) return dict;
-    const auto& names = message.origin->definitions()->names(*message.definition).fields;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        set_item(dict, names[i], nb::steal(read(message, message.definition->fields[i])));
+    const auto& definitions = *message.origin->definitions();
+    if (message.definition == nullptr) {
+        nb::dict dict;
+        set_item(dict, definitions.type_key(), type_object(message));
+        return dict;
+    }
+    const auto& names = definitions.names(*message.definition);
+    auto dict = copy_of(names.unfilled);
+    for (std::size_t i = 0; i < names.fields.size(); ++i)
+        set_item(dict, names.fields[i], nb::steal(read(message, message.definition->fields[i])));
     return dict;
 }
 

@@ -37,6 +37,12 @@ inline void set_item(nb::dict& dict, const nb::object& key, const nb::object& va
     if (!value.is_valid() || PyDict_SetItem(dict.ptr(), key.ptr(), value.ptr()) != 0) throw nb::python_error();
 }
 
+[[nodiscard]] inline nb::dict copy_of(const nb::dict& dict) {
+    auto copy = nb::steal<nb::dict>(PyDict_Copy(dict.ptr()));
+    if (!copy.is_valid()) throw nb::python_error();
+    return copy;
+}
+
 [[nodiscard]] inline nb::bytes bytes_of(ByteView bytes) { return nb::bytes(bytes.data(), bytes.size()); }
 
 }  // namespace mavloom::python

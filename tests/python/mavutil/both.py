@@ -7,6 +7,8 @@ import pathlib
 import subprocess
 import sys
 
+from pymavlink_vectors import plain_environment
+
 IMPORT = "from pymavlink import mavutil"
 SIDES = ("pymavlink", "mavloom")
 TIMEOUT_S = 120
@@ -42,6 +44,8 @@ def lay_out(folder, programs, peer):
 def run(folder, program, *words, environment, status=0):
     """Returns what the program printed."""
     path = f"{folder}:{environment['PYTHONPATH']}"
+    if folder.name == "pymavlink":
+        environment = plain_environment(environment)
     done = subprocess.run([sys.executable, folder / f"{program}.py", *map(str, words)],
                           env={**environment, "PYTHONPATH": path, "TZ": "UTC", "PYTHONHASHSEED": "0"},
                           capture_output=True, text=True, timeout=TIMEOUT_S)

@@ -105,6 +105,8 @@ for number in range(calls):
     except Waited:
         slow += 1
     except DOCUMENTED as error:
+        if "Invoked with types" in str(error):
+            sys.exit(f"{what}: {error}")
         counts[type(error).__name__] = counts.get(type(error).__name__, 0) + 1
     except BaseException as error:
         traceback.print_exc()

@@ -97,6 +97,7 @@ runpy.run_path(sys.argv[0], run_name="__main__")
 """
 
 
+@pytest.mark.unsanitized
 def test_mavproxy_flies_over_mavutil(tmp_path, child_environment):
     program = pathlib.Path(sys.executable).parent / "mavproxy.py"
     with simulator("ardupilot") as port:

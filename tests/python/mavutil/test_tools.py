@@ -13,6 +13,8 @@ import pytest
 import both
 from tlogs import frames_of, record
 
+pytestmark = pytest.mark.unsanitized
+
 TOOLS = ("mavlogdump", "mavloss", "mavflightmodes", "mavtogpx", "mavparms", "mavsummarize", "mavkml")
 # mavkml writes with the package simplekml. This stand-in writes what it is given.
 SIMPLEKML = """
