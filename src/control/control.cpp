@@ -34,8 +34,8 @@ constexpr auto socket_mode = S_IRUSR | S_IWUSR;
 
 // Returns 0 if the file does not exist.
 ino_t inode_of(const std::filesystem::path& path) noexcept {
-    struct stat status {};
-    return ::lstat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+    struct statx status {};
+    return ::statx(AT_FDCWD, path.c_str(), AT_SYMLINK_NOFOLLOW, STATX_INO, &status) == 0 ? status.stx_ino : 0;
 }
 
 tl::unexpected<SetupError> served(const std::filesystem::path& socket) {

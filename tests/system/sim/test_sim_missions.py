@@ -216,8 +216,7 @@ def test_b51_the_current_item_can_be_set(sim, by):
         station.send_to_vehicle("mission_set_current", 4)
     else:
         assert station.command(224, 4) == 0
-    changed = station.expect("MISSION_CURRENT", since=mark)
-    assert changed.seq == 4
+    station.expect("MISSION_CURRENT", since=mark, where=lambda m: m.seq == 4)
     mark = station.mark()
     if by == "message":
         station.send_to_vehicle("mission_set_current", 77)
