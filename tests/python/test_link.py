@@ -312,7 +312,7 @@ def test_row_5_the_bound_is_in_bytes(peer):
 
 
 def test_row_7_memory_is_flat(child_environment):
-    """Over more names of instances than are kept: 64,000 further ones take under 24 bytes each."""
+    """Over more names of instances than are kept: 64,000 further ones take under 32 bytes each."""
     code = """
 import socket, time
 dialect = mavloom.Dialect()
@@ -340,7 +340,7 @@ print((pages() - before) * 4, link.stats.not_kept + link.stats.kernel_drop)
     out, talk = process.communicate(timeout=DEADLINE_S)
     assert talk == ""
     grown_kib, not_kept = map(int, out.split())
-    assert not_kept == 84_000 - 16_384 and grown_kib < 1500
+    assert not_kept == 84_000 - 16_384 and grown_kib < 2000
 
 
 def test_row_4_latest_by_source_instance_and_age(link, vehicle, peer):
