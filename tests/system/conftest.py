@@ -2,12 +2,17 @@
 """Fixtures of the system tests, which run the real program. The tools behind them are in harness.py."""
 import os
 import random
+import signal
 import socket
 import subprocess
 
 import pytest
 
 import harness
+
+# A shell without job control starts what runs in its background with SIGINT ignored, and programs inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
