@@ -67,13 +67,13 @@ Exit fail(Exit status, std::string_view text);
 // unreadable file is treated like one with wrong content.
 SetupError of_input_file(SetupError error);
 // Writes raw text to stderr. Ignores write errors: a closed or full stderr never ends a command.
-void talk(std::string_view text) noexcept;
+void write_stderr(std::string_view text) noexcept;
 // Writes one line to stderr. Replaces control characters, which names and values from outside may contain.
-void tell(std::string_view line);
+void write_stderr_line(std::string_view line);
 // Opens /dev/null for each standard descriptor that was closed at start.
 void keep_standard_descriptors() noexcept;
 // Prints "mavloom: TEXT" to stderr, unless --quiet.
-void say(const Common& common, std::string_view text);
+void print_notice(const Common& common, std::string_view text);
 
 // Returns the built-in definitions with those of every --dialect file added.
 SetupResult<dialect::Dialect> load_dialect(const Common& common);

@@ -59,8 +59,8 @@ void add_common(CLI::App& command, Common& common, bool uses_dialect) {
 
 // Prints two lines to stderr: what is wrong, and where to find the help.
 Exit wrong_use(std::string_view what, std::string_view command) {
-    tell(fmt::format("mavloom: {}", what));
-    tell(fmt::format("Try 'mavloom{}{} --help'.", command.empty() ? "" : " ", command));
+    write_stderr_line(fmt::format("mavloom: {}", what));
+    write_stderr_line(fmt::format("Try 'mavloom{}{} --help'.", command.empty() ? "" : " ", command));
     return Exit::wrong_use;
 }
 
@@ -161,7 +161,7 @@ SetupError of_input_file(SetupError error) {
     return error;
 }
 
-void talk(std::string_view text) noexcept {
+void write_stderr(std::string_view text) noexcept {
     while (!text.empty()) {
         const auto written = ::write(STDERR_FILENO, text.data(), text.size());
         if (written < 0 && errno == EINTR) continue;
@@ -170,15 +170,15 @@ void talk(std::string_view text) noexcept {
     }
 }
 
-void tell(std::string_view line) { talk(printable(line) + "\n"); }
+void write_stderr_line(std::string_view line) { write_stderr(printable(line) + "\n"); }
 
 Exit fail(Exit status, std::string_view text) {
-    tell(fmt::format("mavloom: {}", text));
+    write_stderr_line(fmt::format("mavloom: {}", text));
     return status;
 }
 
-void say(const Common& common, std::string_view text) {
-    if (!common.quiet) tell(fmt::format("mavloom: {}", text));
+void print_notice(const Common& common, std::string_view text) {
+    if (!common.quiet) write_stderr_line(fmt::format("mavloom: {}", text));
 }
 
 // If the program starts with a standard descriptor closed, the first socket that it opens would get that number.

@@ -77,7 +77,7 @@ void ReceiveOptions::declare(Arguments command) {
 void say_ports(const Common& common, const std::vector<link::EndpointInfo>& endpoints) {
     for (const auto& info : endpoints)
         if (info.endpoint.address.port == 0 && info.local_port != 0)
-            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+            print_notice(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
 }
 
 SetupResult<std::unique_ptr<feed::Receiver>> ReceiveOptions::open(const Common& common, const dialect::Dialect& dialect) {
@@ -89,7 +89,7 @@ SetupResult<std::unique_ptr<feed::Receiver>> ReceiveOptions::open(const Common& 
     if (!duration.empty())
         if (auto time = endpoint::parse_duration(duration); !time)
             return tl::unexpected(std::move(time.error()).within("--for"));
-    const auto notice = [&common](std::string_view text) { say(common, text); };
+    const auto notice = [&common](std::string_view text) { print_notice(common, text); };
     auto receiver = feed::Receiver::create(dialect, *bytes, notice);
     if (!receiver) return receiver;
     for (const auto& text : sources) {

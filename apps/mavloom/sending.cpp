@@ -13,21 +13,22 @@ namespace {
 
 void say_renamed(const Common& common, const record::RotatingWriter& file) {
     if (const auto old = file.renamed_to(); !old.empty())
-        say(common, fmt::format("{} exists and is now {}", file.path().string(), old.string()));
+        print_notice(common, fmt::format("{} exists and is now {}", file.path().string(), old.string()));
 }
 
 void say_sums(const Common& common, const feed::Delivery& sums) {
     const auto frames = [&](std::uint64_t count, std::string_view what) {
-        if (count != 0) say(common, fmt::format("{}: {} {}", sums.name, counted(count, "frame"), what));
+        if (count != 0) print_notice(common, fmt::format("{}: {} {}", sums.name, counted(count, "frame"), what));
     };
-    say(common, fmt::format("{}: {}, {} sent", sums.name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
+    print_notice(common,
+                 fmt::format("{}: {}, {} sent", sums.name, counted(sums.frames, "frame"), counted(sums.bytes, "byte")));
     frames(sums.dropped, "dropped: the far side was too slow or disconnected");
     frames(sums.refused, "refused: no program listens there, or the host cannot be reached");
     frames(sums.not_sent, "not sent: the system refused them");
     frames(sums.nobody_there, "not sent: there was no peer");
     if (sums.queued_bytes != 0)
-        say(common,
-            fmt::format("{}: {} still queued at the end, not sent", sums.name, counted(sums.queued_bytes, "byte")));
+        print_notice(common, fmt::format("{}: {} still queued at the end, not sent", sums.name,
+                                         counted(sums.queued_bytes, "byte")));
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ SetupResult<feed::Destinations> open_destinations(const Common& common, const st
     if (!all) return tl::unexpected(std::move(all.error()).within("--to"));
     for (const auto& info : links.endpoints())
         if (all->has(info.id) && info.local_port != 0 && info.endpoint.address.port == 0)
-            say(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
+            print_notice(common, fmt::format("{}: on port {}", info.endpoint.label(), info.local_port));
     return all;
 }
 
@@ -78,10 +79,12 @@ Json sums_json(const feed::Destinations& destinations) {
 
 void say_recorded(const Common& common, const record::RotatingWriter& file) {
     const auto files = file.segments() == 1 ? std::string() : fmt::format(" in {} files", file.segments());
-    say(common, fmt::format("{}: {}, {} written{}", file.path().string(), counted(file.written_records(), "frame"),
-                            counted(file.written_bytes(), "byte"), files));
+    print_notice(common,
+                 fmt::format("{}: {}, {} written{}", file.path().string(), counted(file.written_records(), "frame"),
+                             counted(file.written_bytes(), "byte"), files));
     if (file.lost_records() != 0)
-        say(common, fmt::format("{}: {} not written", file.path().string(), counted(file.lost_records(), "frame")));
+        print_notice(common,
+                     fmt::format("{}: {} not written", file.path().string(), counted(file.lost_records(), "frame")));
 }
 
 Json recorded_json(const record::RotatingWriter& file) {

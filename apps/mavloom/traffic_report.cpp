@@ -156,7 +156,7 @@ std::string stats_line(Json stats) {
 
 void say_losses(const Common& common, const feed::Totals& totals) {
     for (const auto& loss : losses_of(totals))
-        if (loss.value != 0) say(common, loss.text());
+        if (loss.value != 0) print_notice(common, loss.text());
 }
 
 }  // namespace mavloom::app

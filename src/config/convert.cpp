@@ -59,10 +59,10 @@ constexpr std::array filter_options{FilterOption{"in_allow", "Allow", "In"}, Fil
 constexpr std::uint64_t default_tcp_port = 5760, first_udp_port = 14550;
 constexpr std::uint64_t most_dedup_ms = 60'000;
 
-bool says_no(std::string_view text) { return text == "0" || same_word(text, "false"); }
+bool is_off(std::string_view text) { return text == "0" || same_word(text, "false"); }
 
 bool is_default(std::string_view value, std::string_view default_value) {
-    return same_word(value, default_value) || (default_value == "false" && says_no(value));
+    return same_word(value, default_value) || (default_value == "false" && is_off(value));
 }
 
 std::string toml_string(std::string_view text) {
@@ -167,7 +167,7 @@ private:
 
     void read_recording(const IniSection& general) {
         const auto* telemetry = general.find("LogTelemetry");
-        if (telemetry == nullptr || says_no(telemetry->value)) return;
+        if (telemetry == nullptr || is_off(telemetry->value)) return;
         const auto* folder = general.find("Log");
         if (folder == nullptr) return note(general, *telemetry, "without Log there is no folder to record into");
         const auto path = (std::filesystem::path(folder->value) / "telemetry.tlog").string();
@@ -209,7 +209,7 @@ private:
         put_key("scheme", "\"serial\"");
         put_key("path", toml_string(device->value));
         if (auto done = read_baud(section); !done) return done;
-        if (const auto* flow = section.find("FlowControl"); flow != nullptr && !says_no(flow->value))
+        if (const auto* flow = section.find("FlowControl"); flow != nullptr && !is_off(flow->value))
             put_key("flow", "\"rtscts\"");
         return {};
     }

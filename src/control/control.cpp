@@ -218,12 +218,12 @@ private:
         control_.close();
         const auto anew = open_socket(socket_);
         if (anew) control_.accept();
-        if (anew) tell(fmt::format("control socket {} was {}; it is created again", socket_.string(), what));
+        if (anew) notify(fmt::format("control socket {} was {}; it is created again", socket_.string(), what));
         else if (!reported_)
-            tell(fmt::format("control socket {} was {}: {}", socket_.string(), what, anew.error().text));
+            notify(fmt::format("control socket {} was {}: {}", socket_.string(), what, anew.error().text));
         reported_ = !anew;
     }
-    void tell(std::string text) const {
+    void notify(std::string text) const {
         if (on_notice_) served_.post([on_notice = on_notice_, line = std::move(text)] { on_notice(line); });
     }
 

@@ -115,9 +115,9 @@ void MetricsSession::write(const Request& request, std::string_view status, Metr
         request.version / 10, request.version % 10, status, body->size(), request.keep_alive ? "keep-alive" : "close");
     body_ = request.method == http::verb::head ? text_of("") : std::move(body);
     hang_up_later();
-    const auto then = [self = shared_from_this(), goes_on = request.keep_alive](error_code error, std::size_t) {
+    const auto then = [self = shared_from_this(), stays_open = request.keep_alive](error_code error, std::size_t) {
         self->body_.reset();
-        if (!error && goes_on) self->read();
+        if (!error && stays_open) self->read();
     };
     asio::async_write(socket_, std::array<asio::const_buffer, 2>{asio::buffer(head_), asio::buffer(*body_)}, then);
 }

@@ -220,7 +220,7 @@ std::string ring_is_no_endpoint(const Endpoint& endpoint) {
         endpoint.label(), endpoint.path);
 }
 
-bool calls_somebody(Scheme scheme) noexcept {
+bool sends_first(Scheme scheme) noexcept {
     return scheme == Scheme::udpout || scheme == Scheme::udpbcast || scheme == Scheme::udpmcast ||
            scheme == Scheme::tcpout || scheme == Scheme::serial;
 }

@@ -74,7 +74,7 @@ void Channel::publish() {
     const std::lock_guard lock(mutex_);
     if (!std::exchange(news_, false)) return;
     for (auto* consumer : consumers_)
-        if (std::exchange(consumer->due_, false)) consumer->tell();
+        if (std::exchange(consumer->due_, false)) consumer->signal();
     for (const auto& recorder : recorders_) recorder->publish();
     changed_.notify_all();
 }
@@ -90,7 +90,7 @@ void Channel::close() {
     holder_ = nullptr;
     room_made_ = {};
     peers_.store(0, std::memory_order_relaxed);
-    for (auto* consumer : consumers_) consumer->tell();
+    for (auto* consumer : consumers_) consumer->signal();
     for (const auto& recorder : recorders_) recorder->end();
     recorders_.clear();
     changed_.notify_all();
@@ -200,7 +200,7 @@ bool Consumer::take(FrameBatch& batch, std::size_t most) {
     if (channel_->holder_ == this) channel_->look_for_room();
     if (batch.size() != 0) return true;
     armed_ = true;
-    if (seen_ != channel_->ring_.newest().frame) tell();
+    if (seen_ != channel_->ring_.newest().frame) signal();
     return true;
 }
 
@@ -210,7 +210,7 @@ void Consumer::wait(MonoTime deadline) {
                                   [&] { return closed() || channel_->ring_.newest().frame != seen_; });
 }
 
-void Consumer::tell() noexcept {
+void Consumer::signal() noexcept {
     armed_ = false;
     if (event_fd_ < 0) return;
     const std::uint64_t one = 1;
@@ -244,7 +244,7 @@ void Consumer::close() {
     const std::lock_guard lock(channel_->mutex_);
     closed_ = true;
     channel_->end_hold(this);
-    tell();
+    signal();
     channel_->changed_.notify_all();
 }
 

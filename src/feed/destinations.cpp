@@ -121,7 +121,7 @@ std::vector<Delivery> Destinations::deliveries() const {
 
 bool Destinations::lost_any() const { return std::ranges::any_of(deliveries(), &Delivery::lost_any); }
 
-bool Destinations::reached_nobody() const {
+bool Destinations::reached_no_destination() const {
     return files_.empty() && std::ranges::all_of(deliveries(), [](const auto& d) { return d.frames == 0; });
 }
 

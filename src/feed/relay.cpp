@@ -49,7 +49,7 @@ RelayOutcome Relay::finish() {
     outcome.unheard_answers = unheard_answers_;
     outcome.is_incomplete = sources_.are_recordings() && destinations_.lost_any();
     const bool had_any = destinations_.given() != 0 || (has_waited_ && !has_started_);
-    outcome.reached_nobody = had_any && destinations_.reached_nobody();
+    outcome.reached_no_destination = had_any && destinations_.reached_no_destination();
     return outcome;
 }
 

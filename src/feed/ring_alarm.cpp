@@ -74,11 +74,11 @@ private:
             if (alarm->armed_) look_at(*alarm);
     }
     void look_at(RingAlarm& alarm) {
-        Nanoseconds nap = waiter_ ? alarm.nap_() : Nanoseconds{};
+        Nanoseconds nap = waiter_ ? alarm.sleep_time_() : Nanoseconds{};
         if (is_crowded_) nap = std::min<Nanoseconds>(nap, std::chrono::milliseconds{1});
         alarm.armed_ = nap != Nanoseconds{};
         if (alarm.armed_) waiter_->arm(nap);
-        else alarm.tell();
+        else alarm.signal();
     }
 
     inline static std::atomic<Clock*> current{nullptr};
@@ -93,7 +93,7 @@ private:
     });
 };
 
-SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWord word, Nap nap) {
+SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWord word, SleepTime nap) {
     const int fd = ::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
     if (fd < 0) return system_error("eventfd", errno);
     std::unique_ptr<RingAlarm> alarm(new RingAlarm(fd, std::move(word), std::move(nap)));
@@ -105,8 +105,8 @@ SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWor
     return alarm;
 }
 
-RingAlarm::RingAlarm(int fd, shm::RingWaiter::WakeWord word, Nap nap)
-    : fd_(fd), word_(std::move(word)), nap_(std::move(nap)), clock_(Clock::here()) {}
+RingAlarm::RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime nap)
+    : fd_(fd), word_(std::move(word)), sleep_time_(std::move(nap)), clock_(Clock::here()) {}
 
 RingAlarm::~RingAlarm() {
     if (fork_.is_here()) clock_.remove(*this);
@@ -117,7 +117,7 @@ void RingAlarm::arm() {
     if (fork_.is_here()) clock_.arm(*this);
 }
 
-void RingAlarm::tell() const noexcept {
+void RingAlarm::signal() const noexcept {
     if (!fork_.is_here()) return;  // the parent would be signalled too: both share the eventfd
     const std::uint64_t one = 1;
     // If the counter is full, the write fails and the descriptor is readable already.

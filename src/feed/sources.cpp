@@ -83,7 +83,7 @@ SetupResult<link::EndpointId> Sources::add(const endpoint::Endpoint& endpoint, M
         if (added) live_.push_back(*added);
         return added;
     }
-    auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::tell);
+    auto reader = record::TlogReader::open(endpoint.path, *table_, record::File::Empty::report);
     if (!reader) {
         reader.error().code = SetupCode::bad_input;  // an input file: exit status 3, whether missing or unreadable
         return tl::unexpected(std::move(reader.error()));

@@ -28,7 +28,7 @@ public:
     ~Retry() { cancel(); }
 
     void fail(const SetupError& error) {
-        tell(error.text, "trying again");
+        report(error.text, "trying again");
         fail_silently(error);
     }
     // Retries without a report, for an error that was already reported.
@@ -36,14 +36,14 @@ public:
         endpoint_.failure = error;
         later();
     }
-    void tell(std::string_view what, std::string_view then) {
+    void report(std::string_view what, std::string_view then) {
         if (std::exchange(told_, true)) return;
         core_.news.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
     }
     [[nodiscard]] bool failing() const noexcept { return told_; }
     // Ends the series: the next failure is reported again.
     void settle() noexcept { told_ = false; }
-    void begin_anew() noexcept { delay_ = first; }
+    void reset() noexcept { delay_ = first; }
 
     void later() { after(std::exchange(delay_, std::min(delay_ * 2, longest))); }
     void after(Nanoseconds delay) {

@@ -100,14 +100,14 @@ static bool few_descriptors_left(int any) noexcept {
     return !lowest || static_cast<rlim_t>(lowest.get()) >= limit.rlim_cur - std::min(kept, limit.rlim_cur / 4);
 }
 
-static bool somebody_waits(int listening) noexcept {
+static bool has_waiting_client(int listening) noexcept {
     pollfd wanted{listening, POLLIN, 0};
     return ::poll(&wanted, 1, 0) == 1;
 }
 
 IoResult<TcpStream> TcpListener::accept() noexcept {
     if (few_descriptors_left(fd_.get()))
-        return tl::unexpected(somebody_waits(fd_.get()) ? IoError::no_descriptors : IoError::would_block);
+        return tl::unexpected(has_waiting_client(fd_.get()) ? IoError::no_descriptors : IoError::would_block);
     Address remote;
     socklen_t length = Address::capacity;
     Fd fd(::accept4(fd_.get(), remote.writable(), &length, SOCK_NONBLOCK | SOCK_CLOEXEC));

@@ -44,11 +44,11 @@ void Recorder::run() {
             if (auto written = write(*entry); !written) worst = std::move(written);
         const auto flushed = writer_.flush();
         count();
-        tell(worst ? flushed : worst);
+        report(worst ? flushed : worst);
     }
     const auto closed = writer_.close();
     count();
-    tell(closed);
+    report(closed);
     if (const auto lost = writer_.lost_records(); lost != 0)
         notice_(fmt::format("{}: {} {} not written", label_, lost, lost == 1 ? "frame" : "frames"));
     finished_.store(true, std::memory_order_release);
@@ -75,10 +75,10 @@ void Recorder::wait_to_rotate(const FrameQueue::Entry& entry) {
     while (writer_.begins_segment(entry.time, entry.frame) && !ending_.load(std::memory_order_relaxed)) {
         const auto room = writer_.make_room(entry.time, entry.frame);
         count();
-        tell(room);
+        report(room);
         if (room || !writer_.is_full_disk(room.error())) return;
         std::this_thread::sleep_for(look_for_room);
-        if (const auto looked = look_at_file(); !looked) tell(looked);
+        if (const auto looked = look_at_file(); !looked) report(looked);
     }
 }
 
@@ -88,7 +88,7 @@ void Recorder::count() noexcept {
     counters_.write_error.set(writer_.lost_records());
 }
 
-void Recorder::tell(const SetupResult<void>& result) {
+void Recorder::report(const SetupResult<void>& result) {
     if (failing_ == !result.has_value()) return;
     failing_ = !failing_;
     notice_(failing_ ? fmt::format("{}: {}; frames that do not fit into memory meanwhile are counted as write_error",

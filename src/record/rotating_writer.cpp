@@ -97,14 +97,14 @@ SetupResult<fs::path> RotatingWriter::look_after(MonoTime now) {
     look_due_ = now + look_interval;
     auto removed = is_removed() ? segment_path() : fs::path{};
     if (removed.empty()) no_file_.reset();
-    auto done = removed.empty() ? flush() : begin_anew();
+    auto done = removed.empty() ? flush() : begin_again();
     if (!done) return tl::unexpected(std::move(done.error()));
     return removed;
 }
 
 bool RotatingWriter::is_removed() const noexcept { return writer_ && writer_->is_file() && !writer_->is_named(); }
 
-SetupResult<void> RotatingWriter::begin_anew() {
+SetupResult<void> RotatingWriter::begin_again() {
     const bool is_empty = writer_->buffered_bytes() == 0;
     if (rotation_.rotates() && is_empty) return end_segment();
     const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
@@ -158,7 +158,7 @@ SetupResult<void> RotatingWriter::flush() {
 SetupResult<void> RotatingWriter::close() {
     closed_ = true;
     if (is_removed() && writer_->buffered_bytes() != 0)
-        if (auto anew = begin_anew(); !anew && no_file_) return anew;
+        if (auto anew = begin_again(); !anew && no_file_) return anew;
     return writer_ ? writer_->close() : SetupResult<void>{};
 }
 

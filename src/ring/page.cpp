@@ -55,7 +55,7 @@ void RingPage::name_link(LinkId link, std::string_view name) {
     }
 }
 
-void RingPage::link_went(LinkId link) {
+void RingPage::link_removed(LinkId link) {
     gone_.push_back(link);
     if (gone_.size() <= most_gone) return;
     page_.forget_link(gone_.front());

@@ -89,7 +89,7 @@ bool RingSource::read(link::LinkHandler& handler) {
     if (at_end_ || (next_look_ != MonoTime{} && mono_now() < next_look_)) return false;
     const auto record = follower_.poll();
     at_end_ = end_ && (!record || record->position >= *end_);
-    if (!record) nothing_comes(record.error(), handler);
+    if (!record) on_no_record(record.error(), handler);
     if (!record || at_end_) return false;
     take(*record, handler);
     return true;
@@ -97,7 +97,7 @@ bool RingSource::read(link::LinkHandler& handler) {
 
 void RingSource::take(const shm::RingRecord& record, link::LinkHandler& handler) {
     notice_other_writer(record);
-    told_ = Told::nothing;
+    last_notice_ = Notice::nothing;
     if (record.missed != 0) forget_sequences();
     if (record.info.kind > ring_kind_frame) {
         ++other_kinds_;
@@ -165,29 +165,29 @@ void RingSource::hand_over(link::LinkHandler& handler, const Found& found) {
     handler.on_frame({found.frame, found.info, last_->id, id_, time_, &update, verdict_});
 }
 
-void RingSource::nothing_comes(shm::ReadError why, link::LinkHandler& handler) {
+void RingSource::on_no_record(shm::ReadError why, link::LinkHandler& handler) {
     next_look_ = {};
     if (why == shm::ReadError::empty) {
-        // Told::unwritten stays until the new writer has written a record; take() resets it.
-        if (told_ != Told::unwritten) told_ = Told::nothing;
+        // Notice::unwritten stays until the new writer has written a record; take() resets it.
+        if (last_notice_ != Notice::unwritten) last_notice_ = Notice::nothing;
         return;
     }
     if (why == shm::ReadError::damaged || why == shm::ReadError::forked) {
         next_look_ = mono_now() + look_distance;
-        return tell(handler, Told::damaged, "the ring is damaged; waiting for another ring of that name");
+        return report(handler, Notice::damaged, "the ring is damaged; waiting for another ring of that name");
     }
-    if (follower_.is_open()) return tell(handler, Told::unwritten, "it has no writer; waiting for one");
+    if (follower_.is_open()) return report(handler, Notice::unwritten, "it has no writer; waiting for one");
     next_look_ = mono_now() + look_distance;
     const auto* const error = follower_.error();
     if (error == nullptr) return;
     const bool absent = error->code == SetupCode::not_found;
     awaited_ = awaited_ || absent;
-    tell(handler, absent ? Told::absent : Told::unreadable,
-         error->text + (absent ? "; waiting for it" : "; trying again"));
+    report(handler, absent ? Notice::absent : Notice::unreadable,
+           error->text + (absent ? "; waiting for it" : "; trying again"));
 }
 
-void RingSource::tell(link::LinkHandler& handler, Told what, std::string_view text) {
-    if (std::exchange(told_, what) == what) return;
+void RingSource::report(link::LinkHandler& handler, Notice what, std::string_view text) {
+    if (std::exchange(last_notice_, what) == what) return;
     handler.on_notice(id_, fmt::format("{}: {}", endpoint_.label(), text));
 }
 
@@ -199,7 +199,7 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
     if (reader == nullptr || next_look_ != MonoTime{}) return std::max(next_look_, now);
     const Nanoseconds nap = reader->arm();
     // arm() also returns 0 for a removed ring. If it has no writer either, there is nothing to read.
-    if (nap == Nanoseconds{} && told_ == Told::unwritten) return now + look_distance;
+    if (nap == Nanoseconds{} && last_notice_ == Notice::unwritten) return now + look_distance;
     return now + nap;
 }
 

@@ -72,9 +72,9 @@ std::vector<std::string> RingTap::look_after(const link::Links& links) {
         note_aside(notices);
         note_page_aside(notices);
     }
-    if (!making_.valid() && writer_.is_removed()) make_ring_anew();
+    if (!making_.valid() && writer_.is_removed()) recreate_ring();
     else if (making_.valid() && making_.wait_for(Nanoseconds{}) == std::future_status::ready) take_new_ring(notices);
-    if (!page_ || page_->is_removed()) make_page_anew(links, notices);
+    if (!page_ || page_->is_removed()) recreate_page(links, notices);
     return notices;
 }
 
@@ -92,7 +92,7 @@ void RingTap::work_beside(Work work) {
 
 // Runs on another thread than the routing. The kernel takes 5 to 20 ms to provide 8 MiB, and seconds for gigabytes.
 // Until then, frames go into the old ring.
-void RingTap::make_ring_anew() {
+void RingTap::recreate_ring() {
     std::packaged_task<SetupResult<shm::RingWriter>()> task(
         [name = name_, options = options_] { return shm::RingWriter::open(name, options); });
     making_ = task.get_future();
@@ -129,7 +129,7 @@ void RingTap::take_new_ring(std::vector<std::string>& notices) {
     work_beside([old = std::move(old)] {});  // releasing the memory takes time too
 }
 
-void RingTap::make_page_anew(const link::Links& links, std::vector<std::string>& notices) {
+void RingTap::recreate_page(const link::Links& links, std::vector<std::string>& notices) {
     auto anew = RingPage::create(name_, options_.mode);
     if (!anew) {
         if (!std::exchange(told_page_, true))

@@ -365,8 +365,8 @@ void Engine::Impl::watch_for_duplicate_ids(const Passage& p) noexcept {
     const bool one_group = last_knows && p.link.group != no_group && links[last]->group == p.link.group;
     if (one_group) return;
     turns.count = last_knows ? static_cast<std::uint8_t>(turns.count + 1) : std::uint8_t{1};
-    if (turns.count >= turns_of_duplicates && !turns.told) {
-        turns.told = true;
+    if (turns.count >= turns_of_duplicates && !turns.is_reported) {
+        turns.is_reported = true;
         counters.duplicate_ids.add();
         if (duplicates.size() < max_duplicate_ids) duplicates.push_back({source_of(p.source), turns.last, p.link.id});
     }

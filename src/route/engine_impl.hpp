@@ -112,7 +112,7 @@ private:
     struct Turns {
         LinkId last;  // 0 if there is none
         std::uint8_t count;
-        bool told;
+        bool is_reported;
     };
     // A frame on its way through the engine.
     struct Passage {

@@ -29,7 +29,7 @@ std::optional<Source> own_source(const config::RouterConfig& config) {
 }  // namespace
 
 bool wants_heartbeat(const endpoint::Endpoint& endpoint) noexcept {
-    return endpoint.options.heartbeat.value_or(endpoint::calls_somebody(endpoint.scheme) && !endpoint.options.tap);
+    return endpoint.options.heartbeat.value_or(endpoint::sends_first(endpoint.scheme) && !endpoint.options.tap);
 }
 
 OwnMessages::OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Ways ways)

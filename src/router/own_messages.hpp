@@ -23,7 +23,7 @@
 namespace mavloom::router {
 
 // Whether links of this endpoint get the router's heartbeat. If `heartbeat=` is set, it decides. By default, an
-// endpoint gets the heartbeat if it sends first (endpoint::calls_somebody) and is not a tap. Other endpoints do not,
+// endpoint gets the heartbeat if it sends first (endpoint::sends_first) and is not a tap. Other endpoints do not,
 // because a client or peer that connects to the router could mistake the heartbeat for that of a vehicle.
 [[nodiscard]] bool wants_heartbeat(const endpoint::Endpoint& endpoint) noexcept;
 

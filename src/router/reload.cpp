@@ -49,7 +49,7 @@ SetupResult<void> Router::learn_group_modes(std::span<const endpoint::Endpoint> 
     return {};
 }
 
-void Router::become(const std::vector<endpoint::Endpoint>& endpoints) {
+void Router::apply(const std::vector<endpoint::Endpoint>& endpoints) {
     const auto modes = Groups::modes_of(endpoints).value();
     std::vector<endpoint::Endpoint> gone;
     endpoints_->groups().set_modes(modes);

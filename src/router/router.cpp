@@ -176,12 +176,12 @@ void Router::look_after(MonoTime now) {
     look_due_ = now + look_interval;
     endpoints_->refill_lines();
     look_after_ring();
-    tell_silence(now);
+    report_silence(now);
     recordings_->look_after();
     for (const auto& warning : forwarder_->look_after()) notice_(config::LogLevel::warning, warning);
 }
 
-void Router::tell_silence(MonoTime now) {
+void Router::report_silence(MonoTime now) {
     const auto silent = silence_->look([this](LinkId link) { return links_->counters(link); }, now);
     if (silent.empty()) return;
     const auto endpoints = links_->endpoints();

@@ -81,7 +81,7 @@ std::vector<SilenceWatch::Silent> SilenceWatch::look(const CountersOf& counters_
 }
 
 bool expects_answer(const endpoint::Endpoint& endpoint) noexcept {
-    return endpoint::calls_somebody(endpoint.scheme) && !endpoint.options.tap;
+    return endpoint::sends_first(endpoint.scheme) && !endpoint.options.tap;
 }
 
 std::string silence_text(const link::EndpointInfo& info, const link::LinkCounters& link) {

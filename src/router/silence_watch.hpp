@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Detects links that send frames but receive none. Typical causes are a wrong port, a wrong baud rate, or a vehicle
 // that answers another program. It reports each endpoint once. It watches only endpoints that send first
-// (endpoint::calls_somebody): a peer that connects to the router has been heard already.
+// (endpoint::sends_first): a peer that connects to the router has been heard already.
 //
 // Private to module router. One owner thread; time is a parameter.
 #pragma once

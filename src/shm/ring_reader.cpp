@@ -132,7 +132,7 @@ ReadResult<RingRecord> RingReader::wait(MonoTime deadline) noexcept {
         }
         const MonoTime now = mono_now();
         if (waiting_since == MonoTime{}) waiting_since = now;
-        if (const auto why = why_nothing_comes(now)) {
+        if (const auto why = why_no_record(now)) {
             record = try_read();  // a record written just before the writer closed
             if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);
             return record;
@@ -149,7 +149,7 @@ Nanoseconds RingReader::nap(MonoTime waiting_since, MonoTime now, MonoTime deadl
     return std::min<Nanoseconds>(is_short ? poll_distance : look_at_writer, deadline - now);
 }
 
-std::optional<ReadError> RingReader::why_nothing_comes(MonoTime now) noexcept {
+std::optional<ReadError> RingReader::why_no_record(MonoTime now) noexcept {
     if (consumer_.retired()) return ReadError::retired;
     const bool closed = memory_of(*segment_).control->writer_pid.load(std::memory_order_acquire) == 0;
     if (!closed && now < next_look_at_writer_) return std::nullopt;
@@ -161,7 +161,7 @@ std::optional<ReadError> RingReader::why_nothing_comes(MonoTime now) noexcept {
 ReadResult<RingRecord> RingReader::poll() noexcept {
     auto record = try_read();
     if (!record && record.error() == ReadError::empty) {
-        const auto why = why_nothing_comes(mono_now());
+        const auto why = why_no_record(mono_now());
         if (!why) return record;
         record = try_read();  // a record written just before the writer closed
         if (!record && record.error() == ReadError::empty) return tl::unexpected(*why);

@@ -68,9 +68,9 @@ public:
     void arm() noexcept { armed_.store(true, std::memory_order_seq_cst); }
     void arm_until(MonoTime due) noexcept {
         arm();
-        // All accesses here and in is_due() and tell() are sequentially consistent, and those two take `due_` before
-        // `armed_`. So if this thread still reads an earlier due time, the helper thread has not taken `armed_` yet,
-        // and will call `wake_`.
+        // All accesses here and in is_due() and wake_if_armed() are sequentially consistent, and those two take `due_`
+        // before `armed_`. So if this thread still reads an earlier due time, the helper thread has not taken `armed_`
+        // yet, and will call `wake_`.
         MonoTime before = due_.load(std::memory_order_seq_cst);
         do
             if (before <= due) return;
@@ -94,7 +94,7 @@ private:
                 if (next_) rings_ = std::move(*std::exchange(next_, std::nullopt));
             }
             const bool changed = look(), due = is_due();  // always evaluates both
-            if (changed || due) tell();
+            if (changed || due) wake_if_armed();
             if (!ends_.load(std::memory_order_relaxed)) sleep(changes);
         }
     }
@@ -112,7 +112,7 @@ private:
         due_.compare_exchange_strong(due, MonoTime::max(), std::memory_order_seq_cst);
         return true;
     }
-    void tell() {
+    void wake_if_armed() {
         if (armed_.exchange(false, std::memory_order_seq_cst)) wake_();
     }
 

@@ -143,14 +143,14 @@ Later<Lines> add(Simulator& simulator, const std::string& url) {
     const auto endpoint = endpoint::parse_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     if (const auto added = simulator.add(SimEndpoint{*endpoint}); !added) return failed(added.error().text);
-    simulator.tell(config::LogLevel::info, endpoint->label() + ": added by ctl");
+    simulator.notify(config::LogLevel::info, endpoint->label() + ": added by ctl");
     return done();
 }
 
 Later<Lines> remove(Simulator& simulator, const std::string& name) {
     if (!simulator.remove(name))
         return failed(fmt::format("there is no endpoint {}, and no link that could be closed; links shows them", name));
-    simulator.tell(config::LogLevel::info, name + ": removed by ctl");
+    simulator.notify(config::LogLevel::info, name + ": removed by ctl");
     return done();
 }
 

@@ -39,7 +39,7 @@ void SharedMemory::on_link_up(LinkId link, std::string_view name) {
 
 void SharedMemory::on_link_down(LinkId link) {
     if (ring_) ring_->on_link_down(link);
-    if (page_) page_->link_went(link);
+    if (page_) page_->link_removed(link);
 }
 
 void SharedMemory::refresh_page(const link::Links& links, std::optional<link::EndpointId> inlet,

@@ -92,7 +92,7 @@ const SequenceTracker::Update& SequenceTracker::changed(const Update& update) no
     if (info == nullptr || info->boot_time_offset == MessageInfo::no_boot_time) return *result;
     const auto clock = watch_clock(state, frame, *info);
     if (clock == ClockVerdict::restarted) result = &changed(restarted(stats, state, frame, *result));
-    if (clock != ClockVerdict::says_nothing) state.since_clock_ran = {};
+    if (clock != ClockVerdict::unknown) state.since_clock_ran = {};
     return *result;
 }
 
@@ -149,20 +149,20 @@ SequenceTracker::Update SequenceTracker::count_late(SequenceStats& stats) noexce
 
 SequenceTracker::ClockVerdict SequenceTracker::watch_clock(State& state, const FrameView& frame,
                                                            const MessageInfo& info) noexcept {
-    if (info.id != system_time && frame.component() != autopilot) return ClockVerdict::says_nothing;
+    if (info.id != system_time && frame.component() != autopilot) return ClockVerdict::unknown;
     return read_clock(state, info.id, boot_ms_in(frame.payload(), info.boot_time_offset));
 }
 
 SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageId id, std::uint32_t boot_ms) noexcept {
-    if (boot_ms == 0) return ClockVerdict::says_nothing;
+    if (boot_ms == 0) return ClockVerdict::unknown;
     Clock* clock = state.clocks.data();
     Clock* const end = clock + state.clock_count;
     while (clock != end && clock->id != id.value) ++clock;
     if (clock == end) {
-        if (state.clock_count == state.clocks.size()) return ClockVerdict::says_nothing;
+        if (state.clock_count == state.clocks.size()) return ClockVerdict::unknown;
         *end = {id.value, boot_ms, false};
         ++state.clock_count;
-        return ClockVerdict::says_nothing;
+        return ClockVerdict::unknown;
     }
     const bool falls = clock->newest_ms > boot_ms && clock->newest_ms - boot_ms > boot_tolerance_ms;
     if (!falls) {
@@ -170,7 +170,7 @@ SequenceTracker::ClockVerdict SequenceTracker::read_clock(State& state, MessageI
         clock->fell = false;
         return ClockVerdict::runs;
     }
-    if (id != system_time && !std::exchange(clock->fell, true)) return ClockVerdict::says_nothing;
+    if (id != system_time && !std::exchange(clock->fell, true)) return ClockVerdict::unknown;
     state.clocks[0] = {id.value, boot_ms, false};  // the other clocks are from before the restart
     state.clock_count = 1;
     return ClockVerdict::restarted;

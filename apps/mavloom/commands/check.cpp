@@ -77,8 +77,8 @@ Exit check_router(const Common& common, const CheckOptions& options, const confi
     if (!config) return fail(Exit::bad_input, config.error().text);
     if (const auto checked = config::check_for_router(*config, options.file, dialect); !checked)
         return fail(checked.error());
-    for (const auto& note : config->notes) say(common, note);
-    for (const auto& warning : config::config_warnings(*config, options.file, dialect)) say(common, warning);
+    for (const auto& note : config->notes) print_notice(common, note);
+    for (const auto& warning : config::config_warnings(*config, options.file, dialect)) print_notice(common, warning);
     return print(options, config->sections);
 }
 
@@ -86,7 +86,7 @@ Exit check_scenario(const Common& common, const CheckOptions& options, const con
     const auto scenario = simserve::read_scenario(document, config::environment_of(environ), {});
     if (!scenario) return fail(Exit::bad_input, scenario.error().text);
     if (const auto checked = simserve::check_scenario(*scenario, document); !checked) return fail(checked.error());
-    for (const auto& note : scenario->notes) say(common, note);
+    for (const auto& note : scenario->notes) print_notice(common, note);
     return print(options, scenario->sections);
 }
 
@@ -104,8 +104,8 @@ Exit convert(const CheckOptions& options) {
     const auto done = config::convert_mavlink_router_file(options.file);
     if (!done) return fail(of_input_file(done.error()));
     for (const auto& note : done->notes)
-        tell(fmt::format("{}:{}: [{}]{}{}: {}", options.file, note.line, shown(note.section),
-                         note.key.empty() ? "" : " ", shown(note.key), note.text));
+        write_stderr_line(fmt::format("{}:{}: [{}]{}{}: {}", options.file, note.line, shown(note.section),
+                                      note.key.empty() ? "" : " ", shown(note.key), note.text));
     Output output;
     fmt::format_to(fmt::appender(output.buffer()), "{}", done->toml);
     return output.flush() == Output::State::failed ? fail(output.error()) : Exit::done;

@@ -10,7 +10,7 @@ static Exit create_key(const Common& common, const std::string& file) {
     const auto key = wire::SigningKey::random();
     if (!key) return fail(key.error());
     if (const auto created = key->create_file(file); !created) return fail(created.error());
-    say(common, fmt::format("{}: new key; anyone who has this file can sign, so keep it secret", file));
+    print_notice(common, fmt::format("{}: new key; anyone who has this file can sign, so keep it secret", file));
     return Exit::done;
 }
 

@@ -90,7 +90,7 @@ private:
         if (backlog_end_ == MonoTime{}) backlog_end_ = mono_now() + short_backlog;
         if (mono_now() < backlog_end_) return true;
         going_ = ::isatty(STDOUT_FILENO) == 0;
-        if (going_) say(common_, "printing the messages received so far; another Ctrl-C ends at once");
+        if (going_) print_notice(common_, "printing the messages received so far; another Ctrl-C ends at once");
         backlog_end_ = MonoTime::max();
         return going_;
     }
@@ -101,8 +101,8 @@ private:
         if (options_.stats) report(unprinted);
         if (!options_.stats) say_losses(common_, receiver_.totals());
         if (unprinted != 0)
-            say(common_,
-                counted(unprinted, "message") + " received but not printed: the output had stalled at the end");
+            print_notice(common_, counted(unprinted, "message") +
+                                      " received but not printed: the output had stalled at the end");
         if (const auto* error = receiver_.error()) return fail(*error);
         return Signals::status(unprinted != 0 ? Exit::failed : Exit::done);
     }
@@ -121,7 +121,7 @@ private:
     void report(std::uint64_t unprinted) {
         const auto table = options_.json ? traffic_json(traffic_, receiver_, dialect_, unprinted)
                                          : traffic_text(traffic_, receiver_, dialect_);
-        if (csv_ != nullptr || output_.state() == Output::State::interrupted) return talk(table);
+        if (csv_ != nullptr || output_.state() == Output::State::interrupted) return write_stderr(table);
         output_.buffer().append(table);
         output_.flush();
     }

@@ -52,7 +52,7 @@ private:
         auto removed = writer_.look_after(mono_now());
         if (!removed && writer_.is_full_disk(removed.error())) return {};  // the next write waits for room
         if (!removed) return tl::unexpected(std::move(removed.error()));
-        if (!removed->empty()) say(common_, record::removal_notice(*removed));
+        if (!removed->empty()) print_notice(common_, record::removal_notice(*removed));
         return {};
     }
 
@@ -68,18 +68,19 @@ private:
     SetupResult<void> flush() {
         auto flushed = writer_.flush();
         if (flushed || !writer_.is_full_disk(flushed.error())) return flushed;
-        say(common_, fmt::format("{}; waiting for room; frames that do not fit into --buffer are dropped and counted",
+        print_notice(common_,
+                     fmt::format("{}; waiting for room; frames that do not fit into --buffer are dropped and counted",
                                  flushed.error().text));
-        while (!flushed && writer_.is_full_disk(flushed.error()) && goes_on()) {
+        while (!flushed && writer_.is_full_disk(flushed.error()) && may_continue()) {
             ::poll(nullptr, 0, static_cast<int>(look_for_room.count()));  // a signal ends the wait
             if (auto looked = look_at_file(); !looked) return looked;
             flushed = writer_.flush();
         }
-        if (flushed) say(common_, fmt::format("{}: records are written again", writer_.path().string()));
+        if (flushed) print_notice(common_, fmt::format("{}: records are written again", writer_.path().string()));
         return flushed;
     }
 
-    [[nodiscard]] bool goes_on() const { return !Signals::received() && mono_now() < end_; }
+    [[nodiscard]] bool may_continue() const { return !Signals::received() && mono_now() < end_; }
 
     const Common& common_;
     const RecordOptions& options_;

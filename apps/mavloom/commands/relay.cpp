@@ -46,7 +46,7 @@ public:
         if (!times_) return;
         std::vector<std::string> notices;
         times_->keep(stage_.last_signed(), mono_now(), notices);
-        for (const auto& notice : notices) say(common_, notice);
+        for (const auto& notice : notices) print_notice(common_, notice);
     }
 
 private:
@@ -65,15 +65,15 @@ private:
         times_.keep();
         return Signals::received();
     }
-    void on_waiting() override { say(common_, "waiting until every destination has a peer"); }
-    void on_started() override { say(common_, "every destination has a peer: starting"); }
+    void on_waiting() override { print_notice(common_, "waiting until every destination has a peer"); }
+    void on_started() override { print_notice(common_, "every destination has a peer: starting"); }
     void on_link_up(std::string_view name) override {
-        if (common_.verbose > 0) say(common_, fmt::format("{}: up", name));
+        if (common_.verbose > 0) print_notice(common_, fmt::format("{}: up", name));
     }
     void on_link_down(std::string_view name, std::string_view why) override {
-        if (common_.verbose > 0) say(common_, fmt::format("{}: down, {}", name, why));
+        if (common_.verbose > 0) print_notice(common_, fmt::format("{}: down, {}", name, why));
     }
-    void on_notice(std::string_view text) override { say(common_, text); }
+    void on_notice(std::string_view text) override { print_notice(common_, text); }
 
     const Common& common_;
     KeptTimes& times_;
@@ -83,11 +83,12 @@ private:
 void say_report(const Common& common, const feed::Destinations& destinations, const edit::Counters& c,
                 const feed::RelayOutcome& outcome) {
     say_sums(common, destinations);
-    say(common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
+    print_notice(
+        common, fmt::format("{} in, {} decoded and re-encoded, {} passed untouched", counted(c.frames.value(), "frame"),
                             c.reencoded.value(), c.passed_untouched.value()));
     const auto unless_zero = [&](std::string_view name, std::uint64_t count, std::string_view noun,
                                  std::string_view rest) {
-        if (count != 0) say(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
+        if (count != 0) print_notice(common, fmt::format("{}: {} {}", name, counted(count, noun), rest));
     };
     unless_zero("rewrapped", c.rewrapped.value(), "frame", "without full definition, with a new header and checksum");
     unless_zero("filtered", c.filtered.value(), "frame", "that --only leaves out");
@@ -120,7 +121,7 @@ std::string summary(const feed::Destinations& destinations, const edit::Counters
 Exit status_of(const feed::RelayOutcome& outcome, Exit printed) {
     if (outcome.write_error) return fail(*outcome.write_error);
     if (printed != Exit::done) return printed;
-    if (outcome.is_incomplete || outcome.reached_nobody) return Signals::status(Exit::mismatch);
+    if (outcome.is_incomplete || outcome.reached_no_destination) return Signals::status(Exit::mismatch);
     if (outcome.read_error) return fail(*outcome.read_error);
     return Signals::status(Exit::done);
 }
@@ -141,7 +142,7 @@ SetupResult<std::optional<link::SigningTimes>> open_key(const Common& common, Re
     if (!key) return tl::unexpected(std::move(key.error()).within("--sign"));
     std::vector<std::string> notices;
     auto times = link::SigningTimes::open(options.sign_file, *key, notices);
-    for (const auto& notice : notices) say(common, notice);
+    for (const auto& notice : notices) print_notice(common, notice);
     if (!times) return tl::unexpected(std::move(times.error()).within("--sign"));
     options.edit.sign_key = *key;
     options.edit.sign_after = times->last();
@@ -222,7 +223,7 @@ Exit relay(const Common& common, RelayOptions& options) {
     if (!times) return fail(times.error());
     auto stage = edit::Stage::create(*dialect, options.edit);
     if (!stage) return fail(stage.error());
-    for (const auto& warning : (*stage)->warnings()) say(common, warning);
+    for (const auto& warning : (*stage)->warnings()) print_notice(common, warning);
     auto sources = feed::Sources::create(*dialect, feed::Copies::left_out);
     if (!sources) return fail(sources.error());
     if (auto opened = open_sources(options, *sources); !opened) return fail(opened.error());

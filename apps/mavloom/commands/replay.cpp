@@ -46,18 +46,18 @@ public:
         while (going(end) && !destinations_.failed() && !sources_.finished_recordings()) {
             const std::size_t room = std::min(frames_a_turn, destinations_.room_in_frames());
             sources_.turn(*this, std::min(end, mono_now() + (room == 0 ? 1ms : 100ms)), feed::Room(room));
-            destinations_.look_after_files(mono_now(), [this](std::string_view text) { say(common_, text); });
+            destinations_.look_after_files(mono_now(), [this](std::string_view text) { print_notice(common_, text); });
             show_progress();
         }
         link::flush(sources_.links(), *this, longest_flush);
-        if (progress_shown_) talk("\n");
+        if (progress_shown_) write_stderr("\n");
         return finish();
     }
 
     // Waits until every destination has a peer.
     void wait_for_peers(MonoTime end) {
         if (options_.no_wait || destinations_.all_up()) return;
-        say(common_, "waiting until every destination has a peer (--no-wait starts at once)");
+        print_notice(common_, "waiting until every destination has a peer (--no-wait starts at once)");
         while (going(end) && !destinations_.all_up()) sources_.links().turn(*this, mono_now() + 100ms);
     }
 
@@ -69,7 +69,7 @@ private:
         if (options_.selection.takes(rx.frame)) destinations_.send(rx.frame, rx.time);
     }
 
-    void on_notice(link::EndpointId, std::string_view text) override { say(common_, text); }
+    void on_notice(link::EndpointId, std::string_view text) override { print_notice(common_, text); }
 
     static bool going(MonoTime end) { return !Signals::received() && mono_now() < end; }
 
@@ -82,7 +82,7 @@ private:
         const double part = reader.size() == 0
                                 ? 0
                                 : static_cast<double>(reader.position()) / static_cast<double>(reader.size());
-        talk(fmt::format("\r{:5.1f} %  {} sent ", 100 * part, counted(destinations_.sent(), "frame")));
+        write_stderr(fmt::format("\r{:5.1f} %  {} sent ", 100 * part, counted(destinations_.sent(), "frame")));
     }
 
     std::string summary() const {
@@ -99,14 +99,14 @@ private:
         say_sums(common_, destinations_);
         const auto& counters = sources_.recordings().front()->reader.counters();
         if (!options_.start.empty() && frames_ == 0 && sources_.finished_recordings() && sources_.error() == nullptr)
-            say(common_, fmt::format("the recording ends before --start {}", options_.start));
+            print_notice(common_, fmt::format("the recording ends before --start {}", options_.start));
         if (counters.damaged_places.value() != 0)
-            say(common_,
-                fmt::format("{}: {}, {} lost", options_.file, counted(counters.damaged_places.value(), "damaged place"),
-                            counted(counters.lost_bytes.value(), "byte")));
+            print_notice(common_, fmt::format("{}: {}, {} lost", options_.file,
+                                              counted(counters.damaged_places.value(), "damaged place"),
+                                              counted(counters.lost_bytes.value(), "byte")));
         if (counters.unknown_flags.value() != 0)
-            say(common_, fmt::format("{}: {} not sent: an unknown incompatibility flag", options_.file,
-                                     counted(counters.unknown_flags.value(), "frame")));
+            print_notice(common_, fmt::format("{}: {} not sent: an unknown incompatibility flag", options_.file,
+                                              counted(counters.unknown_flags.value(), "frame")));
         const auto printed = options_.json ? print_at_end(summary(), Exit::done) : Exit::done;
         if (!closed) return fail(closed.error());
         if (printed != Exit::done) return printed;

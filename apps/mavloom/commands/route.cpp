@@ -146,17 +146,18 @@ public:
         output_.end_at(mono_now());
         while (flush() == Output::State::open && output_.buffer().size() != 0 && output_.wait_for_room()) {}
         left_out_ += static_cast<std::uint64_t>(std::ranges::count(output_.buffer(), '\n'));
-        tell_left_out();
+        report_left_out();
     }
-    void tell_left_out() const {
-        if (left_out_ != 0) say(common_, fmt::format("--explain left out {}", counted(left_out_, "line")));
+    void report_left_out() const {
+        if (left_out_ != 0) print_notice(common_, fmt::format("--explain left out {}", counted(left_out_, "line")));
     }
     [[nodiscard]] const Output& output() const noexcept { return output_; }
 
 private:
     void leave_out(std::size_t lines) {
         if (left_out_ == 0 && output_.state() == Output::State::open)
-            say(common_,
+            print_notice(
+                common_,
                 "the output of --explain is read too slowly; explanations are left out, and routing continues");
         left_out_ += lines;
     }
@@ -214,36 +215,38 @@ private:
         router_.explain({});
         explain_failed_ = explain->output().state() == Output::State::failed;
         if (explain_failed_) (void)fail(explain->output().error());
-        say(common_, explain_failed_ ? "--explain ended; routing continues"
-                                     : "the reader closed the output of --explain, which ended; routing continues");
-        explain->tell_left_out();
+        print_notice(common_, explain_failed_
+                                  ? "--explain ended; routing continues"
+                                  : "the reader closed the output of --explain, which ended; routing continues");
+        explain->report_left_out();
         explain.reset();
     }
 
     void reload() {
-        if (options_.config.empty()) return say(common_, "SIGHUP: there is no --config to reread");
+        if (options_.config.empty()) return print_notice(common_, "SIGHUP: there is no --config to reread");
         std::error_code unknown;
         const auto type = std::filesystem::status(options_.config, unknown).type();
         if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)
-            return tell(
+            return write_stderr_line(
                 fmt::format("mavloom: {} is a pipe or a terminal, which can be read only once; nothing was changed",
                             options_.config));
         auto config = read_config(options_, dialect_);
-        if (!config) return tell(fmt::format("mavloom: {}; nothing was changed", config.error().text));
+        if (!config) return write_stderr_line(fmt::format("mavloom: {}; nothing was changed", config.error().text));
         const bool would_be_idle = Plan{*config, plan_.from_command_line}.endpoints().empty();
         // An editor may have truncated the file before rewriting it.
         if (would_be_idle || (config->endpoints.empty() && !plan_.config.endpoints.empty()))
-            return tell(fmt::format("mavloom: {} has no endpoint; nothing was changed", options_.config));
+            return write_stderr_line(fmt::format("mavloom: {} has no endpoint; nothing was changed", options_.config));
         if (auto agreed = router::Router::group_modes_of(Plan{*config, plan_.from_command_line}.endpoints()); !agreed)
-            return tell(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
+            return write_stderr_line(fmt::format("mavloom: {}; nothing was changed", agreed.error().text));
         const bool same_rules = config->router == plan_.config.router;
-        if (config->ring != plan_.config.ring) tell("mavloom: a changed [ring] takes effect when the router restarts");
+        if (config->ring != plan_.config.ring)
+            write_stderr_line("mavloom: a changed [ring] takes effect when the router restarts");
         config->ring = plan_.config.ring;
         plan_.config = std::move(*config);
         log_level_ = plan_.config.log_level;
         if (!same_rules) router_.configure(plan_.config.router);
-        router_.become(plan_.endpoints());
-        say(common_, fmt::format("{} was read again", options_.config));
+        router_.apply(plan_.endpoints());
+        print_notice(common_, fmt::format("{} was read again", options_.config));
     }
 
     const Common& common_;
@@ -267,13 +270,13 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
     if (ring.name.empty()) return {};
     if (auto opened = router.open_ring(ring); !opened) {
         if (!may_be_others_doing(opened.error())) return opened;
-        say(common, fmt::format("{}; the router runs without a ring", opened.error().text));
+        print_notice(common, fmt::format("{}; the router runs without a ring", opened.error().text));
         return {};
     }
     const auto path = link::Links::inlet_path(ring.name);
     auto opened = path ? router.open_inlet(ring, *path) : SetupResult<void>(tl::unexpected(path.error()));
     if (opened || !may_be_others_doing(opened.error())) return opened;
-    say(common, fmt::format("{}; programs cannot send through ring {}", opened.error().text, ring.name));
+    print_notice(common, fmt::format("{}; programs cannot send through ring {}", opened.error().text, ring.name));
     return {};
 }
 
@@ -282,7 +285,7 @@ SetupResult<void> open_ring(const Common& common, const config::RingConfig& ring
 SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common, const RouteOptions& options,
                                                             const std::string& ring, router::Router& router) {
     control::ControlOptions control;
-    control.on_notice = [&router](std::string_view text) { router.tell(config::LogLevel::warning, text); };
+    control.on_notice = [&router](std::string_view text) { router.notify(config::LogLevel::warning, text); };
     if (!options.metrics.empty()) {
         const auto address = endpoint::parse_endpoint("tcpin://" + options.metrics);
         if (!address)
@@ -295,12 +298,12 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
     auto path = control::control_path(options.name.empty() ? usual_name : options.name);
     if (path) control.socket = *path;
     else if (!options.name.empty()) return tl::unexpected(std::move(path.error()));
-    else say(common, path.error().text);
+    else print_notice(common, path.error().text);
     auto opened = control::Control::create(router, control);
     if (opened || !options.name.empty() || opened.error().code != SetupCode::in_use) return opened;
     control.socket.clear();
     auto without = control::Control::create(router, control);  // fails again if the port of --metrics was in use
-    if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
+    if (without) print_notice(common, fmt::format("no control socket: {}", opened.error().text));
     return without;
 }
 
@@ -312,10 +315,10 @@ Exit route(const Common& common, const RouteOptions& options) {
             return fail(std::move(time.error()).within("--for"));
     auto plan = make_plan(options, *dialect);
     if (!plan) return fail(plan.error());
-    for (const auto& note : plan->config.notes) say(common, note);
+    for (const auto& note : plan->config.notes) print_notice(common, note);
     auto log_level = plan->config.log_level;
     const auto notice = [&](config::LogLevel level, std::string_view text) {
-        if (level >= log_level || common.verbose > 0) say(common, text);
+        if (level >= log_level || common.verbose > 0) print_notice(common, text);
     };
     auto router = router::Router::create(*dialect, plan->config.router, notice);
     if (!router) return fail(router.error());
@@ -335,7 +338,7 @@ Exit route(const Common& common, const RouteOptions& options) {
     if (!control) return fail(control.error());
     if (auto added = add_endpoints(**router, *plan, true); !added) return fail(added.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && options.metrics.ends_with(":0"))
-        say(common, fmt::format("metrics on port {}", port));
+        print_notice(common, fmt::format("metrics on port {}", port));
     return Routing(common, options, *dialect, **router, std::move(*plan), log_level).run(explain);
 }
 

@@ -130,13 +130,13 @@ SetupResult<void> open_shared(const Common& common, const Scenario& scenario, Si
     if (scenario.ring.name.empty()) {
         // Another simulator may have the page. `stat` then asks for the counters of that one.
         const auto opened = simulator.open_page(scenario.control_name());
-        if (!opened) say(common, opened.error().text);
+        if (!opened) print_notice(common, opened.error().text);
         return {};
     }
     if (auto opened = simulator.open_ring(scenario.ring); !opened) return opened;
     const auto path = link::Links::inlet_path(scenario.ring.name);
     if (path) return simulator.open_inlet(scenario.ring, *path);
-    say(common, fmt::format("{}; programs cannot send through ring {}", path.error().text, scenario.ring.name));
+    print_notice(common, fmt::format("{}; programs cannot send through ring {}", path.error().text, scenario.ring.name));
     return {};
 }
 
@@ -148,12 +148,12 @@ SetupResult<std::unique_ptr<control::Control>> open_control(const Common& common
     auto path = control::control_path(scenario.control_name());
     if (path) options.socket = *path;
     else if (!scenario.name.empty()) return tl::unexpected(std::move(path.error()));
-    else say(common, path.error().text);
+    else print_notice(common, path.error().text);
     auto opened = control::Control::create(simulator, options);
     if (opened || !scenario.name.empty() || opened.error().code != SetupCode::in_use) return opened;
     options.socket.clear();
     auto without = control::Control::create(simulator, options);  // fails again if the port of metrics was in use
-    if (without) say(common, fmt::format("no control socket: {}", opened.error().text));
+    if (without) print_notice(common, fmt::format("no control socket: {}", opened.error().text));
     return without;
 }
 
@@ -161,14 +161,14 @@ void say_what_flies(const Common& common, const Scenario& scenario, Simulator& s
     for (const auto& group : scenario.vehicles) {
         const auto& o = group.options;
         const unsigned first = o.system.value, last = first + static_cast<unsigned>(group.count) - 1;
-        say(common, fmt::format("vehicle{} {}: {}, {}", first == last ? "" : "s",
-                                first == last ? fmt::format("{}", first) : fmt::format("{} to {}", first, last),
-                                sim::kind_names[static_cast<std::size_t>(o.kind)],
-                                sim::autopilot_names[static_cast<std::size_t>(o.autopilot)]));
+        print_notice(common, fmt::format("vehicle{} {}: {}, {}", first == last ? "" : "s",
+                                         first == last ? fmt::format("{}", first) : fmt::format("{} to {}", first, last),
+                                         sim::kind_names[static_cast<std::size_t>(o.kind)],
+                                         sim::autopilot_names[static_cast<std::size_t>(o.autopilot)]));
     }
     for (const auto& info : simulator.links().endpoints())
         if (info.endpoint.address.port == 0 && info.local_port != 0)
-            say(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
+            print_notice(common, fmt::format("{}: listening on port {}", info.endpoint.label(), info.local_port));
 }
 
 Exit print_report(const SimOptions& options, const Scenario& scenario, const Simulator& simulator, Exit otherwise) {
@@ -195,7 +195,7 @@ void fly(const Scenario& scenario, Simulator& simulator) {
 SetupResult<std::unique_ptr<Simulator>> make_simulator(const Common& common, const Scenario& scenario,
                                                        const dialect::Dialect& dialect) {
     const auto notice = [&common](config::LogLevel level, std::string_view text) {
-        if (level >= config::LogLevel::info || common.verbose > 0) say(common, text);
+        if (level >= config::LogLevel::info || common.verbose > 0) print_notice(common, text);
     };
     auto simulator = Simulator::create(dialect,
                                        {.speed = scenario.speed,
@@ -219,14 +219,14 @@ Exit simulate(const Common& common, const SimOptions& options) {
     if (!dialect) return fail(dialect.error());
     const auto scenario = make_scenario(options);
     if (!scenario) return fail(scenario.error());
-    for (const auto& note : scenario->notes) say(common, note);
+    for (const auto& note : scenario->notes) print_notice(common, note);
     const auto simulator = make_simulator(common, *scenario, *dialect);
     if (!simulator) return fail(simulator.error());
     const Signals signals([](void* s) noexcept { static_cast<Simulator*>(s)->wake(); }, simulator->get());
     const auto control = open_control(common, *scenario, **simulator);
     if (!control) return fail(control.error());
     if (const auto port = (*control)->metrics_port(); port != 0 && scenario->metrics->port == 0)
-        say(common, fmt::format("metrics at port {}", port));
+        print_notice(common, fmt::format("metrics at port {}", port));
     say_what_flies(common, *scenario, **simulator);
     fly(*scenario, **simulator);
     (*simulator)->finish(sim_send_limit);

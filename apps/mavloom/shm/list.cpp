@@ -20,7 +20,7 @@ Exit list(const Common& common, bool json) {
         if (json) text += line_of(ring ? json_of(*ring) : Json{{"name", name}, {"error", ring.error().text}});
         else text += ring ? text_of(*ring) : fmt::format("{}  {}\n", name, printable(ring.error().text));
     }
-    if (text.empty()) say(common, "there are no rings");
+    if (text.empty()) print_notice(common, "there are no rings");
     return print_at_end(text, Exit::done);
 }
 

@@ -94,7 +94,8 @@ private:
         if (options_.drain && follower_.opened() != 0) return going_ = false;
         const auto* const error = follower_.error();
         if (error != nullptr && (options_.drain || error->code != SetupCode::not_found)) return going_ = false;
-        if (error != nullptr && !std::exchange(has_said_, true)) say(common_, error->text + "; waiting for it");
+        if (error != nullptr && !std::exchange(has_said_, true))
+            print_notice(common_, error->text + "; waiting for it");
         return true;
     }
 
@@ -117,8 +118,8 @@ private:
             return fail(*error);
         if (status == Exit::bad_input) return fail(status, fmt::format("ring {} is damaged", options_.name));
         if (follower_.missed() != 0)
-            say(common_, fmt::format("{}: {}, {} missed: the writer was faster", options_.name,
-                                     counted(records_, "record"), follower_.missed()));
+            print_notice(common_, fmt::format("{}: {}, {} missed: the writer was faster", options_.name,
+                                              counted(records_, "record"), follower_.missed()));
         return Signals::status(follower_.missed() != 0 ? Exit::mismatch : Exit::done);
     }
 

@@ -111,7 +111,7 @@ Exit write(const Common& common, const WriteOptions& options) {
     if (!writer) return fail(writer.error());
     Writing writing(options, *writer);
     const Exit status = writing.run();
-    say(common, writing.sums());
+    print_notice(common, writing.sums());
     using Leave = shm::RingWriter::Leave;
     const auto closed = writer->close(options.remove ? Leave::nothing : Leave::ring);
     if (status != Exit::done && status != Exit::mismatch) return status;

@@ -23,7 +23,7 @@ enum class Scheme : std::uint8_t { udpin, udpout, udpbcast, udpmcast, tcpin, tcp
 
 [[nodiscard]] std::string_view scheme_name(Scheme scheme) noexcept;
 // True if endpoints of this scheme have a fixed far side and contact it first. False if peers or clients contact them.
-[[nodiscard]] bool calls_somebody(Scheme scheme) noexcept;
+[[nodiscard]] bool sends_first(Scheme scheme) noexcept;
 
 struct HostPort {
     std::string host;  // a name, IPv4, or IPv6 without brackets
@@ -60,7 +60,7 @@ struct EndpointOptions {
     FilterTerms in_allow, in_block, out_allow, out_block;
     bool tap = false;
     bool is_private = false;
-    // Whether the router sends its heartbeat here. Default: true if `calls_somebody` is true for the scheme and the
+    // Whether the router sends its heartbeat here. Default: true if `sends_first` is true for the scheme and the
     // endpoint is not a tap.
     std::optional<bool> heartbeat;
     std::string sign_key_file, verify_key_file;

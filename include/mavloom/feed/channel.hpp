@@ -161,7 +161,7 @@ public:
 
 private:
     friend class Channel;
-    void tell() noexcept;
+    void signal() noexcept;
     static constexpr std::size_t most_looked_at = 4096;  // frames in one call, with the mutex held
 
     const std::shared_ptr<Channel> channel_;

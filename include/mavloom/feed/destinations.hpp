@@ -66,7 +66,7 @@ public:
     // Whether a live endpoint lost frames: dropped, refused, without a peer, or still queued.
     [[nodiscard]] bool lost_any() const;
     // True if there are no files and no frame was sent to any peer.
-    [[nodiscard]] bool reached_nobody() const;
+    [[nodiscard]] bool reached_no_destination() const;
 
     // Calls RotatingWriter::look_after of each file, and reports files that were removed to `on_notice`. Call it at
     // least once a second.

@@ -37,10 +37,10 @@ public:
 };
 
 struct RelayOutcome {
-    Totals totals;                      // of the sources
-    std::uint64_t unheard_answers = 0;  // answers for which there was no source
-    bool is_incomplete = false;         // all sources were recordings, and a destination lost frames
-    bool reached_nobody = false;        // there were frames, or waiting recordings, and no destination took any frame
+    Totals totals;                        // of the sources
+    std::uint64_t unheard_answers = 0;    // answers for which there was no source
+    bool is_incomplete = false;           // all sources were recordings, and a destination lost frames
+    bool reached_no_destination = false;  // there were frames, or waiting recordings, and no destination took any frame
     std::optional<SetupError> write_error, read_error;  // of the first file or recording that failed
 };
 

@@ -18,9 +18,9 @@ public:
     // Returns the time after which the alarm thread must check the reader again, or 0 if the reader has something to
     // read. It is called with a lock held, on the alarm thread or on a thread that calls RingAlarm. It must neither
     // wait nor call functions of RingAlarm.
-    using Nap = std::function<Nanoseconds()>;
+    using SleepTime = std::function<Nanoseconds()>;
     // Returns an alarm whose descriptor is already readable, so that the caller checks the ring once before it waits.
-    [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, Nap nap);
+    [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, SleepTime nap);
     // Ends the thread. Armed alarms, and those that are armed later, become readable at once.
     static void stop_all();
 
@@ -33,16 +33,16 @@ public:
     // Makes the descriptor readable once, as soon as there is something to read.
     void arm();
     // Makes the descriptor readable now.
-    void tell() const noexcept;
+    void signal() const noexcept;
 
 private:
     class Clock;
-    RingAlarm(int fd, shm::RingWaiter::WakeWord word, Nap nap);
+    RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime nap);
 
     const BeforeFork fork_;
     const int fd_;
     const shm::RingWaiter::WakeWord word_;
-    const Nap nap_;
+    const SleepTime sleep_time_;
     Clock& clock_;
     bool armed_ = false;  // guarded by the clock's mutex
 };

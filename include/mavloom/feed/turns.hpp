@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Turns: a mutex for threads that hold it while they wait for data. They wait in slices, so that other threads can take
-// the mutex between two slices. Any thread may use it. `glance` is for one further thread that must never wait, such as
+// the mutex between two slices. Any thread may use it. `peek` is for one further thread that must never wait, such as
 // the thread of RingAlarm.
 #pragma once
 
@@ -36,14 +36,14 @@ public:
         const Asking asking(asking_);
         return Lock(mutex_);
     }
-    // Never waits for another thread's turn, only for a `glance` to end. If the returned lock is not owned, another
+    // Never waits for another thread's turn, only for a `peek` to end. If the returned lock is not owned, another
     // thread has its turn.
     [[nodiscard]] Lock try_take() {
         for (;;) {
-            const unsigned glances = glances_.load();
+            const unsigned peeks = peeks_.load();
             Lock lock(mutex_, std::try_to_lock);
-            const bool is_glanced_at = glances % 2 == 1 || glances_.load() != glances;
-            if (lock.owns_lock() || !is_glanced_at) return lock;
+            const bool is_peeked_at = peeks % 2 == 1 || peeks_.load() != peeks;
+            if (lock.owns_lock() || !is_peeked_at) return lock;
             std::this_thread::yield();
         }
     }
@@ -57,13 +57,13 @@ public:
         return lock;
     }
     // Call between two slices, without the lock: lets threads that ask for it go first.
-    void give_way() const {
+    void yield_turn() const {
         if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    // Calls `look(is_free)` and returns its result. If the mutex was free, `glance` holds it during the call. Never
+    // Calls `look(is_free)` and returns its result. If the mutex was free, `peek` holds it during the call. Never
     // waits. Only one thread may call it at a time.
-    [[nodiscard]] auto glance(auto&& look) {
-        const Glance glance(glances_);
+    [[nodiscard]] auto peek(auto&& look) {
+        const Peek peek(peeks_);
         const Lock lock(mutex_, std::try_to_lock);
         return look(lock.owns_lock());
     }
@@ -77,17 +77,17 @@ private:
         std::atomic<int>& count;
     };
 
-    struct Glance {
-        explicit Glance(std::atomic<unsigned>& glances) : count(glances) { count.fetch_add(1); }
-        Glance(const Glance&) = delete;
-        Glance& operator=(const Glance&) = delete;
-        ~Glance() { count.fetch_add(1); }
+    struct Peek {
+        explicit Peek(std::atomic<unsigned>& peeks) : count(peeks) { count.fetch_add(1); }
+        Peek(const Peek&) = delete;
+        Peek& operator=(const Peek&) = delete;
+        ~Peek() { count.fetch_add(1); }
         std::atomic<unsigned>& count;
     };
 
     std::timed_mutex mutex_;
     std::atomic<int> asking_{0};
-    std::atomic<unsigned> glances_{0};  // odd during a glance
+    std::atomic<unsigned> peeks_{0};  // odd during a peek
 };
 
 }  // namespace mavloom::feed

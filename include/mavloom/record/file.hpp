@@ -20,7 +20,7 @@ namespace mavloom::record {
 class File {
 public:
     // The behaviour of `read` while a pipe or device is empty: wait for data, or return an error at once.
-    enum class Empty : std::uint8_t { wait, tell };
+    enum class Empty : std::uint8_t { wait, report };
     // Opens a FIFO at once even if it has no writer; the FIFO stays empty until a writer opens it.
     [[nodiscard]] static SetupResult<File> open_to_read(const std::filesystem::path& path, Empty empty = Empty::wait);
     // Creates a file with mode 0644. Fails with `in_use` if it already exists.
@@ -40,7 +40,7 @@ public:
     // Reads from the current position and returns the number of bytes read. A regular file fills `out` unless the file
     // ends first. A pipe or device returns the bytes available, and 0 at its end. While a pipe or device is empty:
     // - `Empty::wait` waits for data. A signal ends the wait with an error whose sys_errno is EINTR.
-    // - `Empty::tell` returns an error whose sys_errno is EAGAIN.
+    // - `Empty::report` returns an error whose sys_errno is EAGAIN.
     [[nodiscard]] SetupResult<std::size_t> read(ByteSpan out);
     // Waits until a pipe or device has data or has ended. Returns false after `limit` or a signal. Returns true at once
     // for a regular file.

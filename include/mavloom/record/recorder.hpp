@@ -71,7 +71,7 @@ private:
     [[nodiscard]] SetupResult<void> write(const FrameQueue::Entry& entry);
     void wait_to_rotate(const FrameQueue::Entry& entry);
     void count() noexcept;
-    void tell(const SetupResult<void>& result);
+    void report(const SetupResult<void>& result);
     [[nodiscard]] SetupResult<void> look_at_file();
 
     std::string label_;

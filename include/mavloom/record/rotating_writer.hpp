@@ -75,7 +75,7 @@ private:
     RotatingWriter(std::filesystem::path path, Rotation rotation) : path_(std::move(path)), rotation_(rotation) {}
 
     [[nodiscard]] bool is_removed() const noexcept;
-    [[nodiscard]] SetupResult<void> begin_anew();
+    [[nodiscard]] SetupResult<void> begin_again();
     [[nodiscard]] SetupResult<void> end_segment();
     [[nodiscard]] SetupResult<void> go_on_in(TlogWriter next);
     [[nodiscard]] SetupResult<void> begin_segment(TlogWriter next, WallTime time);

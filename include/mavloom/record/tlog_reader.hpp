@@ -38,7 +38,7 @@ public:
     enum class Stop : std::uint8_t {
         end,          // the end of the file was reached
         failed,       // reading failed; `error` has the reason
-        nothing_yet,  // a pipe is empty (`File::Empty::tell`), or a signal ended the wait; call again
+        nothing_yet,  // a pipe is empty (`File::Empty::report`), or a signal ended the wait; call again
         damage,       // the byte limit was reached without a wanted record; call again
     };
     // Returns the next record; its views are valid until the next call. For a pipe or device, it waits only for the

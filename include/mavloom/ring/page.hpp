@@ -44,7 +44,7 @@ public:
     [[nodiscard]] static SetupResult<RingPage> create(const std::string& ring, unsigned mode);
 
     void name_link(LinkId link, std::string_view name);
-    void link_went(LinkId link);
+    void link_removed(LinkId link);
     // Adds the link names that a killed router left in its page. These links count as closed. If there are too many,
     // the page forgets the lowest link numbers first.
     void inherit(const std::map<LinkId, std::string>& names);

@@ -102,7 +102,7 @@ private:
         const wire::MessageInfo* info;
     };
     // The kind of the last notice, so that each is reported only once.
-    enum class Told : std::uint8_t { nothing, absent, unreadable, unwritten, damaged };
+    enum class Notice : std::uint8_t { nothing, absent, unreadable, unwritten, damaged };
 
     [[nodiscard]] bool read(link::LinkHandler& handler);
     void take(const shm::RingRecord& record, link::LinkHandler& handler);
@@ -110,8 +110,8 @@ private:
     void parse_record(ByteView bytes, link::LinkHandler& handler);
     void parse(ByteView bytes, link::LinkHandler& handler);
     void hand_over(link::LinkHandler& handler, const Found& found);
-    void nothing_comes(shm::ReadError why, link::LinkHandler& handler);
-    void tell(link::LinkHandler& handler, Told what, std::string_view text);
+    void on_no_record(shm::ReadError why, link::LinkHandler& handler);
+    void report(link::LinkHandler& handler, Notice what, std::string_view text);
     // Restarts loss counting. After a change of writer or missed records, per-link loss cannot be derived from sequence
     // numbers.
     void forget_sequences();
@@ -131,7 +131,7 @@ private:
     Copies wanted_copies_;
     const dialect::Dialect* dialect_;
     shm::RingFollower follower_;
-    Told told_ = Told::nothing;
+    Notice last_notice_ = Notice::nothing;
     MonoTime next_look_{};  // when to look again at a ring that is missing or damaged
     bool more_ = false;     // the last turn ended because it had no more room
     bool awaited_ = false;  // the ring was absent: records overwritten before the first read count as lost

@@ -56,7 +56,7 @@ public:
     }
     void on_link_down(LinkId link) {
         links_changed_ = true;
-        if (page_) page_->link_went(link);
+        if (page_) page_->link_removed(link);
     }
 
     // Call after each turn. If anything changed, the page becomes due soon.
@@ -80,12 +80,12 @@ private:
             std::function<void()> ready);
     void note_aside(std::vector<std::string>& notices);
     void note_page_aside(std::vector<std::string>& notices) const;
-    void make_ring_anew();
+    void recreate_ring();
     void take_new_ring(std::vector<std::string>& notices);
     template <class Work>
     void work_beside(Work work);
     void carry_on(const std::map<LinkId, std::string>& names);
-    void make_page_anew(const link::Links& links, std::vector<std::string>& notices);
+    void recreate_page(const link::Links& links, std::vector<std::string>& notices);
 
     std::string name_;
     shm::RingOptions options_;

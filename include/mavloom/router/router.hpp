@@ -80,10 +80,10 @@ public:
     // Makes `endpoints` the router's endpoints and recordings. group_modes_of must succeed for them. An endpoint stays
     // untouched if its options, its group's mode and the contents of its key files are unchanged. If an endpoint cannot
     // be opened, the router reports it and leaves it out, and reopens the former endpoint of the same label, if any.
-    void become(const std::vector<endpoint::Endpoint>& endpoints);
+    void apply(const std::vector<endpoint::Endpoint>& endpoints);
 
     // Logs a line through the router's Notice.
-    void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
+    void notify(config::LogLevel level, std::string_view text) const { notice_(level, text); }
 
     void explain(Explainer explainer);
     void set_metrics_detail(MetricsDetail detail) noexcept { metrics_detail_ = detail; }
@@ -137,7 +137,7 @@ private:
     void look_after_ring();
     void refresh_page();
     void run_posted(MonoTime now);
-    void tell_silence(MonoTime now);
+    void report_silence(MonoTime now);
 
     const dialect::Dialect& dialect_;
     MetricsDetail metrics_detail_ = MetricsDetail::systems;

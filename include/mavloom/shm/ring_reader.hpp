@@ -133,7 +133,7 @@ private:
     [[nodiscard]] SetupResult<void> begin();
     [[nodiscard]] std::optional<unsigned> take_slot() noexcept;
     [[nodiscard]] ReadResult<RingRecord> wait(MonoTime deadline) noexcept;
-    [[nodiscard]] std::optional<ReadError> why_nothing_comes(MonoTime now) noexcept;
+    [[nodiscard]] std::optional<ReadError> why_no_record(MonoTime now) noexcept;
     [[nodiscard]] Nanoseconds nap(MonoTime waiting_since, MonoTime now, MonoTime deadline) const noexcept;
     void end() noexcept;
 

@@ -126,7 +126,7 @@ public:
     [[nodiscard]] const SimulatorOptions& options() const noexcept { return options_; }
     [[nodiscard]] Nanoseconds uptime() const { return mono_now() - created_; }
     // Logs a line through the simulator's Notice.
-    void tell(config::LogLevel level, std::string_view text) const { notice_(level, text); }
+    void notify(config::LogLevel level, std::string_view text) const { notice_(level, text); }
 
 private:
     Simulator(const dialect::Dialect& dialect, const SimulatorOptions& options, Notice notice,

@@ -96,7 +96,7 @@ private:
         std::uint32_t newest_ms = 0;
         bool fell = false;  // the last frame's value was lower than newest_ms
     };
-    enum class ClockVerdict : std::uint8_t { says_nothing, runs, restarted };
+    enum class ClockVerdict : std::uint8_t { unknown, runs, restarted };
 
     struct State {
         // The frame with sequence number s has its fingerprint at [s % window]; 0: none.

@@ -225,7 +225,7 @@ class Mission:
 
 
 class AsyncVehicle(_Common):
-    """A vehicle for asyncio, from `link.vehicle_async()`: the methods of Vehicle, to be awaited."""
+    """A vehicle for asyncio, from `link.vehicle_async()`: the methods of Vehicle, as coroutines."""
 
     def __init__(self, link: Link, system: int, component: int) -> None:
         super().__init__(link, system, component)

@@ -112,7 +112,7 @@ private:
 
     [[nodiscard]] SetupResult<record::TlogReader> open() const {
         const WithoutGil outside;
-        return record::TlogReader::open(path_, origin_->dialect().wire_table(), record::File::Empty::tell);
+        return record::TlogReader::open(path_, origin_->dialect().wire_table(), record::File::Empty::report);
     }
 
     record::TlogReader& reader() {

@@ -22,7 +22,7 @@ public:
     ClaimView(ClaimView&& other) noexcept = default;
     ClaimView& operator=(ClaimView&&) = delete;
     ~ClaimView() {
-        if (claimed_ && claimed_->looks.end()) writer_->nobody_looks(*claimed_);
+        if (claimed_ && claimed_->looks.end()) writer_->on_last_look_ended(*claimed_);
     }
     [[nodiscard]] ByteSpan bytes() const noexcept { return claimed_->bytes; }
 

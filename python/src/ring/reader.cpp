@@ -55,7 +55,7 @@ Lease::Look Lease::look() noexcept {
 }
 
 void Lease::look_away() noexcept {
-    if (looks_.end() && source_) source_->nobody_looks();
+    if (looks_.end() && source_) source_->on_last_look_ended();
 }
 
 bool Lease::is_another_threads() const noexcept {
@@ -167,16 +167,16 @@ bool RingSource::close_locked() {
     closed_.store(true, std::memory_order_relaxed);
     pending_ = {};
     reader_.detach();
-    if (auto* const alarm = this->alarm()) alarm->tell();
+    if (auto* const alarm = this->alarm()) alarm->signal();
     return true;
 }
 
 void RingSource::abandon() {
     abandoned_.store(true);
-    nobody_looks();
+    on_last_look_ended();
 }
 
-void RingSource::nobody_looks() {
+void RingSource::on_last_look_ended() {
     if (abandoned_.load() && fork_.is_here()) static_cast<void>(close());
 }
 
@@ -202,7 +202,7 @@ void RingSource::arm() {
 }
 
 Nanoseconds RingSource::nap() {
-    return turns_.glance([this](bool nobody_reads) -> Nanoseconds {
+    return turns_.peek([this](bool nobody_reads) -> Nanoseconds {
         constexpr auto until_next_look = std::chrono::milliseconds{1};
         if (!nobody_reads) return until_next_look;
         if (is_closed() || pending_.lease) return {};

@@ -93,7 +93,7 @@ public:
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
     // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
     [[nodiscard]] State take(std::size_t most, Portion& out);
-    void give_way() const { turns_.give_way(); }
+    void yield_turn() const { turns_.yield_turn(); }
 
     // For event loops: returns a descriptor, created at the first call. After `arm` it becomes readable when there may
     // be something to fetch, or when nothing ever will be.
@@ -105,9 +105,9 @@ public:
     // Gives the reader slot back. Returns false while the records that were read last are in use.
     [[nodiscard]] bool close();
     // `abandon`: the owner is gone. Closes the reader at once, or as soon as its records are no longer in use
-    // (`nobody_looks`).
+    // (`on_last_look_ended`).
     void abandon();
-    void nobody_looks();
+    void on_last_look_ended();
 
     // In a forked child, the ring is no longer held for the records.
     [[nodiscard]] const BeforeFork& fork() const noexcept { return fork_; }

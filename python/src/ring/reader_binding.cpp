@@ -41,7 +41,7 @@ public:
         bytes_ = bytes_of(*lease_);
         if (holds()) return;
         end();
-        raise_taken_away();
+        raise_evicted();
     }
     View(View&& other) noexcept = default;
     View& operator=(View&&) = delete;
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] ByteView bytes() const noexcept { return bytes_; }
     // Call after copying from the view: if this raises, the copy is not valid.
     void check() const {
-        if (!holds()) raise_taken_away();
+        if (!holds()) raise_evicted();
     }
 
 private:
@@ -57,7 +57,7 @@ private:
     void end() noexcept {
         if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
     }
-    [[noreturn]] static void raise_taken_away() {
+    [[noreturn]] static void raise_evicted() {
         raise_error("the writer evicted this reader and may have overwritten the record");
     }
 
@@ -301,7 +301,7 @@ private:
             if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
             if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
-            source_->give_way();
+            source_->yield_turn();
             if (is_used) std::this_thread::sleep_for(look_again);
             state = source_->fetch(most, deadline);
         }

@@ -89,7 +89,7 @@ bool PyRingWriter::write(const nb::object& data, const shm::RecordInfo& info) {
         if (written) return true;
         if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
         if (!waits()) return false;
-        turns_.give_way();
+        turns_.yield_turn();
         check_signals();
         check();
     }
@@ -153,7 +153,7 @@ std::shared_ptr<Claimed> PyRingWriter::claim(std::size_t length) {
         auto claimed = claim_or_wait(length);
         if (claimed) return std::move(*claimed);
         if (claimed.error() != shm::WriteError::full) raise(claimed.error(), length);
-        turns_.give_way();
+        turns_.yield_turn();
         check_signals();
     }
 }
@@ -209,12 +209,12 @@ void PyRingWriter::raise_over() { raise_closed("the claim is over: it was commit
 
 void PyRingWriter::give_up(Claimed& claimed) noexcept {
     claimed.given_up.store(true);
-    nobody_looks(claimed);
+    on_last_look_ended(claimed);
 }
 
 // Waiting with the GIL held is safe here: while a claim is open, the lock is held for moments only, and never by a
 // thread that needs the GIL.
-void PyRingWriter::nobody_looks(Claimed& claimed) noexcept {
+void PyRingWriter::on_last_look_ended(Claimed& claimed) noexcept {
     if (!claimed.given_up.load() || !fork_.is_here() || !claimed.looks.finish()) return;
     const auto lock = turns_.take();
     if (claim_.get() == &claimed) end_claim();

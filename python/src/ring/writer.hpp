@@ -60,9 +60,10 @@ public:
     // Publishes the first `length` bytes; false if the record was dropped. Raises BufferError while the bytes are in
     // use, and ClosedError if the claim is over.
     bool commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length);
-    // Gives the room back: at once, or when the bytes are no longer in use (`nobody_looks`). Neither needs the GIL.
+    // Gives the room back: at once, or when the bytes are no longer in use (`on_last_look_ended`). Neither needs the
+    // GIL.
     void give_up(Claimed& claimed) noexcept;
-    void nobody_looks(Claimed& claimed) noexcept;
+    void on_last_look_ended(Claimed& claimed) noexcept;
 
     [[noreturn]] static void raise_over();
     [[noreturn]] static void raise_looked_at();

@@ -41,13 +41,13 @@ void Rover::place(const Vector3& position, double heading) {
 void Rover::step(const Setpoint& setpoint, bool armed, const Surroundings& around) {
     limits_ = bounded(setpoint.limits);
     heading_ = yaw_of(motion_.attitude);
-    const Wish wish = armed ? drive(setpoint) : Wish{};
-    move(wish, around.ground);
-    report(wish);
+    const Demand demand = armed ? drive(setpoint) : Demand{};
+    move(demand, around.ground);
+    report(demand);
     air_velocity_ = motion_.velocity - around.wind;
 }
 
-Rover::Wish Rover::drive(const Setpoint& setpoint) const {
+Rover::Demand Rover::drive(const Setpoint& setpoint) const {
     const double thrust = finite_or(setpoint.thrust, 0, -1, 1) * limits_.horizontal;
     switch (setpoint.steering) {
         case Steering::none: return {};
@@ -62,7 +62,7 @@ Rover::Wish Rover::drive(const Setpoint& setpoint) const {
             .curvature = finite_or(setpoint.mixer[2], 0, -1, 1) / limits_.turn_radius};
 }
 
-Rover::Wish Rover::drive_along(const Setpoint& setpoint) const {
+Rover::Demand Rover::drive_along(const Setpoint& setpoint) const {
     const Vector3 leg = setpoint.position - setpoint.from;
     if (!has_horizontal(setpoint.from) || length_of(leg) < 0.5) return drive_to(setpoint.position);
     if (!has_horizontal(setpoint.position)) return {};
@@ -76,7 +76,7 @@ Rover::Wish Rover::drive_along(const Setpoint& setpoint) const {
 
 // A car cannot reach every place near it: what lies beside it, within its turning circle, counts as reached. To a place
 // close behind, it reverses.
-Rover::Wish Rover::drive_to(const Vector3& place) const {
+Rover::Demand Rover::drive_to(const Vector3& place) const {
     if (!has_horizontal(place)) return {};
     const Vector3 rest = place - motion_.position;
     const double distance = length_of(rest), bearing = direction_of(rest, heading_);
@@ -88,7 +88,7 @@ Rover::Wish Rover::drive_to(const Vector3& place) const {
     return reverses ? turn_to(bearing + pi, 0, -std::min(speed, 1.5)) : turn_to(bearing, 0, speed);
 }
 
-Rover::Wish Rover::drive_with(const Setpoint& setpoint) const {
+Rover::Demand Rover::drive_with(const Setpoint& setpoint) const {
     if (!has_horizontal(setpoint.velocity)) {
         if (has_horizontal(setpoint.position)) return drive_to(setpoint.position);
         return {};
@@ -98,10 +98,10 @@ Rover::Wish Rover::drive_with(const Setpoint& setpoint) const {
     if (std::isfinite(setpoint.yaw_rate)) return turn(finite_or(setpoint.yaw_rate, 0, -4, 4), along);
     if (std::isfinite(setpoint.yaw)) return turn_to(setpoint.yaw, 0, along);
     const double speed = length_of(velocity);
-    return speed < 0.05 ? Wish{} : turn_to(direction_of(velocity, heading_), 0, speed);
+    return speed < 0.05 ? Demand{} : turn_to(direction_of(velocity, heading_), 0, speed);
 }
 
-Rover::Wish Rover::drive_around(const Setpoint& setpoint) const {
+Rover::Demand Rover::drive_around(const Setpoint& setpoint) const {
     if (!has_horizontal(setpoint.position)) return {};
     const double asked = finite_or(setpoint.radius, 0, -1e4, 1e4);
     const double radius = std::copysign(std::max(std::abs(asked), limits_.turn_radius), asked);
@@ -110,7 +110,7 @@ Rover::Wish Rover::drive_around(const Setpoint& setpoint) const {
                    std::min(limits_.horizontal, std::sqrt(tyre_grip * std::abs(radius))));
 }
 
-Rover::Wish Rover::turn(double turn_rate, double speed) const {
+Rover::Demand Rover::turn(double turn_rate, double speed) const {
     const double bounded_rate = std::clamp(turn_rate, -limits_.yaw_rate, limits_.yaw_rate);
     const double wanted = std::clamp(speed, -limits_.horizontal, limits_.horizontal);
     return {.speed = wanted,
@@ -118,25 +118,25 @@ Rover::Wish Rover::turn(double turn_rate, double speed) const {
 }
 
 // The farther the heading is off, the slower, so that the turn is tight.
-Rover::Wish Rover::turn_to(double course, double turn_rate, double speed) const {
+Rover::Demand Rover::turn_to(double course, double turn_rate, double speed) const {
     const double off = wrap_pi(course - heading_);
     const double slow = std::sqrt(tyre_grip * limits_.turn_radius) / 2;
     const double most = std::max(std::abs(speed) * std::cos(off), slow);
-    Wish wish = turn(turn_rate + heading_gain * off, std::clamp(speed, -most, most));
-    wish.course = course;
-    return wish;
+    Demand demand = turn(turn_rate + heading_gain * off, std::clamp(speed, -most, most));
+    demand.course = course;
+    return demand;
 }
 
 double Rover::stopping_speed(double distance) const noexcept {
     return std::sqrt(1.4 * limits_.acceleration * std::max(distance, 0.0));
 }
 
-void Rover::move(const Wish& wish, double ground) {
+void Rover::move(const Demand& demand, double ground) {
     const double most = limits_.acceleration * step_s;
-    speed_ += std::clamp((wish.speed - speed_) * (step_s / speed_lag), -most, most);
-    if (wish.speed == 0 && std::abs(speed_) < 0.01) speed_ = 0;
+    speed_ += std::clamp((demand.speed - speed_) * (step_s / speed_lag), -most, most);
+    if (demand.speed == 0 && std::abs(speed_) < 0.01) speed_ = 0;
     const double tightest = std::min(1 / limits_.turn_radius, tyre_grip / std::max(speed_ * speed_, 0.01));
-    curvature_ += (std::clamp(wish.curvature, -tightest, tightest) - curvature_) * (step_s / steering_lag);
+    curvature_ += (std::clamp(demand.curvature, -tightest, tightest) - curvature_) * (step_s / steering_lag);
     if (std::abs(curvature_) < 1e-9) curvature_ = 0;
     const Vector3 rates{0, 0, speed_ * curvature_};
     const double heading = heading_ + rates.z() * step_s;
@@ -145,16 +145,16 @@ void Rover::move(const Wish& wish, double ground) {
     integrate_step((velocity - motion_.velocity) / step_s, rates);
 }
 
-void Rover::report(const Wish& wish) {
-    const double course = finite_or(wish.course, heading_, -1e3, 1e3);
-    const double drive = std::clamp(wish.speed / limits_.horizontal, -1.0, 1.0);
-    const double pull = std::max(0.0, wish.speed == 0 ? 0.0 : (wish.speed - speed_) / wish.speed);
+void Rover::report(const Demand& demand) {
+    const double course = finite_or(demand.course, heading_, -1e3, 1e3);
+    const double drive = std::clamp(demand.speed / limits_.horizontal, -1.0, 1.0);
+    const double pull = std::max(0.0, demand.speed == 0 ? 0.0 : (demand.speed - speed_) / demand.speed);
     thrust_ = std::abs(drive);
     load_ = std::abs(speed_) / cruise_speed + std::min(pull, 1.0);
     targets_ = {.attitude = to_quaternion({0, 0, course}),
-                .rates = {0, 0, wish.speed * wish.curvature},
+                .rates = {0, 0, demand.speed * demand.curvature},
                 .thrust = drive,
-                .velocity = {wish.speed * std::cos(course), wish.speed * std::sin(course), 0}};
+                .velocity = {demand.speed * std::cos(course), demand.speed * std::sin(course), 0}};
     actuators_.outputs = {drive, std::clamp(curvature_ * limits_.turn_radius, -1.0, 1.0)};
     actuators_.is_motor = {};
     actuators_.used = 2;

@@ -16,22 +16,22 @@ public:
 
 private:
     // Orders of the driver to motor and front wheels.
-    struct Wish {
+    struct Demand {
         double speed = 0;      // m/s along the heading; negative: reverse
         double curvature = 0;  // 1/m, positive to the right
         double course = nan;   // rad, if a path is followed
     };
-    [[nodiscard]] Wish drive(const Setpoint& setpoint) const;
-    [[nodiscard]] Wish drive_along(const Setpoint& setpoint) const;
-    [[nodiscard]] Wish drive_to(const Vector3& place) const;
-    [[nodiscard]] Wish drive_with(const Setpoint& setpoint) const;
-    [[nodiscard]] Wish drive_around(const Setpoint& setpoint) const;
-    [[nodiscard]] Wish turn(double turn_rate, double speed) const;
-    [[nodiscard]] Wish turn_to(double course, double turn_rate, double speed) const;
+    [[nodiscard]] Demand drive(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand drive_along(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand drive_to(const Vector3& place) const;
+    [[nodiscard]] Demand drive_with(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand drive_around(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand turn(double turn_rate, double speed) const;
+    [[nodiscard]] Demand turn_to(double course, double turn_rate, double speed) const;
     // The greatest speed from which the rover can still stop within this distance.
     [[nodiscard]] double stopping_speed(double distance) const noexcept;
-    void move(const Wish& wish, double ground);
-    void report(const Wish& wish);
+    void move(const Demand& demand, double ground);
+    void report(const Demand& demand);
 
     SpeedLimits limits_;  // of the present set-point, bounded
     double heading_ = 0, speed_ = 0, curvature_ = 0;

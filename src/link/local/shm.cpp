@@ -87,7 +87,7 @@ SetupResult<void> InletSender::connect() {
     has_sent_ = false;
     full_ = false;
     retry_.settle();
-    retry_.begin_anew();
+    retry_.reset();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (std::exchange(told_no_way_, false))
         core_.news.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));

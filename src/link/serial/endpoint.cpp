@@ -60,7 +60,7 @@ private:
         return automatic() ? auto_bauds[auto_index_] : info.endpoint.options.baud;
     }
     SetupResult<void> open_as(const std::string& name);
-    void tell_settings();
+    void report_settings();
     void count_good_frame();
     void search_on();
     void watch_folders(bool on);
@@ -100,7 +100,7 @@ SetupResult<void> Serial::open_as(const std::string& name) {
     watch_folders(false);
     retry_.cancel();
     up_since_ = core_.now();
-    if (!was_up_ || name != device_.path()) tell_settings();
+    if (!was_up_ || name != device_.path()) report_settings();
     retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (automatic()) {
@@ -113,7 +113,7 @@ SetupResult<void> Serial::open_as(const std::string& name) {
     return {};
 }
 
-void Serial::tell_settings() {
+void Serial::report_settings() {
     const auto& options = info.endpoint.options;
     const auto got = peer_.stream().baud();
     const auto apart = got > baud() ? got - baud() : baud() - got;
@@ -131,7 +131,7 @@ void Serial::tell_settings() {
 void Serial::on_gone(std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting;
     core_.news.set_down(peer_, why);
-    if (lasted) retry_.begin_anew();
+    if (lasted) retry_.reset();
     retry_.later();
     watch_folders(true);
 }

@@ -85,16 +85,16 @@ void Signature::keep_times() const {
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
     if (!judge_) return true;
-    if (vouched_ == frame.bytes().data()) {
-        vouched_ = nullptr;
+    if (accepted_ == frame.bytes().data()) {
+        accepted_ = nullptr;
         return true;
     }
     return takes(frame, wire::SigningTime::from(now));
 }
 
-bool Signature::vouches(const wire::FrameView& frame, WallTime now) noexcept {
+bool Signature::accepts_early(const wire::FrameView& frame, WallTime now) noexcept {
     if (!accepts(frame, now)) return false;
-    vouched_ = frame.bytes().data();
+    accepted_ = frame.bytes().data();
     return true;
 }
 

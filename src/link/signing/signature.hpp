@@ -38,9 +38,9 @@ public:
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
     // Like `accepts`, for a frame whose bytes the link's parser will find again. `accepts` then does not treat that
     // second appearance as a replay.
-    [[nodiscard]] bool vouches(const wire::FrameView& frame, WallTime now) noexcept;
-    // Call it before the buffer with the vouched-for bytes is reused.
-    void forget_vouched() noexcept { vouched_ = nullptr; }
+    [[nodiscard]] bool accepts_early(const wire::FrameView& frame, WallTime now) noexcept;
+    // Call it before the buffer with these bytes is reused.
+    void forget_accepted() noexcept { accepted_ = nullptr; }
     // Returns the signed frame, in a buffer that is valid until the next call. Returns the original frame if it
     // cannot be signed: MAVLink 1, or an unknown id whose checksum matches no CRC_EXTRA.
     [[nodiscard]] wire::FrameView sign(const wire::FrameView& frame, const wire::MessageTable& table,
@@ -62,8 +62,8 @@ private:
     std::shared_ptr<KeyJudge> judge_;    // null without verify=
     std::optional<wire::Verifier> own_;  // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
-    // Start of the frame that `vouches` has already verified.
-    const std::uint8_t* vouched_ = nullptr;
+    // Start of the frame that `accepts_early` has already verified.
+    const std::uint8_t* accepted_ = nullptr;
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};
 };
 

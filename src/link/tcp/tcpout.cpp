@@ -107,7 +107,7 @@ SetupResult<void> TcpOut::finish() {
 
 // Tries the next address at once. After the last one it waits, then starts over; a name is resolved again.
 void TcpOut::fail(const SetupError& error) {
-    retry_.tell(error.text, "trying again");
+    retry_.report(error.text, "trying again");
     while (!addresses_.empty()) {
         const net::Address next = addresses_.back();
         addresses_.pop_back();
@@ -119,7 +119,7 @@ void TcpOut::fail(const SetupError& error) {
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting || peer.last_heard > up_since_;
     core_.news.set_down(peer, why);
-    if (lasted) retry_.begin_anew();
+    if (lasted) retry_.reset();
     retry_.later();
 }
 

@@ -17,14 +17,14 @@ bool UdpPeers::close(LinkId link) {
 // Returns true if the datagram proves that its sender is a MAVLink peer. With verify=, the proof is a good signature.
 // Without it, the proof is a good checksum of a defined message. Wrongly signed frames count in the endpoint's `gone`
 // sums.
-bool UdpPeers::vouched_for(const net::Datagram& datagram) {
+bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
     bool found = false;
     std::uint64_t refused = 0;
     stranger_.parse(datagram.bytes, [&](const wire::ParseEvent& event) {
         if (found || event.kind != wire::ParseEvent::Kind::frame) return;
-        found = verifies ? signature->vouches(event.frame, receive_time(datagram)) : event.info != nullptr;
+        found = verifies ? signature->accepts_early(event.frame, receive_time(datagram)) : event.info != nullptr;
         if (verifies && !found) ++refused;
     });
     if (!found) endpoint_.counters.gone.bad_signature.add(refused);
@@ -52,7 +52,7 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
         return nullptr;
     }
     if (!may_enter(*datagram.from)) return nullptr;
-    if (!vouched_for(datagram)) {
+    if (!is_from_a_peer(datagram)) {
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }

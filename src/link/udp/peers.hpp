@@ -40,7 +40,7 @@ public:
     // Returns the peer that sent the datagram. A new sender of a valid frame becomes a peer. Returns null for a new
     // sender without a valid frame, or if there is no room for another peer.
     [[nodiscard]] UdpPeer* of(UdpPort& port, const net::Datagram& datagram) {
-        if (endpoint_.signature) endpoint_.signature->forget_vouched();
+        if (endpoint_.signature) endpoint_.signature->forget_accepted();
         if (UdpPeer* peer = port.peers().find(*datagram.from)) return peer;
         return newcomer(port, datagram);
     }
@@ -56,7 +56,7 @@ private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
     [[nodiscard]] bool may_enter(const net::Address& sender);
-    [[nodiscard]] bool vouched_for(const net::Datagram& datagram);
+    [[nodiscard]] bool is_from_a_peer(const net::Datagram& datagram);
     [[nodiscard]] bool must_confirm(const net::Address& sender) const;
     [[nodiscard]] bool verifies() const;
     [[nodiscard]] bool make_room(const net::Address& newcomer);

@@ -99,7 +99,7 @@ void UdpMulticast::on_send_error(net::IoError error) {
 void UdpMulticast::on_timer(MonoTime now) {
     const bool heard = group_.last_heard != MonoTime{} && now - group_.last_heard < idle_;
     if (heard && !failing_) {
-        retry_.begin_anew();
+        retry_.reset();
         retry_.settle();
         retry_.after(group_.last_heard + idle_ - now);
     } else if (auto done = join(); !done) {

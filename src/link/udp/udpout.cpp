@@ -123,9 +123,10 @@ void UdpOut::on_send_error(net::IoError error) {
     if (!peer_) return;
     const bool refused = error == net::IoError::refused;
     if (!retry_.failing())
-        retry_.tell(peer_->address.text() + (refused ? " refuses (no program listens there yet)" : " cannot be reached"),
-                    "sending continues");
-    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.begin_anew();
+        retry_.report(
+            peer_->address.text() + (refused ? " refuses (no program listens there yet)" : " cannot be reached"),
+            "sending continues");
+    if (peer_->last_heard != MonoTime{} && core_.now() - peer_->last_heard < Retry::longest) retry_.reset();
     const bool choice = is_name_ || addresses_.size() > 1;
     if (choice && !retry_.within(Retry::longest)) retry_.later();
 }
@@ -137,7 +138,7 @@ void UdpOut::on_timer(MonoTime now) {
     const bool heard = peer_ && peer_->last_heard != MonoTime{} && now - peer_->last_heard < idle_;
     if (heard && now - peer_->last_heard < Retry::first) {
         retry_.settle();
-        retry_.begin_anew();
+        retry_.reset();
     } else if (retry_.failing() && current_ + 1 < addresses_.size()) {
         ++current_;
         if (auto done = aim_at(addresses_[current_]); !done) retry_.later();

@@ -26,7 +26,7 @@ Report add(Router& router, const std::string& url) {
     const auto endpoint = parse_router_endpoint(url);
     if (!endpoint) return failed(endpoint.error().text);
     if (const auto added = router.add(*endpoint); !added) return failed(added.error().text);
-    router.tell(config::LogLevel::info, endpoint->label() + ": added by ctl");
+    router.notify(config::LogLevel::info, endpoint->label() + ": added by ctl");
     return done();
 }
 
@@ -35,7 +35,7 @@ Report remove(Router& router, const std::string& name) {
     if (!router.remove(name))
         return failed(fmt::format(
             "there is no endpoint {}, and no link of that name that could be closed; `links` lists them", name));
-    router.tell(config::LogLevel::info, name + ": removed by ctl");
+    router.notify(config::LogLevel::info, name + ": removed by ctl");
     return done();
 }
 

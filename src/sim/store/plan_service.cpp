@@ -71,11 +71,13 @@ std::span<const MessageId> PlanService::handled() const noexcept { return plan_i
 
 void PlanService::receive(const Client& from, MessageId id, ByteView payload, Moment now) {
     const auto on_form = [&](const auto& m) { on_item(from, {item_of(m), m.seq, m.current, m.mission_type}, now); };
-    const auto on_wish = [&](const auto& m, bool is_int) { on_request(from, m.seq, m.mission_type, is_int, now); };
+    const auto on_item_request = [&](const auto& m, bool is_int) {
+        on_request(from, m.seq, m.mission_type, is_int, now);
+    };
     if (id == MissionItemInt::id) return on_form(MissionItemInt::decode(payload));
     if (id == MissionItem::id) return on_form(MissionItem::decode(payload));
-    if (id == MissionRequestInt::id) return on_wish(MissionRequestInt::decode(payload), true);
-    if (id == MissionRequest::id) return on_wish(MissionRequest::decode(payload), false);
+    if (id == MissionRequestInt::id) return on_item_request(MissionRequestInt::decode(payload), true);
+    if (id == MissionRequest::id) return on_item_request(MissionRequest::decode(payload), false);
     if (id == MissionCount::id) return on_count(from, MissionCount::decode(payload), now);
     if (id == MissionRequestList::id) return on_list(from, MissionRequestList::decode(payload).mission_type, now);
     if (id == MissionAck::id) return on_ack(from, payload, now);

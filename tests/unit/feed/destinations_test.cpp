@@ -51,7 +51,7 @@ TEST(Destinations, EachGetsEveryFrameOnceAndInOrder) {
     ASSERT_EQ(sut.files().size(), 1u);
     EXPECT_EQ(sut.files()[0].written_records(), 100u);
     EXPECT_FALSE(sut.lost_any());
-    EXPECT_FALSE(sut.reached_nobody());
+    EXPECT_FALSE(sut.reached_no_destination());
 }
 
 TEST(Destinations, FramesWithoutAPeerAreCountedAndReachNobody) {
@@ -63,7 +63,7 @@ TEST(Destinations, FramesWithoutAPeerAreCountedAndReachNobody) {
     EXPECT_EQ(sut.sent(), 0u);
     EXPECT_EQ(sut.deliveries().at(0).nobody_there, 3u);
     EXPECT_TRUE(sut.lost_any());
-    EXPECT_TRUE(sut.reached_nobody());
+    EXPECT_TRUE(sut.reached_no_destination());
 
     const auto peer = PlainSocket::connected_tcp(last_port(*node.links));
     ASSERT_TRUE(link::testing::until([&] { return sut.all_up(); }, node));
@@ -72,7 +72,7 @@ TEST(Destinations, FramesWithoutAPeerAreCountedAndReachNobody) {
     EXPECT_EQ(peer.read(), heartbeat(3));
     EXPECT_EQ(sut.deliveries().at(0).frames, 1u);
     EXPECT_TRUE(sut.lost_any());
-    EXPECT_FALSE(sut.reached_nobody());
+    EXPECT_FALSE(sut.reached_no_destination());
 }
 
 TEST(Destinations, OneThatRefusesLeavesTheOthers) {

@@ -53,7 +53,7 @@ struct Bench {
 
 void expect_complete(const RelayOutcome& outcome) {
     EXPECT_FALSE(outcome.is_incomplete);
-    EXPECT_FALSE(outcome.reached_nobody);
+    EXPECT_FALSE(outcome.reached_no_destination);
     EXPECT_FALSE(outcome.write_error) << outcome.write_error->text;
     EXPECT_FALSE(outcome.read_error) << outcome.read_error->text;
 }
@@ -146,7 +146,7 @@ TEST(Relay, ARecordingForWhichNobodyComesReachesNobody) {
     bench.send_to({"tcpin://127.0.0.1:0"});
     bench.handler.before_turn = [&] { return bench.handler.waits != 0; };
     const auto outcome = bench.run();
-    EXPECT_TRUE(outcome.reached_nobody);
+    EXPECT_TRUE(outcome.reached_no_destination);
     EXPECT_EQ(bench.destinations->given(), 0u);
 }
 
@@ -211,7 +211,7 @@ TEST(Relay, TheEndWaitsForAQueueThatIsFull) {
     sent = delivery.bytes;
     ASSERT_TRUE(reader.joinable());
     reader.join();
-    EXPECT_FALSE(outcome.reached_nobody);
+    EXPECT_FALSE(outcome.reached_no_destination);
     EXPECT_FALSE(delivery.lost_any());
     EXPECT_EQ(delivery.frames, bench.destinations->given());
     Bytes begin = frames_of(flight);

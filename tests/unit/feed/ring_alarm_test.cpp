@@ -86,7 +86,7 @@ TEST_F(RingAlarmTest, ItTellsOncePerArmingAndNotUnlessArmed) {
     EXPECT_TRUE(is_readable(ring.fd(), long_enough));
     for (int i = 0; i < 10; ++i) ring.write();
     // The alarm thread may finish with the ring before this returns, or later. It must not signal again.
-    ring.alarm().tell();
+    ring.alarm().signal();
     EXPECT_EQ(read_count(ring.fd()), 2u);
 }
 
@@ -151,7 +151,7 @@ TEST_F(RingAlarmTest, AForkedChildLeavesTheParentsAlarmAlone) {
     const pid_t child = ::fork();
     if (child == 0) {
         ring.alarm().arm();
-        ring.alarm().tell();
+        ring.alarm().signal();
         const bool told = is_readable(ring.fd());
         ring.destroy_alarm();
         ::_exit(told ? 1 : 0);

@@ -48,7 +48,7 @@ TEST(Turns, OneThreadAtATimeHasItsTurn) {
                 if (const auto lock = turns.try_take(); lock.owns_lock()) --guarded, ++guarded;
                 if (const auto lock = turns.take_until(mono_now() + long_enough); lock.owns_lock()) ++guarded;
                 else --round;  // after a slice: again
-                turns.give_way();
+                turns.yield_turn();
             }
         });
     for (auto& thread : threads) thread.join();
@@ -78,7 +78,7 @@ TEST(Turns, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
     });
     EXPECT_TRUE(eventually([&] {
         for (int slice = 0; slice < 100 && !had_turn; ++slice) {
-            turns.give_way();
+            turns.yield_turn();
             const auto lock = turns.take_until(MonoTime::max());
         }
         return had_turn.load();
@@ -88,10 +88,10 @@ TEST(Turns, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
 
 TEST(Turns, AGlanceNeverWaitsAndSeesWhetherTheTurnIsFree) {
     Turns turns;
-    EXPECT_TRUE(turns.glance([](bool is_free) { return is_free; }));
+    EXPECT_TRUE(turns.peek([](bool is_free) { return is_free; }));
     const auto held = turns.take();
     bool free = true;
-    std::thread([&] { free = turns.glance([](bool is_free) { return is_free; }); }).join();
+    std::thread([&] { free = turns.peek([](bool is_free) { return is_free; }); }).join();
     EXPECT_FALSE(free);
 }
 
@@ -99,17 +99,17 @@ TEST(Turns, AGlanceNeverWaitsAndSeesWhetherTheTurnIsFree) {
 TEST(Turns, WhoTriesLosesNoTurnToAGlance) {
     Turns turns;
     constexpr int enough = 20'000;
-    std::atomic<int> glances{0};
+    std::atomic<int> peeks{0};
     int guarded = 0;
     std::thread glancing([&] {
-        while (glances < enough)
-            glances += turns.glance([&](bool is_free) {
+        while (peeks < enough)
+            peeks += turns.peek([&](bool is_free) {
                 if (is_free) ++guarded;
                 return 1;
             });
     });
     int refused = 0;
-    while (glances < enough) {
+    while (peeks < enough) {
         {
             const auto lock = turns.try_take();
             if (lock.owns_lock()) --guarded;

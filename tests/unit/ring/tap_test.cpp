@@ -268,7 +268,7 @@ TEST(RingPage, KeepsTheNamesOfLinksThatWentWhileThereIsRoom) {
     constexpr std::uint32_t all = 6000;
     for (std::uint32_t id = 1; id <= all; ++id) {
         page->name_link(LinkId{id}, fmt::format("peer {}", id));
-        page->link_went(LinkId{id});
+        page->link_removed(LinkId{id});
     }
     page->name_link(LinkId{all + 1}, "who lives");
     const auto seen = shm::read_counters(name.text());
@@ -283,11 +283,11 @@ TEST(RingPage, ALinkThatComesAgainIsNotGone) {
     auto page = RingPage::create(name.text(), 0600);
     ASSERT_TRUE(page);
     page->name_link(LinkId{1}, "tcpout");
-    page->link_went(LinkId{1});
+    page->link_removed(LinkId{1});
     page->name_link(LinkId{1}, "tcpout");
     for (std::uint32_t id = 2; id <= 3000; ++id) {
         page->name_link(LinkId{id}, "peer");
-        page->link_went(LinkId{id});
+        page->link_removed(LinkId{id});
     }
     const auto seen = shm::read_counters(name.text());
     ASSERT_TRUE(seen);

@@ -31,11 +31,11 @@ struct RouterTest : testing::Test {
         const auto added = sut->add(endpoint_of(url));
         ASSERT_TRUE(added) << added.error().text;
     }
-    void become(const std::vector<std::string>& urls) {
+    void apply(const std::vector<std::string>& urls) {
         std::vector<endpoint::Endpoint> endpoints;
         for (const auto& url : urls) endpoints.push_back(endpoint_of(url));
         notices.clear();
-        sut->become(endpoints);
+        sut->apply(endpoints);
     }
     template <class Condition>
     bool until(Condition&& condition) {
@@ -104,7 +104,7 @@ TEST_F(RouterTest, AReloadTouchesOnlyWhatChanged) {
     ASSERT_TRUE(heard(vehicle, same, 1));
     ASSERT_TRUE(heard(station, changed, 255));
 
-    become({udpin(same), udpin(changed, "?in_block=ATTITUDE"), udpin(fresh)});
+    apply({udpin(same), udpin(changed, "?in_block=ATTITUDE"), udpin(fresh)});
 
     EXPECT_THAT(labels(), ElementsAre(udpin(same), udpin(changed), udpin(fresh)));
     EXPECT_THAT(link_ids(), ElementsAre(1)) << "the vehicle's link stays, the station has to call again";
@@ -117,7 +117,7 @@ TEST_F(RouterTest, WhatCannotBeOpenedIsLeftOutAndItsFormerSelfGoesOn) {
     const auto taken = PlainSocket::udp();
     add(udpin(port, "?name=air"));
 
-    become({udpin(taken.port(), "?name=air")});
+    apply({udpin(taken.port(), "?name=air")});
 
     EXPECT_THAT(labels(), ElementsAre("air"));
     EXPECT_THAT(notices, AllOf(Contains(HasSubstr("left out:")), Contains("air: continues with its former options")));
@@ -130,7 +130,7 @@ TEST_F(RouterTest, AnotherModeOfAGroupReopensAllItsMembers) {
     add(udpin(first, "?group=air&group_mode=all"));
     add(udpin(second, "?group=air"));
 
-    become({udpin(first, "?group=air&group_mode=best"), udpin(second, "?group=air")});
+    apply({udpin(first, "?group=air&group_mode=best"), udpin(second, "?group=air")});
 
     EXPECT_THAT(notices, AllOf(Contains(udpin(first) + ": removed"), Contains(udpin(second) + ": removed"),
                                Contains(udpin(first) + ": added"), Contains(udpin(second) + ": added")));
@@ -176,7 +176,7 @@ TEST_F(RouterTest, AReloadEndsRecordingsThatAreNotWantedAndKeepsTheOthers) {
     const auto kept = "tlog://" + (folder / "kept.tlog").string(), ended = "tlog://" + (folder / "ended.tlog").string();
     for (const auto& url : {udpin(port), kept, ended}) add(url);
 
-    become({udpin(port), kept});
+    apply({udpin(port), kept});
 
     EXPECT_THAT(notices, ElementsAre(ended + ": removed"));
     std::vector<std::string> open;

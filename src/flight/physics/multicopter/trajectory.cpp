@@ -67,10 +67,10 @@ void Trajectory::step_horizontal(const Setpoint& setpoint) {
         target_.position.head<2>().setConstant(nan);
         return;
     }
-    const Wish wish = horizontal_wish(setpoint);
-    const Vector2 error = wish.velocity - target_.velocity.head<2>();
+    const Demand demand = horizontal_demand(setpoint);
+    const Vector2 error = demand.velocity - target_.velocity.head<2>();
     const double size = error.norm();
-    Vector2 acceleration = wish.acceleration;
+    Vector2 acceleration = demand.acceleration;
     if (size > 1e-9) acceleration += error * (closing_speed(size, velocity_gain, jerk) / size);
     acceleration = limited(acceleration, setpoint.limits.acceleration);
     const Vector2 change = acceleration - target_.acceleration.head<2>();
@@ -79,10 +79,10 @@ void Trajectory::step_horizontal(const Setpoint& setpoint) {
     target_.position.head<2>() += target_.velocity.head<2>() * step_s;
 }
 
-Trajectory::Wish Trajectory::horizontal_wish(const Setpoint& setpoint) const {
+Trajectory::Demand Trajectory::horizontal_demand(const Setpoint& setpoint) const {
     const SpeedLimits& limits = setpoint.limits;
     if (has_horizontal(setpoint.position)) {
-        if (setpoint.steering == Steering::circle) return circle_wish(setpoint);
+        if (setpoint.steering == Steering::circle) return circle_demand(setpoint);
         const Vector2 way = setpoint.position.head<2>() - target_.position.head<2>();
         const double distance = way.norm();
         if (distance < 1e-6) return {};
@@ -96,7 +96,7 @@ Trajectory::Wish Trajectory::horizontal_wish(const Setpoint& setpoint) const {
 }
 
 // Straight to the circle, then around it: the speed that the way to the circle does not need goes around.
-Trajectory::Wish Trajectory::circle_wish(const Setpoint& setpoint) const {
+Trajectory::Demand Trajectory::circle_demand(const Setpoint& setpoint) const {
     const SpeedLimits& limits = setpoint.limits;
     const double radius = std::max(std::abs(setpoint.radius), 0.5), side = setpoint.radius < 0 ? -1 : 1;
     const Vector2 offset = target_.position.head<2>() - setpoint.position.head<2>();
@@ -114,7 +114,7 @@ Trajectory::Wish Trajectory::circle_wish(const Setpoint& setpoint) const {
 
 void Trajectory::step_vertical(const Setpoint& setpoint) {
     const double jerk = std::max(setpoint.limits.jerk, 0.5);
-    const double error = vertical_wish(setpoint) - target_.velocity.z();
+    const double error = vertical_demand(setpoint) - target_.velocity.z();
     const double acceleration = std::clamp(closing_speed(error, velocity_gain, jerk), -up_acceleration,
                                            down_acceleration);
     target_.acceleration.z() = moved_towards(target_.acceleration.z(), acceleration, jerk * step_s);
@@ -122,7 +122,7 @@ void Trajectory::step_vertical(const Setpoint& setpoint) {
     target_.position.z() += target_.velocity.z() * step_s;
 }
 
-double Trajectory::vertical_wish(const Setpoint& setpoint) const {
+double Trajectory::vertical_demand(const Setpoint& setpoint) const {
     const SpeedLimits& limits = setpoint.limits;
     double speed = 0;
     if (std::isfinite(setpoint.position.z())) {

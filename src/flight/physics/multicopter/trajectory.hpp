@@ -27,7 +27,7 @@ public:
 
 private:
     using Vector2 = Eigen::Vector2d;
-    struct Wish {
+    struct Demand {
         Vector2 velocity = Vector2::Zero(), acceleration = Vector2::Zero();
     };
 
@@ -37,9 +37,9 @@ private:
     void step_vertical(const Setpoint& setpoint);
     void step_yaw(const Setpoint& setpoint);
     void wait_for(const Vector3& vehicle);
-    [[nodiscard]] Wish horizontal_wish(const Setpoint& setpoint) const;
-    [[nodiscard]] Wish circle_wish(const Setpoint& setpoint) const;
-    [[nodiscard]] double vertical_wish(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand horizontal_demand(const Setpoint& setpoint) const;
+    [[nodiscard]] Demand circle_demand(const Setpoint& setpoint) const;
+    [[nodiscard]] double vertical_demand(const Setpoint& setpoint) const;
 
     MotionTarget target_;
 };
