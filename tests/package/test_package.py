@@ -141,6 +141,7 @@ def test_every_installed_header_stands_alone(installed, tmp_path):
     (tmp_path / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(headers LANGUAGES CXX)\nfind_package(mavloom REQUIRED)\n"
         "file(GLOB sources *.cpp)\nadd_library(headers OBJECT ${sources})\n"
+        "target_compile_options(headers PRIVATE -fsyntax-only)\n"
         "target_link_libraries(headers PRIVATE mavloom::router mavloom::feed mavloom::message)\n")
     call("cmake", "-S", tmp_path, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={installed}")
     call("cmake", "--build", tmp_path / "build", "-j", str(os.cpu_count()))
