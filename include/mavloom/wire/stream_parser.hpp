@@ -58,6 +58,14 @@ public:
         settled_ = true;
     }
 
+    // Decides what can be decided if no bytes follow soon: whole frames of unknown id, and junk that more junk may
+    // follow. An incomplete frame still waits, also if it holds back frames.
+    template <class Sink>
+    void settle(Sink&& sink) {
+        begin_ += scanner_.scan(pending(), detail::End::idle, sink);
+        scanner_.end_junk(sink);
+    }
+
     // Call it when the stream has ended (closed, end of file). The remaining bytes become frames or junk. The parser
     // can be fed again afterwards.
     template <class Sink>

@@ -22,7 +22,7 @@ namespace {
 class MavutilParser {
 public:
     explicit MavutilParser(const nb::object& dialect)
-        : origin_(std::make_shared<Origin>(dialect)), parser_(origin_->dialect().wire_table(), Nanoseconds{}) {}
+        : origin_(std::make_shared<Origin>(dialect)), parser_(origin_->dialect().wire_table()) {}
 
     // Returns a list of messages, and of (bytes, reason) for bytes that are no message.
     nb::list feed(const nb::object& data, std::int64_t time_ns) {
@@ -32,12 +32,8 @@ public:
         const auto bytes = buffer.bytes();
         left_.insert(left_.end(), bytes.begin(), bytes.end());
         const auto sink = [&](const wire::ParseEvent& event) { take(event, time_ns, made); };
-        parser_.feed(bytes, mono_now(), sink);
-        if (parser_.pending_bytes() == 0) {
-            parser_.finish(sink);
-        } else {
-            parser_.tick(mono_now(), sink);
-        }
+        parser_.feed(bytes, MonoTime{}, sink);
+        parser_.settle(sink);
         return made;
     }
 

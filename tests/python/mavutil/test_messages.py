@@ -322,6 +322,31 @@ def test_a_stream_is_parsed_as_by_pymavlink(chunk, mavlink, peer):
     assert found[0] == found[1]
 
 
+@pytest.mark.parametrize("chunk", [1, 3, 20, 60, 200])
+@pytest.mark.parametrize("start", [b"", b"junk"])
+def test_a_frame_within_a_frame_is_part_of_it(start, chunk, mavlink, peer):
+    inner = packer(peer, 9, 9).pack(peer.MAVLink_heartbeat_message(2, 3, 81, 4, 4, 3))
+    filled = list(inner.ljust(128, b"\7"))
+    outer = packer(peer).pack(peer.MAVLink_tunnel_message(0, 0, 0, 128, filled))
+    stream, found = start + outer + inner, []
+    for module in (peer, mavlink):
+        mav = module.MAVLink(None)
+        mav.robust_parsing = True
+        messages = [message for at in range(0, len(stream), chunk)
+                    for message in mav.parse_buffer(stream[at:at + chunk]) or []]
+        found.append([bytes(message.get_msgbuf()) for message in messages if message.get_type() != "BAD_DATA"])
+    assert found[0] == found[1] == [outer, inner]
+
+
+def test_junk_is_returned_before_the_frame_behind_it_is_whole(mavlink, peer):
+    frame = packer(peer).pack(peer.MAVLink_heartbeat_message(1, 2, 3, 4, 5, 3))
+    for module in (peer, mavlink):
+        mav = module.MAVLink(None)
+        mav.robust_parsing = True
+        assert bytes(mav.parse_char(b"junk" + frame[:5]).data) == b"junk"
+        assert mav.parse_char(frame[5:]).get_type() == "HEARTBEAT"
+
+
 def test_errors_and_bad_data(mavlink, peer):
     frame = packer(peer).pack(peer.MAVLink_heartbeat_message(1, 2, 3, 4, 5, 3))
     wrong = frame[:-1] + bytes([frame[-1] ^ 1])
