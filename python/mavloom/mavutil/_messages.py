@@ -213,7 +213,7 @@ class MAVLink_bad_data(MAVLink_message):
         return f"BAD_DATA {{{self.reason}, data:{hex_list(self.data)}}}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return MAVLink_bad_data, (self.data, self.reason)
+        return restore_bad_data, self._state()[2:5] + (self._extras(),)
 
 
 class MAVLink_unknown(MAVLink_message):
@@ -347,6 +347,13 @@ def make_init(dialect: Dialect, name: str, fields: list[FieldInfo]) -> Callable[
     exec(f"def __init__(self, {parameters(fields)}):\n    _start(self, _dialect, {name!r}, ({names}), False)\n", scope)
     made: Callable[..., None] = scope["__init__"]
     made.__qualname__ = f"MAVLink_{name.lower()}_message.__init__"
+    return made
+
+
+def restore_bad_data(frame: bytes, time_ns: int, link: int, extra: dict[str, Any]) -> MAVLink_bad_data:
+    """Restores a pickled or copied BAD_DATA."""
+    made = MAVLink_bad_data(extra["data"], extra["reason"])
+    made._restore(frame, time_ns, link, extra)
     return made
 
 

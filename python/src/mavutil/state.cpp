@@ -69,13 +69,10 @@ void MavutilState::note_sequence(const wire::FrameView& frame) {
 }
 
 void MavutilState::note_uptime(const MavutilMessage& message) {
-    const auto fields = message.base.definition->fields;
-    if (fields.empty()) return;
-    const auto& first = fields.front();
-    const bool is_boot = first.name == "time_boot_ms";
-    if (!is_boot && first.name != "usec") return;
+    const auto* clock = message.base.origin->definitions()->names(*message.base.definition).clock;
+    if (clock == nullptr) return;
     const message::MessageView view(*message.base.definition, message.payload());
-    uptime_s = view.number(first) * (is_boot ? 1e-3 : 1e-6);
+    uptime_s = view.number(*clock) * (clock->name == "usec" ? 1e-6 : 1e-3);
 }
 
 void MavutilState::add(const nb::dict& messages, const nb::object& message, const MavutilMessage& of) {

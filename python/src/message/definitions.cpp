@@ -205,7 +205,7 @@ Definitions::Definitions(dialect::Dialect dialect, std::string path)
     constexpr std::string_view of_header[] = {"frame", "id", "seq", "version"};
     names_.reserve(dialect_.messages().size());
     for (const auto& message : dialect_.messages()) {
-        Names names{interned(message.name), {}, {}, {}, {}};
+        Names names{interned(message.name), {}, {}, {}, {}, nullptr};
         set_item(names.unfilled, type_key_, names.message);
         for (const auto& field : message.fields) {
             names.fields.push_back(interned(field.name));
@@ -215,6 +215,7 @@ Definitions::Definitions(dialect::Dialect dialect, std::string path)
             const bool taken = !ambiguous && PyObject_HasAttr(message_type.ptr(), name.ptr()) != 0;
             names.attributes.push_back(taken ? nullptr : name.ptr());
             names.ambiguous.push_back(ambiguous);
+            if (field.name == "time_boot_ms" || (field.name == "usec" && names.clock == nullptr)) names.clock = &field;
         }
         names_.push_back(std::move(names));
     }

@@ -28,6 +28,8 @@ public:
         nb::dict unfilled;
         // Whether the attribute could mean the field as well as the frame's header: `frame`, `id`, `seq`, `version`.
         std::vector<bool> ambiguous;
+        // The sender's clock: the field `time_boot_ms`, else `usec`. Null if there is none.
+        const dialect::Field* clock = nullptr;
     };
 
     // `path` is the file that the dialect was read from; empty for the built-in dialect.
