@@ -161,8 +161,14 @@ class Connection:
         return b"" if message is None else bytes(message.get_msgbuf())
 
     def post_message(self, msg: MAVLink_message) -> None:
-        """Notes a message that the program received itself, and calls the hooks: with `recv` and `mav.parse_buffer`."""
-        if self._state.note(msg):
+        """Notes a message that the program received itself, and calls the hooks: with `recv` and `mav.parse_buffer`.
+
+        Does nothing for a message that was noted before.
+        """
+        concerns_connection = self._state.note(msg)
+        if concerns_connection is None:
+            return
+        if concerns_connection:
             self._notice(msg)
         for hook in self.message_hooks:
             hook(self, msg)

@@ -202,7 +202,7 @@ nb::object MavutilLog::match(const nb::object& owner, const MavutilTypes* types)
     for (;;) {
         nb::object message = next();
         if (!message.is_valid()) return nb::none();
-        if (state_.note(message)) owner.attr("_notice")(message);
+        if (state_.note(message).value_or(false)) owner.attr("_notice")(message);
         if (types == nullptr || types->takes(*mavutil_message(message))) return message;
     }
 }
@@ -286,7 +286,7 @@ nb::dict MavutilLog::index(const nb::object& owner, const nb::object& progress) 
     for (const auto& first : index.firsts) {
         const nb::object message = make_mavutil_message(origin_, first.definition, first.time_ns, 0,
                                                         wire::FrameView::unchecked(first.frame), 0);
-        if (!first.is_instance && state_.note(message)) owner.attr("_notice")(message);
+        if (!first.is_instance && state_.note(message).value_or(false)) owner.attr("_notice")(message);
         state_.add_to_target(message);
     }
     nb::dict names;

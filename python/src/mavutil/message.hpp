@@ -38,6 +38,7 @@ struct MavutilMessage {
     Message base;      // size 0: made by the user and not packed yet
     nb::object extra;  // a dict of the attributes that were set; null if none were
     bool hides_extensions = false;
+    bool is_noted = false;  // by a connection
 
     [[nodiscard]] ByteView payload() const noexcept { return base.size == 0 ? ByteView() : base.frame().payload(); }
     // The fields that `to_dict` and text show.

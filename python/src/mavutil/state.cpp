@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "mavutil/state.hpp"
 
+#include <nanobind/stl/optional.h>
+
+#include <utility>
+
 #include "bindings.hpp"
 #include "errors.hpp"
+#include "mavloom/base/clock.hpp"
 #include "mavloom/feed/instance.hpp"
 #include "mavloom/feed/vehicle.hpp"
 #include "mavloom/message/view.hpp"
@@ -29,6 +34,13 @@ bool is_from_vehicle(const wire::FrameView& frame) noexcept {
     return feed::is_vehicle(summary.type, summary.autopilot);
 }
 
+nb::object instance_value(const nb::object& message, const MavutilMessage& of, const dialect::Field& field) {
+    if (of.base.size == 0) return nb::getattr(message, nb::str(field.name.data(), field.name.size()));
+    auto value = nb::steal(value_of(*of.base.definition, of.payload(), field, TextForm::ascii));
+    if (!value.is_valid()) throw nb::python_error();
+    return value;
+}
+
 nb::object name_of_instance(const nb::object& name, const nb::object& value) {
     auto text = nb::steal(PyUnicode_FromFormat("%U[%S]", name.ptr(), value.ptr()));
     if (!text.is_valid()) throw nb::python_error();
@@ -43,29 +55,39 @@ nb::dict MavutilState::messages(std::uint8_t system) {
     return nb::borrow<nb::dict>(messages);
 }
 
-bool MavutilState::note(const nb::object& message) {
-    const auto* given = mavutil_message(message);
+std::optional<bool> MavutilState::note(const nb::object& message) {
+    auto* given = mavutil_message(message);
     if (given == nullptr) raise_usage("not a message of mavloom.mavutil");
+    if (std::exchange(given->is_noted, true)) return std::nullopt;
+    if (given->base.time_ns == 0) given->base.time_ns = wall_now().time_since_epoch().count();
     time_ns = given->base.time_ns;
-    if (given->base.size == 0 || given->base.definition == nullptr) return true;
+    if (given->base.definition == nullptr) return true;
+    if (given->base.size == 0) return note_made(message, *given);
     const auto frame = given->base.frame();
     if (target == 0 && is_from_vehicle(frame)) target = frame.system().value;
     add(messages(frame.system().value), message, *given);
     if (frame.source() == radio) add_to_all(message, *given);
     note_uptime(*given);
-    if (frame.source() != radio) note_sequence(frame);
+    if (frame.source() != radio) note_sequence(frame.source(), frame.sequence());
     return concerns_connection(frame.id());
 }
 
-void MavutilState::note_sequence(const wire::FrameView& frame) {
+// A message that the program made has source 0 and sequence number 0.
+bool MavutilState::note_made(const nb::object& message, const MavutilMessage& of) {
+    add(messages(0), message, of);
+    note_sequence({}, 0);
+    return concerns_connection(of.base.definition->id());
+}
+
+void MavutilState::note_sequence(Source source, std::uint8_t sequence) {
     ++count;
-    if (last_ == sequences_.end() || last_->first != frame.source()) {
-        const auto [place, is_new] = sequences_.try_emplace(frame.source(), frame.sequence());
+    if (last_ == sequences_.end() || last_->first != source) {
+        const auto [place, is_new] = sequences_.try_emplace(source, sequence);
         last_ = place;
         if (is_new) return;
     }
-    loss += static_cast<std::uint8_t>(frame.sequence() - last_->second - 1);
-    last_->second = frame.sequence();
+    loss += static_cast<std::uint8_t>(sequence - last_->second - 1);
+    last_->second = sequence;
 }
 
 void MavutilState::note_uptime(const MavutilMessage& message) {
@@ -91,8 +113,7 @@ void MavutilState::add_to_all(const nb::object& message, const MavutilMessage& o
 void MavutilState::add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
                                    const dialect::Field& instance) {
     const auto& name = of.base.origin->definitions()->names(*of.base.definition).message;
-    const nb::object value = nb::steal(value_of(*of.base.definition, of.payload(), instance, TextForm::ascii));
-    if (!value.is_valid()) throw nb::python_error();
+    const nb::object value = instance_value(message, of, instance);
     const nb::object previous = nb::borrow(PyDict_GetItem(messages.ptr(), name.ptr()));
     nb::object instances = previous.is_valid() ? nb::getattr(previous, instances_key_, nb::none()) : nb::none();
     if (!nb::isinstance<nb::dict>(instances)) instances = nb::dict();  // a program may set the attribute
@@ -124,7 +145,8 @@ void bind_mavutil_state(nb::module_& module) {
                              "What a connection of mavloom.mavutil remembers of the messages that it has read.")
         .def(nb::init<nb::object>(), nb::arg("messages_of"),
              nb::sig("def __init__(self, messages_of: collections.abc.Callable[[int], dict[str, typing.Any]]) -> None"))
-        .def("note", &MavutilState::note, nb::arg("message"))
+        .def("note", &MavutilState::note, nb::arg("message"),
+             nb::sig("def note(self, message: MavutilMessage) -> bool | None"))
         .def("messages", &MavutilState::messages, nb::arg("system"),
              nb::sig("def messages(self, system: int) -> dict[str, typing.Any]"))
         .def_prop_ro("last_sequences", &MavutilState::last_sequences,

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 
 #include "mavutil/message.hpp"
 
@@ -19,8 +20,9 @@ public:
     explicit MavutilState(nb::object messages_of) : messages_of_(std::move(messages_of)) {}
 
     // Notes a message. The first vehicle becomes the target. Returns true if the connection must look at it as well: a
-    // heartbeat, a summary (HIGH_LATENCY2), a parameter, a GPS position or a message without definition.
-    bool note(const nb::object& message);
+    // heartbeat, a summary (HIGH_LATENCY2), a parameter, a GPS position or a message without definition. Returns
+    // nullopt and does nothing if a connection has noted it before.
+    std::optional<bool> note(const nb::object& message);
     // Adds a message to those of the target, whatever its sender. Counts nothing.
     void add_to_target(const nb::object& message);
 
@@ -41,7 +43,8 @@ private:
     void add_to_all(const nb::object& message, const MavutilMessage& of);
     void add_instance_of(const nb::dict& messages, const nb::object& message, const MavutilMessage& of,
                          const dialect::Field& instance);
-    void note_sequence(const wire::FrameView& frame);
+    bool note_made(const nb::object& message, const MavutilMessage& of);
+    void note_sequence(Source source, std::uint8_t sequence);
     void note_uptime(const MavutilMessage& message);
 
     nb::object messages_of_;
