@@ -233,8 +233,8 @@ def evaluate_expression(expression: str, vars: Names, nocondition: bool = False)
     """Returns the value of an expression over `vars`, which maps the names of messages to messages.
 
     With a condition in braces, `ATTITUDE.roll{MAV.armed}`, the value is None while that is false. The value is also
-    None if the expression names a message that is not in `vars`, or divides by zero. Raises UsageError, with the place,
-    for text that is no expression or does what a condition must not do.
+    None if the expression names a message that is not in `vars`, or an instance that has not arrived, or divides by
+    zero. Raises UsageError, with the place, for text that is no expression or does what a condition must not do.
     """
     if not isinstance(expression, str):
         raise UsageError(f"a condition is text, such as 'ATTITUDE.roll > 0.1', not {expression!r:.60}; the recv_match "
@@ -247,9 +247,9 @@ def evaluate_expression(expression: str, vars: Names, nocondition: bool = False)
     evaluator = compiled(expression)
     try:
         return evaluator(vars)
-    except (Unknown, ZeroDivisionError):
+    except (Unknown, ZeroDivisionError, IndexError):
         return None
-    except (AttributeError, IndexError, KeyError, OverflowError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
         if isinstance(error, UsageError):
             raise
         raise UsageError(f"condition {shown(expression)}: {error}") from error

@@ -141,12 +141,20 @@ class mavmmaplog(mavlogfile):
         self._flightmodes: list[tuple[str, float, float]] | None = None
         assert self._log_file is not None
         self._counts: dict[str, int] = self._log_file.index(self, progress_callback)
+        self._forget_indexed_instances()
         self._change_version()
         for state in self.sysid_state.values():
             state.flightmode = "UNKNOWN"
         self.data_len = self.filesize
         self.name_to_id = {name: self.mav._dialect[name].id for name in self._counts}
         self.id_to_name = {number: name for name, number in self.name_to_id.items()}
+
+    def _forget_indexed_instances(self) -> None:
+        """Conditions see an instance, except for the first one of a message, only after it was read."""
+        for message in self.messages.values():
+            instances = getattr(message, "_instances", None) or {}
+            for instance in list(instances)[1:]:
+                del instances[instance]
 
     @property
     def counts(self) -> dict[int, int]:
