@@ -33,6 +33,7 @@ class mavlive(mavfile):
         self._held: deque[MAVLink_message] = deque()  # read when the descriptor was armed
         self.link = self._open(url)
         self._reader: Any = self.link._reader
+        self.link._reader = self.link.subscribe()  # of native messages, for the link's own methods
 
     def _open(self, url: str) -> Link:
         return Link(url, dialect=self.mav._dialect)

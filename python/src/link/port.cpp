@@ -41,13 +41,16 @@ class Port {
 public:
     Port(const std::string& url, const Integer& system, const Integer& component, const nb::object& dialect,
          const Integer& buffer, const Integer& version)
-        : origin_(std::make_shared<Origin>(dialect)),
+        : origin_(std::make_shared<Origin>(definitions_of(dialect))),
           source_{sender_system(system), sender_component(component)},
           version_(version_of("version", version)) {
         const auto endpoint = endpoint_of(url);
         feed_ = feed_of(endpoint, buffer.in<std::size_t>("buffer", 0, feed::FrameRing::max_capacity));
-        // The reader must exist before anything can arrive.
-        reader_ = nb::cast(new Subscription(feed_, {}), nb::rv_policy::take_ownership);
+        // The reader must exist before anything can arrive. For mavloom.mavutil, it alone returns messages of that
+        // style.
+        auto read = feed_;
+        if (auto style = style_of(dialect)) read.origin = std::make_shared<Origin>(*origin_, std::move(style));
+        reader_ = nb::cast(new Subscription(read, {}), nb::rv_policy::take_ownership);
         auto opened = [&]() -> SetupResult<feed::Hub::Opened> {
             const WithoutGil outside;
             auto hub = feed::Hub::get();

@@ -24,6 +24,9 @@ public:
         : definitions_(std::move(definitions)), style_(std::move(style)) {}
     // Of an argument `dialect`.
     explicit Origin(const nb::object& dialect) : Origin(definitions_of(dialect), style_of(dialect)) {}
+    // Of the same definitions and links as `other`, with another style.
+    Origin(const Origin& other, std::shared_ptr<MavutilStyle> style)
+        : definitions_(other.definitions_), style_(std::move(style)), link_names_(other.link_names_) {}
 
     [[nodiscard]] const std::shared_ptr<const Definitions>& definitions() const noexcept { return definitions_; }
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return definitions_->dialect(); }
