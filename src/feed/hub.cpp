@@ -156,6 +156,15 @@ EndpointStats Hub::close(link::EndpointId endpoint) {
     return stats;
 }
 
+std::size_t Hub::queued_bytes(link::EndpointId endpoint) {
+    std::size_t bytes = 0;
+    calls_->call([&] {
+        send_queued();
+        bytes = links_->queued_bytes(endpoint);
+    });
+    return bytes;
+}
+
 bool Hub::send(link::EndpointId endpoint, const wire::FrameView& frame) {
     const auto put = outbox_->put(endpoint, frame);
     if (put == Outbox::Put::first) links_->wake();

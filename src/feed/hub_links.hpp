@@ -32,6 +32,7 @@ public:
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
     [[nodiscard]] EndpointStats stats(link::EndpointId endpoint);
+    [[nodiscard]] std::size_t queued_bytes(link::EndpointId endpoint) { return links().queued_bytes(endpoint); }
 
     // Returns success if the far side was reached, and the error if it was not. Returns nullopt while the outcome is
     // unknown.

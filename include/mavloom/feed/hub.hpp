@@ -73,6 +73,8 @@ public:
     // Queues a copy of the frame for every peer of the endpoint. Waits while too many frames are queued. Returns false
     // if the loop thread has ended.
     bool send(link::EndpointId endpoint, const wire::FrameView& frame);
+    // Bytes that were sent to the endpoint and not yet handed to the kernel.
+    [[nodiscard]] std::size_t queued_bytes(link::EndpointId endpoint);
 
 private:
     explicit Hub(Sources sources);

@@ -20,6 +20,10 @@ from ._urls import Target, host_and_port
 SIGNAL = (1).to_bytes(8, sys.byteorder)  # what makes an eventfd readable
 PYMAVLINK_GROUP = "239.255.145.50"
 FRAMES_APART = "mtu=0"  # each frame in a datagram of its own
+ENDLESS = "1000h"
+KEEP_ALL = f"queue_age={ENDLESS}&queue_bytes=64MiB"  # a full queue makes the sender wait, so nothing is dropped
+MOST_QUEUED_BYTES = 4096  # of a serial device
+ROOM_PAUSE_S = 0.005
 
 
 class mavlive(mavfile):
@@ -229,15 +233,26 @@ class mavtcpin(mavlive):
 
 
 class mavserial(mavlive):
-    """A serial device. It is opened again when it was unplugged."""
+    """A serial device. It is opened again when it was unplugged. Sending waits for a slow line, as in pymavlink."""
 
     def __init__(self, device: str, baud: int = 115200, autoreconnect: bool = False, source_system: int = 255,
                  source_component: int = 0, use_native: bool = False, force_connected: bool = False) -> None:
         self.device = device
         self.baud = baud
         self.autoreconnect = autoreconnect
+        self._room = 0  # bytes that may be sent before the queue is examined again
         required = "false" if autoreconnect or force_connected else "true"
-        super().__init__(f"serial://{device}?baud={baud}&required={required}", device, source_system, source_component)
+        super().__init__(f"serial://{device}?baud={baud}&required={required}&{KEEP_ALL}", device, source_system,
+                         source_component)
+
+    def write(self, buf: bytes) -> None:
+        """Sends whole frames. Returns when all but the last 4 KiB are with the driver."""
+        super().write(buf)
+        self._room -= len(buf)
+        while self._room < 0 and not self._closed:
+            self._room = MOST_QUEUED_BYTES - self.link._port.queued_bytes
+            if self._room < 0:
+                time.sleep(ROOM_PAUSE_S)
 
     def set_baudrate(self, baudrate: int) -> None:
         """Refused: the link's thread owns the device."""

@@ -152,6 +152,14 @@ public:
         return stats;
     }
 
+    // Bytes of frames that were sent and not yet handed to the kernel; 0 for a closed link.
+    [[nodiscard]] std::size_t queued_bytes() {
+        fork_.check();
+        const WithoutGil outside;
+        const std::lock_guard lock(mutex_);
+        return hub_ ? hub_->queued_bytes(opened_.endpoint) : 0;
+    }
+
     // Records every frame that arrives, until the recorder or the link is closed.
     nb::object record(const nb::object& path) {
         check();
@@ -287,6 +295,7 @@ void bind_link(nb::module_& module) {
         .def_prop_rw("sequence", &Port::sequence, &Port::set_sequence, nb::for_setter(nb::arg().none()),
                      nb::for_setter(nb::sig("def sequence(self, value: int, /) -> None")))
         .def_prop_ro("stats", &Port::stats)
+        .def_prop_ro("queued_bytes", &Port::queued_bytes)
         .def_prop_ro("reader", &Port::reader, nb::sig("def reader(self) -> Subscription"))
         .def_prop_ro("dialect", &Port::dialect)
         .def_prop_ro("name", &Port::name)
