@@ -114,8 +114,9 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     "/dev/ttyACM0,57600", or the path of a recording. An endpoint of ours ("udpin://...", docs/guide/endpoints.md)
     works as well.
 
-    These have no meaning here and are accepted: use_native, udp_timeout, zero_time_base, robust_parsing of live
-    connections.
+    `udpin:` and `udpbcast:` forget a program that was silent for `udp_timeout` seconds; 0: never.
+
+    These have no meaning here and are accepted: use_native, zero_time_base, robust_parsing of live connections.
     """
     global mavfile_global
     _check(source_system, source_component, opts)
@@ -125,7 +126,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     if target.kind != "file":
         mavfile_global = _live.open_target(target, (source_system, source_component), {
             "baud": baud, "input": input, "autoreconnect": autoreconnect, "retries": retries,
-            "reconnect_delay": reconnect_delay, "force_connected": force_connected})
+            "reconnect_delay": reconnect_delay, "force_connected": force_connected, "udp_timeout": udp_timeout})
     elif write or append or notimestamps or planner_format:
         mavfile_global = mavlogfile(target.rest, planner_format, write, append, robust_parsing, notimestamps,
                                     source_system, source_component)

@@ -164,14 +164,25 @@ def frame_length(data: bytes) -> int:
 
 
 class mavudp(mavlive):
-    """A UDP socket: `input` binds and answers those that it hears; else it sends to the address."""
+    """A UDP socket: `input` binds and answers those that it hears; else it sends to the address.
+
+    A program that it hears gets everything from then on. It is forgotten after `timeout` seconds of silence; 0: never.
+    """
 
     def __init__(self, device: str, input: bool = True, broadcast: bool = False, source_system: int = 255,
                  source_component: int = 0, use_native: bool = False, timeout: float = 0) -> None:
         host, port = host_and_port(device, "UDP", "0.0.0.0" if input else "127.0.0.1")
         scheme = "udpin" if input else "udpbcast" if broadcast else "udpout"
-        shared = "&reuse=true" if input else ""
-        super().__init__(f"{scheme}://{host}:{port}?{FRAMES_APART}{shared}", device, source_system, source_component)
+        options = FRAMES_APART + ("&reuse=true" if input else "")
+        if scheme != "udpout":
+            options += f"&trusted=true&idle={idle_of(timeout)}"
+        super().__init__(f"{scheme}://{host}:{port}?{options}", device, source_system, source_component)
+
+
+def idle_of(timeout: float) -> str:
+    """The endpoint's option `idle` for a timeout in seconds."""
+    milliseconds = round(seconds(max(timeout, 0), "udp_timeout") * 1000)
+    return f"{max(milliseconds, 1)}ms" if timeout > 0 else ENDLESS
 
 
 class mavmcast(mavlive):
@@ -268,11 +279,10 @@ def open_target(target: Target, source: tuple[int, int], options: dict[str, Any]
     """Opens what a connection string names."""
     system, component = source
     if target.kind == "udp":
-        return mavudp(target.rest, input=options["input"], source_system=system, source_component=component)
-    if target.kind == "udpin":
-        return mavudp(target.rest, True, source_system=system, source_component=component)
-    if target.kind in ("udpout", "udpbcast"):
-        return mavudp(target.rest, False, target.kind == "udpbcast", system, component)
+        return mavudp(target.rest, options["input"], False, system, component, timeout=options["udp_timeout"])
+    if target.kind in ("udpin", "udpout", "udpbcast"):
+        return mavudp(target.rest, target.kind == "udpin", target.kind == "udpbcast", system, component,
+                      timeout=options["udp_timeout"])
     if target.kind == "mcast":
         return mavmcast(target.rest, system, component)
     if target.kind == "tcp":

@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Opening live connections of mavloom.mavutil, and what they count, against pymavlink's."""
 import contextlib
+import os
+import shutil
 import socket
+import subprocess
+import sys
+import threading
 import time
+import tty
 
 import pytest
 
@@ -172,6 +178,148 @@ def test_a_port_of_another_program_is_in_use(module):
         with pytest.raises(OSError) as caught:
             module.mavlink_connection(f"udpin:127.0.0.1:{other.getsockname()[1]}")
     assert caught.value.errno == 98
+
+
+# ---- programs that a UDP port has heard
+
+def test_nobody_is_forgotten_by_default(module):
+    """pymavlink's sockets keep each address for ever."""
+    connection = module.mavlink_connection("udpin:127.0.0.1:0")
+    if module is mavutil:
+        assert "&trusted=true&idle=1000h" in connection.url
+    else:
+        assert connection.timeout == 0
+    connection.port.close()
+
+
+@pytest.mark.parametrize("timeout, idle", [(5, "5000ms"), (0.25, "250ms"), (0, "1000h"), (-1, "1000h")])
+@pytest.mark.parametrize("kind", ["udp", "udpin", "udpbcast"])
+def test_the_timeout_is_that_of_the_endpoint(kind, timeout, idle):
+    connection = mavutil.mavlink_connection(f"{kind}:127.0.0.1:{free_udp_port()}", udp_timeout=timeout)
+    assert connection.url.endswith(f"&trusted=true&idle={idle}")
+    connection.close()
+
+
+def test_a_silent_program_is_forgotten_while_another_one_speaks(module, peer):
+    connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_udp_port()}", udp_timeout=0.3)
+    silent, other = (Vehicle(peer, connection.port.getsockname()[1], system=system) for system in (1, 2))
+    silent.send(silent.heartbeat())
+    assert connection.wait_heartbeat(timeout=DEADLINE_S) is not None
+    connection.mav.heartbeat_send(6, 8, 0, 0, 0)
+    assert silent.receive()
+    silent.socket.settimeout(0.1)
+
+    def is_forgotten():
+        other.send(other.heartbeat())
+        connection.wait_heartbeat(timeout=DEADLINE_S)
+        connection.mav.heartbeat_send(6, 8, 0, 0, 0)
+        try:
+            return not silent.receive()
+        except TimeoutError:
+            return True
+    until(is_forgotten)
+    assert other.receive()
+    connection.port.close()
+
+
+# Prints how many of 50 messages get to a program on another address that spoke once.
+LISTENER = """
+import socket, subprocess
+import pymavlink.dialects.v20.common as peer
+from mavloom import mavutil
+for words in ("link set lo up", "address add 10.1.1.1/32 dev lo", "address add 10.1.1.2/32 dev lo"):
+    subprocess.run(["ip", *words.split()], check=True)
+connection = mavutil.mavlink_connection("udpin:0.0.0.0:14550")
+listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+listener.bind(("10.1.1.2", 0))
+beat = peer.MAVLink_heartbeat_message(2, 3, 81, 4, 4, 3).pack(peer.MAVLink(None, 1, 1))
+listener.sendto(beat, ("10.1.1.1", 14550))
+connection.wait_heartbeat(timeout=60)
+for _ in range(50):
+    connection.mav.heartbeat_send(6, 8, 0, 0, 0)
+connection.close()
+listener.setblocking(False)
+count = 0
+try:
+    while listener.recv(999):
+        count += 1
+except BlockingIOError:
+    print(count)
+"""
+
+
+@pytest.mark.skipif(os.geteuid() != 0 or not shutil.which("unshare") or not shutil.which("ip"),
+                    reason="addresses of its own need root, unshare and ip")
+def test_a_program_that_spoke_once_gets_everything(child_environment):
+    done = subprocess.run(["unshare", "--net", sys.executable, "-c", LISTENER], env=child_environment,
+                          capture_output=True, text=True, timeout=DEADLINE_S)
+    if "unshare" in done.stderr:
+        pytest.skip(done.stderr)
+    assert (done.stdout, done.stderr) == ("50\n", "")
+
+
+# ---- slow serial lines
+
+def test_sending_waits_for_a_slow_serial_line(module, peer):
+    """Telemetry that was sent more than a second ago is not dropped."""
+    ours, device = os.openpty()
+    for end in (ours, device):
+        tty.setraw(end)
+    connection = module.mavlink_connection(os.ttyname(device), baud=57600)
+    frames = 6000  # more bytes than the kernel keeps
+
+    def send():
+        for number in range(frames):
+            connection.mav.attitude_send(number, 0, 0, 0, 0, 0, 0)
+    threading.Thread(target=send, daemon=True).start()
+    time.sleep(1.5)
+    parser, got = peer.MAVLink(None), []
+    while len(got) < frames:
+        got += parser.parse_buffer(os.read(ours, 4096)) or []
+    assert [message.time_boot_ms for message in got] == list(range(frames))
+    connection.close()
+    os.close(ours)
+    os.close(device)
+
+
+def test_closing_ends_the_wait_of_a_sender():
+    ours, device = os.openpty()
+    for end in (ours, device):
+        tty.setraw(end)
+    connection = mavutil.mavlink_connection(os.ttyname(device))
+    ended = threading.Event()
+
+    def send():
+        while not connection._closed:
+            connection.mav.statustext_send(6, b"x" * 50)
+        ended.set()
+    threading.Thread(target=send, daemon=True).start()
+    until(lambda: connection.link._port.queued_bytes > 4096)
+    connection.close()
+    assert ended.wait(DEADLINE_S)
+    os.close(ours)
+    os.close(device)
+
+
+# ---- the native link
+
+def test_the_link_of_a_connection_returns_native_messages(peer):
+    connection = mavutil.mavlink_connection("udpin:127.0.0.1:0")
+    vehicle = Vehicle(peer, connection.link.port)
+    messages = connection.link.subscribe("HEARTBEAT")
+    vehicle.send(peer.MAVLink_heartbeat_message(2, 3, 81, 4, 4, 3))
+    read = connection.wait_heartbeat(timeout=DEADLINE_S)
+    latest, subscribed = connection.link.latest("HEARTBEAT"), messages.recv(timeout=DEADLINE_S)
+    assert isinstance(read, mavutil.mavlink.MAVLink_message)
+    assert type(latest) is type(subscribed) is mavloom.Message and latest["custom_mode"] == subscribed.custom_mode == 4
+    own = [connection.link.recv(timeout=DEADLINE_S), connection.link.recv(timeout=0)]
+    assert type(own[0]) is mavloom.Message and own[1] is None and connection.link.stats.missed == 0
+    assert latest.link_name == subscribed.link_name and latest.link_name
+    assert connection.link.vehicle(system=1).mode == "GUIDED"
+    vehicle.send(vehicle.heartbeat())
+    assert type(connection.link.wait_heartbeat(timeout=DEADLINE_S)) is mavloom.Message
+    assert connection.link.forward(latest) == 1 and vehicle.receive()[0].custom_mode == 4
+    connection.close()
 
 
 # ---- damage
