@@ -49,7 +49,7 @@ class Connection:
         self.idle_hooks: list[Callable[[Any], object]] = []
         self.logfile: BinaryIO | None = None
         self.logfile_raw: BinaryIO | None = None
-        self._records = False
+        self._opened: list[BinaryIO] = []  # by setup_logfile()
         self.sysid_state = Systems()
         self._state = MavutilState(self.sysid_state.messages_of)
         self._types: dict[Any, MavutilTypes] = {}
@@ -85,9 +85,8 @@ class Connection:
         raise UsageError(f"{self.address}: nothing can be sent here")
 
     def close(self) -> None:
-        for file in (self.logfile, self.logfile_raw):
-            if file is not None:
-                file.close()
+        for file in self._opened:
+            file.close()
 
     def __enter__(self) -> Any:
         return self
@@ -178,7 +177,7 @@ class Connection:
             message = self.mav._checked(message)
         if self.mav.callback is not None:
             self.mav.callback(message, *self.mav.callback_args, **self.mav.callback_kwargs)
-        if self._records:
+        if self.logfile is not None or self.logfile_raw is not None:
             self._log(message)
         self.post_message(message)
         return message
@@ -346,12 +345,12 @@ class Connection:
     def setup_logfile(self, logfile: str | os.PathLike[str], mode: str = "wb") -> None:
         """Records every message that is read from now on, in the tlog format."""
         self.logfile = open_to_write(logfile, mode)
-        self._records = True
+        self._opened.append(self.logfile)
 
     def setup_logfile_raw(self, logfile: str | os.PathLike[str], mode: str = "wb") -> None:
         """Records the bytes of every message that is read from now on, without times."""
         self.logfile_raw = open_to_write(logfile, mode)
-        self._records = True
+        self._opened.append(self.logfile_raw)
 
     def _log(self, message: MAVLink_message) -> None:
         frame = bytes(message.get_msgbuf())

@@ -83,8 +83,8 @@ class mavlogfile(mavfile):
                    timeout: float | None = None) -> Any:
         """Returns the next message of these types for which the condition is true; None at the end."""
         mav, match = self.mav, self._match
-        if (match is None or not self.stop_on_EOF or self.idle_hooks or self.message_hooks or self._records
-                or mav.callback is not None or mav.signing.secret_key is not None):
+        if (match is None or not self.stop_on_EOF or self.message_hooks or self.logfile is not None
+                or self.logfile_raw is not None or mav.callback is not None or mav.signing.secret_key is not None):
             return super().recv_match(condition, type, blocking and not self.stop_on_EOF, timeout)
         types = None if type is None else self._types_of(type)
         message = match(self, types)
