@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import select
 import struct
 import time
 from collections.abc import Callable, Iterable
@@ -13,7 +14,7 @@ from .._core import MavutilState, MavutilTypes, hides_extensions, is_vehicle
 from .._errors import UsageError
 from . import _current
 from ._conditions import evaluate_condition
-from ._messages import MAVLink_bad_data, MAVLink_message, as_bytes
+from ._messages import MAVLink_message, as_bytes
 from ._protocol import signing_time
 from ._state import Systems, mavfile_state, param_state
 
@@ -22,17 +23,26 @@ if TYPE_CHECKING:
 
 POSITION_FIX = 3  # GPS_FIX_TYPE: in three dimensions
 ARMED = 128  # MAV_MODE_FLAG
-IDLE_HOOKS_PAUSE_S = 0.05
+LONGEST_PAUSE_S = 0.05  # between two calls of idle hooks, and of `recv` of a program's own class
+LONGEST_SLEEP_S = 0.5  # of `select` without a descriptor
 LONGEST_WAIT_S = 1_000_000
 
 Types = str | Iterable[str] | None
 
 
 class Connection:
-    """One source of messages, and the way back to it. The class mavfile adds the services of vehicles."""
+    """One source of messages, and the way back to it. The class mavfile adds the services of vehicles.
 
-    def __init__(self, address: str, source_system: int = 255, source_component: int = 0,
-                 notimestamps: bool = False) -> None:
+    A program's own class of connections derives from mavfile and defines `recv`, `write` and `close`. `fd`, if there is
+    one, is the descriptor that `select` waits for.
+    """
+
+    fd: Any = None
+
+    def __init__(self, fd: int | None, address: str, source_system: int = 255, source_component: int = 0,
+                 notimestamps: bool = False, input: bool = True, use_native: bool = False) -> None:
+        if fd is not None:
+            self.fd = fd
         self.address = address
         self.source_system = source_system
         self.source_component = source_component
@@ -71,18 +81,51 @@ class Connection:
         if self.WIRE_PROTOCOL_VERSION != "2.0" and not hides_extensions(self.mav._dialect):
             self._use(_current.change_to_version_2())
 
-    # ---- to be defined by the kinds of connections
+    # ---- defined by the kinds of connections
 
     def _read(self, timeout: float) -> MAVLink_message | None:
-        """Returns the next message that arrives within `timeout` seconds; 0 polls."""
-        raise NotImplementedError
+        """Returns the next message that arrives within `timeout` seconds; 0 polls. May return None before that."""
+        self.pre_message()
+        while True:
+            data = self.recv(self.mav.bytes_needed()) or b""
+            if data and self.first_byte:
+                self.auto_mavlink_version(data)
+            message = self.mav._parse(data)
+            if message is not None or not data:
+                return message
+
+    def _take(self, timeout: float) -> MAVLink_message | None:
+        """Returns the next message that arrives within `timeout` seconds, and notes it. May return None before that."""
+        message: MAVLink_message | None = self.recv_msg()
+        if message is None and timeout > 0:
+            self.select(min(timeout, LONGEST_PAUSE_S))
+        return message
+
+    def _totals(self) -> tuple[int, int]:
+        """How many messages the kind of connection has found by other means than `mav`, and their bytes."""
+        return 0, 0
 
     def _has_ended(self) -> bool:
         """Whether no more messages will come."""
         return False
 
-    def write(self, buf: bytes) -> None:
+    def recv(self, n: int | None = None) -> bytes:
+        """Returns at most `n` bytes that have arrived; b"" if there are none now."""
+        raise UsageError(f"{self.address}: {type(self).__name__} has no method recv()")
+
+    def write(self, buf: bytes) -> Any:
         raise UsageError(f"{self.address}: nothing can be sent here")
+
+    def pre_message(self) -> None:
+        """Is called before a message is read with `recv`."""
+
+    def select(self, timeout: float) -> bool:
+        """Waits until there may be a message, for at most `timeout` seconds. Returns whether there may be one."""
+        if self.fd is None:
+            time.sleep(min(wait_of(timeout), LONGEST_SLEEP_S))
+            return True
+        ready, _, _ = select.select([self.fd], [], [], wait_of(timeout))
+        return bool(ready)
 
     def close(self) -> None:
         for file in self._opened:
@@ -119,14 +162,13 @@ class Connection:
         end = time.monotonic() + wait if blocking and wait is not None else None
         while True:
             left = 0.0 if not blocking else 3600.0 if end is None else max(0.0, end - time.monotonic())
-            message = self._read(min(left, IDLE_HOOKS_PAUSE_S) if self.idle_hooks else left)
+            message = self._take(min(left, LONGEST_PAUSE_S) if self.idle_hooks else left)
             if message is not None:
-                message = self._post(message)
                 if (types is None or types.takes(message)) and self._agrees(message, condition):
                     return message
             elif self._has_ended():
                 return None
-            else:
+            elif blocking:
                 for hook in self.idle_hooks:
                     hook(self)
             if message is None and not blocking:
@@ -153,11 +195,6 @@ class Connection:
     def check_condition(self, condition: str | None) -> bool:
         """Whether a condition is true of the newest messages."""
         return evaluate_condition(condition, self.messages)
-
-    def recv(self, n: int | None = None) -> bytes:
-        """Returns the bytes of the next message; b"" if there is none now."""
-        message = self._read(0)
-        return b"" if message is None else bytes(message.get_msgbuf())
 
     def post_message(self, msg: MAVLink_message) -> None:
         """Notes a message that the program received itself, and calls the hooks: with `recv` and `mav.parse_buffer`.
@@ -199,8 +236,6 @@ class Connection:
                 messages["HOME"] = message
         else:
             self.sysid_state[0].messages[name] = message
-            if isinstance(message, MAVLink_bad_data):
-                self.mav._errors += 1
 
     def _notice_heartbeat(self, message: MAVLink_message) -> None:
         if not self.probably_vehicle_heartbeat(message):

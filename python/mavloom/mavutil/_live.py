@@ -30,8 +30,9 @@ class mavlive(mavfile):
     """A connection of a mavloom.Link, which is its attribute `link`."""
 
     def __init__(self, url: str, address: str, source_system: int = 255, source_component: int = 0) -> None:
-        super().__init__(address, source_system, source_component)
+        super().__init__(None, address, source_system, source_component)
         self.url = url
+        self._packets = self._bytes = 0
         self._closed = False
         self._watched = False  # whether somebody waits on the descriptor
         self._held: deque[MAVLink_message] = deque()  # read when the descriptor was armed
@@ -49,6 +50,20 @@ class mavlive(mavfile):
         if message is not None:
             self._change_version()
         return message
+
+    def _take(self, timeout: float) -> MAVLink_message | None:
+        message = self._read(timeout)
+        if message is None:
+            return None
+        self._packets += 1
+        self._bytes += len(message._frame)
+        return self._post(message)
+
+    def recv_msg(self) -> Any:
+        return self._take(0)
+
+    def _totals(self) -> tuple[int, int]:
+        return self._packets, self._bytes
 
     def _damaged(self) -> int:
         """How many damaged frames the link has counted."""
@@ -77,10 +92,14 @@ class mavlive(mavfile):
 
         Without `n`, returns those of one message.
         """
-        data = super().recv()
-        while n is not None and 0 < len(data) < n and (more := super().recv()):
+        data = self._read_frame()
+        while n is not None and 0 < len(data) < n and (more := self._read_frame()):
             data += more
         return data
+
+    def _read_frame(self) -> bytes:
+        message = self._read(0)
+        return b"" if message is None else bytes(message.get_msgbuf())
 
     def write(self, buf: bytes) -> None:
         """Sends whole frames to every peer of the link."""

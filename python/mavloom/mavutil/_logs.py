@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
 from .._core import MavutilLog, MavutilTypes
-from .._errors import UsageError
+from .._errors import ClosedError, UsageError
 from ._connection import Types
 from ._services import mavfile
 from ._messages import MAVLink_bad_data, MAVLink_message
@@ -20,12 +20,10 @@ FOLLOW_PAUSE_S = 0.05
 class mavlogfile(mavfile):
     """A recording that is read from the start to the end, or one that is written (`write` or `append`)."""
 
-    fd = None
-
     def __init__(self, filename: str | os.PathLike[str], planner_format: object = None, write: bool = False,
                  append: bool = False, robust_parsing: bool = True, notimestamps: bool = False,
                  source_system: int = 255, source_component: int = 0, use_native: bool = False) -> None:
-        super().__init__(os.fspath(filename), source_system, source_component, notimestamps)
+        super().__init__(None, os.fspath(filename), source_system, source_component, notimestamps)
         if planner_format:
             raise UsageError("planner_format: recordings of old planners cannot be read")
         self.filename = os.fspath(filename)
@@ -37,12 +35,16 @@ class mavlogfile(mavfile):
         self._ended = False
         self._log_file: MavutilLog | None = None
         self._match: Callable[[Any, MavutilTypes | None], MAVLink_message | None] | None = None
-        self._raw: Iterator[MAVLink_message] | None = None
+        self._raw_file: BinaryIO | None = None
+        self._raw: Iterator[MAVLink_message] = iter(())
+        self._raw_totals = (0, 0)
+        self._raw_damaged = 0
         self._out: BinaryIO | None = None
         if self.writeable:
             self._out = open(self.filename, "ab" if append else "wb", buffering=0)
         elif notimestamps:
-            self._raw = self._read_raw()
+            self._raw_file = open(self.filename, "rb")
+            self._raw = self._read_raw(self._raw_file)
         else:
             self._log_file = MavutilLog(self.filename, self.mav._dialect, MAVLink_bad_data, self._state)
             self._match = self._log_file.match
@@ -54,8 +56,8 @@ class mavlogfile(mavfile):
         if self._log_file is not None:
             found: MAVLink_message | None = self._log_file.next()
             self._change_version()
-        elif self._raw is not None:
-            found = next(self._raw, None)
+        elif self._raw_file is not None:
+            found = self._next_raw(self._raw_file)
         else:
             raise UsageError(f"{self.filename} is being written; open it again to read it")
         if found is not None or not timeout or self.stop_on_EOF:
@@ -67,17 +69,42 @@ class mavlogfile(mavfile):
     def _has_ended(self) -> bool:
         return self._ended
 
-    def _read_raw(self) -> Iterator[MAVLink_message]:
+    def _take(self, timeout: float) -> MAVLink_message | None:
+        message = self._read(timeout)
+        return None if message is None else self._post(message)
+
+    def _totals(self) -> tuple[int, int]:
+        return self._raw_totals if self._log_file is None else self._log_file.totals
+
+    def _damaged(self) -> int:
+        return self._raw_damaged if self._log_file is None else self._log_file.damaged
+
+    def _next_raw(self, file: BinaryIO) -> MAVLink_message | None:
+        if file.closed:
+            raise ClosedError(f"{self.filename}: the recording is closed")
+        message = next(self._raw, None)
+        if message is not None:
+            packets, size = self._raw_totals
+            self._raw_totals = packets + 1, size + len(message.get_msgbuf())
+            self._raw_damaged += isinstance(message, MAVLink_bad_data)
+            self._change_version()
+        return message
+
+    def _read_raw(self, file: BinaryIO) -> Iterator[MAVLink_message]:
         """The messages of a file without times. Their time is the vehicle's clock."""
-        with open(self.filename, "rb") as file:
-            while chunk := file.read(CHUNK_BYTES):
-                for found in self.mav._parser.feed(chunk, 0):
-                    if isinstance(found, tuple):
-                        found = MAVLink_bad_data(*found)
-                    message: MAVLink_message = found
-                    boot_ms = message.to_dict().get("time_boot_ms")
-                    message._timestamp = self._state.uptime_s if boot_ms is None else boot_ms * 1e-3
-                    yield message
+        while chunk := file.read(CHUNK_BYTES):
+            for found in self.mav._parser.feed(chunk, 0):
+                if isinstance(found, tuple):
+                    found = MAVLink_bad_data(*found)
+                message: MAVLink_message = found
+                boot_ms = message.to_dict().get("time_boot_ms")
+                message._timestamp = self._state.uptime_s if boot_ms is None else boot_ms * 1e-3
+                yield message
+
+    def recv(self, n: int | None = None) -> bytes:
+        """Returns the bytes of the next message; b"" at the end."""
+        message = self._read(0)
+        return b"" if message is None else bytes(message.get_msgbuf())
 
     def recv_match(self, condition: str | None = None, type: Types = None, blocking: bool = False,
                    timeout: float | None = None) -> Any:
@@ -93,7 +120,7 @@ class mavlogfile(mavfile):
         return message
 
     def recv_msg(self) -> Any:
-        if self._raw is None and not self.idle_hooks:
+        if self._match is not None:
             return self.recv_match()
         return super().recv_msg()
 
@@ -110,8 +137,10 @@ class mavlogfile(mavfile):
         """Starts again at the first message."""
         if self._log_file is not None:
             self._log_file.rewind()
-        elif self._raw is not None:
-            self._raw = self._read_raw()
+        elif self._raw_file is not None:
+            self._raw_file.seek(0)
+            self.mav._forget_received()
+            self._raw = self._read_raw(self._raw_file)
         self._ended = False
 
     _rewind = rewind
@@ -127,8 +156,9 @@ class mavlogfile(mavfile):
     def close(self) -> None:
         if self._log_file is not None:
             self._log_file.close()
-        if self._out is not None:
-            self._out.close()
+        for file in (self._raw_file, self._out):
+            if file is not None:
+                file.close()
         super().close()
 
 

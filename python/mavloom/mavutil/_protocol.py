@@ -31,7 +31,11 @@ def signing_time() -> int:
 
 
 class MAVLinkSigning:
-    """The state of signing. A message that was signed with another key changes none of it but the counters."""
+    """The state of signing. A message that was signed with another key changes none of it but the counters.
+
+    `sig_count` has the messages with a signature, good or not. A connection counts them only while it has a key.
+    `unsigned_count` has those without a good signature that the callback accepted.
+    """
 
     def __init__(self) -> None:
         self.secret_key: bytes | None = None
@@ -102,8 +106,7 @@ class MAVLink:
         self.sort_fields = True
         self.total_packets_sent = 0
         self.total_bytes_sent = 0
-        self.total_packets_received = 0
-        self.total_bytes_received = 0
+        self._packets = self._bytes = 0  # that this object received; a connection counts its own
         self._errors = 0  # that this object found; a link counts its own
         self.startup_time = time.time()
         self.signing = MAVLinkSigning()
@@ -132,6 +135,28 @@ class MAVLink:
     @total_receive_errors.setter
     def total_receive_errors(self, value: int) -> None:
         self._errors = value - self._errors_of_link()
+
+    @property
+    def total_packets_received(self) -> int:
+        """Messages that were read, with BAD_DATA."""
+        return self._packets + self._totals_of_connection()[0]
+
+    @total_packets_received.setter
+    def total_packets_received(self, value: int) -> None:
+        self._packets = value - self._totals_of_connection()[0]
+
+    @property
+    def total_bytes_received(self) -> int:
+        """Bytes that were parsed. A live connection counts those of the messages that were read."""
+        return self._bytes + self._totals_of_connection()[1]
+
+    @total_bytes_received.setter
+    def total_bytes_received(self, value: int) -> None:
+        self._bytes = value - self._totals_of_connection()[1]
+
+    def _totals_of_connection(self) -> tuple[int, int]:
+        totals: Callable[[], tuple[int, int]] | None = getattr(self.file, "_totals", None)
+        return (0, 0) if totals is None else totals()
 
     def _errors_of_link(self) -> int:
         of_link: Callable[[], int] | None = getattr(self.file, "_damaged", None)
@@ -165,7 +190,6 @@ class MAVLink:
         key, signing = None, self.signing
         if signing.sign_outgoing and signing.secret_key is not None and not v1:
             key = signing.secret_key
-            signing.sig_count += 1
         frame: bytes = message._pack(self.srcSystem, self.srcComponent, self.seq, v1, key, signing.link_id,
                                      0 if key is None else signing.next_timestamp())
         return frame
@@ -184,26 +208,39 @@ class MAVLink:
 
         Bytes that are no message raise MAVError, or become BAD_DATA if `robust_parsing` is set.
         """
-        data = as_bytes(c)
-        self.total_bytes_received += len(data)
-        if data or not self._found:
-            self._found += self._parser.feed(data, time.time_ns())
-        if not self._found:
+        message = self._parse(c)
+        if message is None:
             return None
-        message = self._received(self._found.popleft())
+        message = self._checked(message)
         if self.callback is not None:
             self.callback(message, *self.callback_args, **self.callback_kwargs)
         return message
 
-    def _received(self, found: MAVLink_message | tuple[bytes, str]) -> MAVLink_message:
+    def _parse(self, c: Sequence[int] | bytes) -> MAVLink_message | None:
+        """`parse_char` without signatures and callbacks."""
+        data = b"" if isinstance(c, str) and not c else as_bytes(c)  # pymavlink's own classes pass ""
+        self._bytes += len(data)
+        if data or not self._found:
+            self._found += self._parser.feed(data, time.time_ns())
+        if not self._found:
+            return None
+        message = self._made(self._found.popleft())
+        self._packets += 1
+        return message
+
+    def _made(self, found: MAVLink_message | tuple[bytes, str]) -> MAVLink_message:
         if not isinstance(found, tuple):
-            self.total_packets_received += 1
-            return self._checked(found)
+            return found
         data, reason = found
         self._errors += 1
         if not self.robust_parsing:
             raise MAVError(reason if reason != "Bad prefix" else f"invalid MAVLink prefix '{data[0]}'")
         return MAVLink_bad_data(data, reason)
+
+    def _forget_received(self) -> None:
+        """Forgets the bytes of an incomplete message."""
+        self._parser = MavutilParser(self._dialect)
+        self._found.clear()
 
     def parse_buffer(self, s: Sequence[int] | bytes) -> list[MAVLink_message] | None:
         """Takes any number of bytes. Returns the messages in them; None if there are none yet."""
@@ -220,23 +257,21 @@ class MAVLink:
 
     def _checked(self, message: MAVLink_message) -> MAVLink_message:
         """The message, or BAD_DATA in its place if signing does not accept it."""
-        signing = self.signing
+        if isinstance(message, MAVLink_bad_data):
+            return message
+        signing, frame = self.signing, message._frame
+        is_signed = bool(message._frame_incompat & MAVLINK_IFLAG_SIGNED)
+        signing.sig_count += is_signed
         if signing.secret_key is None:
             return message
-        frame = message._frame
-        source = (message.get_srcSystem(), message.get_srcComponent())
-        if message._frame_incompat & MAVLINK_IFLAG_SIGNED:
-            accepted = signing.check(frame, source)
-            if accepted:
-                message._signed, message._link_id = True, frame[-13]
-        else:
+        if is_signed and signing.check(frame, (message.get_srcSystem(), message.get_srcComponent())):
+            message._signed, message._link_id = True, frame[-13]
+            return message
+        if signing.allow_unsigned_callback is not None and signing.allow_unsigned_callback(self, message.get_msgId()):
             signing.unsigned_count += 1
-            accepted = False
-        if not accepted and signing.allow_unsigned_callback is not None:
-            accepted = bool(signing.allow_unsigned_callback(self, message.get_msgId()))
-        if accepted:
             return message
         signing.reject_count += 1
+        self._errors += 1
         rejected = MAVLink_bad_data(frame, "Invalid signature")
         rejected._timestamp = message._timestamp
         return rejected

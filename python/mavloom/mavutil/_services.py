@@ -39,7 +39,7 @@ NOT_HERE = {
     "do_connect": OWN_THREAD, "reconnect": OWN_THREAD, "handle_disconnect": OWN_THREAD, "handle_eof": OWN_THREAD,
     "init_arrays": OWN_READER, "skip_to_type": OWN_READER, "f": OWN_READER, "data_map": OWN_READER,
     "offset": OWN_READER, "offsets": OWN_READER, "type_nums": OWN_READER, "instance_offsets": OWN_READER,
-    "scan_timestamp": OWN_READER, "pre_message": "messages get their time when they arrive",
+    "scan_timestamp": OWN_READER,
     "last_address": "link.stats.sources lists the peers", "destination_addr": "use udpout:HOST:PORT to choose the peer",
     "clients": "link.stats.peers counts the peers", "listen": OWN_THREAD,
 }

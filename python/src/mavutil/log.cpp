@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "mavutil/log.hpp"
 
+#include <nanobind/stl/pair.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -92,6 +94,9 @@ nb::object MavutilLog::next() {
         if (next_ < entries_.size()) {
             const auto& entry = entries_[next_++];
             place_ = entry.place;
+            ++packets_;
+            packet_bytes_ += entry.size;
+            damaged_ += entry.damage.empty() ? 0 : 1;
             return message_of(entry);
         }
         if (ended_ && !has_grown()) {
@@ -311,6 +316,16 @@ double MavutilLog::percent() {
     return size_ == 0 ? 0 : 100.0 * static_cast<double>(place_) / static_cast<double>(size_);
 }
 
+std::pair<std::uint64_t, std::uint64_t> MavutilLog::totals() {
+    const auto lock = lock_without_gil(mutex_);
+    return {packets_, packet_bytes_};
+}
+
+std::uint64_t MavutilLog::damaged() {
+    const auto lock = lock_without_gil(mutex_);
+    return damaged_;
+}
+
 std::uint64_t MavutilLog::size() {
     const auto lock = lock_without_gil(mutex_);
     return size_;
@@ -356,6 +371,8 @@ void bind_mavutil_log(nb::module_& module) {
             nb::sig("def next(self) -> typing.Any"))
         .def("rewind", &MavutilLog::rewind)
         .def_prop_ro("percent", &MavutilLog::percent)
+        .def_prop_ro("totals", &MavutilLog::totals, nb::sig("def totals(self) -> tuple[int, int]"))
+        .def_prop_ro("damaged", &MavutilLog::damaged)
         .def_prop_ro("size", &MavutilLog::size)
         .def("close", &MavutilLog::close);
 }

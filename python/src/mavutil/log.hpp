@@ -51,6 +51,10 @@ public:
     // The place of the last message that was returned, in percent of the file.
     [[nodiscard]] double percent();
     [[nodiscard]] std::uint64_t size();
+    // How many messages were returned, with BAD_DATA, and how many bytes they had.
+    [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> totals();
+    // How many of them are BAD_DATA.
+    [[nodiscard]] std::uint64_t damaged();
     void close();
 
 private:
@@ -89,6 +93,7 @@ private:
     std::uint64_t end_ = 0;     // of the last record that was read
     std::int64_t time_ns_ = 0;  // of the last record that was read
     bool ended_ = false;
+    std::uint64_t packets_ = 0, packet_bytes_ = 0, damaged_ = 0;  // that were returned
 };
 
 }  // namespace mavloom::python
