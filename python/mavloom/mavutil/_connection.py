@@ -57,8 +57,9 @@ class Connection:
         self.param_state: dict[tuple[int, int], param_state] = {(0, 0): param_state()}
         self.message_hooks: list[Callable[[Any, MAVLink_message], object]] = []
         self.idle_hooks: list[Callable[[Any], object]] = []
-        self.logfile: BinaryIO | None = None
-        self.logfile_raw: BinaryIO | None = None
+        # Files that are open to write, or other connections.
+        self.logfile: Any = None
+        self.logfile_raw: Any = None
         self._opened: list[BinaryIO] = []  # by setup_logfile()
         self.sysid_state = Systems()
         self._state = MavutilState(self.sysid_state.messages_of)
@@ -388,10 +389,10 @@ class Connection:
         self._opened.append(self.logfile_raw)
 
     def _log(self, message: MAVLink_message) -> None:
-        frame = bytes(message.get_msgbuf())
-        if self.logfile_raw is not None:
+        frame, is_bad = bytes(message.get_msgbuf()), message.get_type() == "BAD_DATA"
+        if self.logfile_raw is not None and not (is_bad and isinstance(self.logfile_raw, Connection)):
             self.logfile_raw.write(frame)
-        if self.logfile is not None and message.get_type() != "BAD_DATA":
+        if self.logfile is not None and not is_bad:
             self.logfile.write(struct.pack(">Q", int(message._timestamp * 1.0e6) & ~3) + frame)
 
     # ---- signing

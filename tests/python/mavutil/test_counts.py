@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What connections of mavloom.mavutil count and remember, against pymavlink's on the same bytes."""
+"""The counters and the state of connections of mavloom.mavutil, against pymavlink's on the same bytes."""
 import copy
 import os
 import pickle

@@ -156,6 +156,15 @@ def serial_line():
         os.close(end)
 
 
+def test_another_connection_does_not_take_bytes_that_are_no_message(peer, tmp_path):
+    frames = [packer(peer).pack(message) for message in messages_of(peer)]
+    frames[1] = frames[1][:-1] + bytes([frames[1][-1] ^ 1])
+    log, to = mavutil.mavlogfile(str(write(tmp_path / "x.tlog", frames))), memory_class(mavutil)(b"")
+    log.logfile_raw = to
+    assert [message.get_type() for message in iter(log.recv_msg, None)] == ["HEARTBEAT", "BAD_DATA", "HEARTBEAT"]
+    assert to.sent == [frames[0], frames[2]]
+
+
 def test_a_connection_takes_the_bytes_of_another_one(serial_line, module, peer):
     """A bridge between two devices in one line: what one receives, the other one sends."""
     (near, near_name), (far, far_name) = serial_line(), serial_line()
