@@ -149,6 +149,29 @@ TEST_F(StreamParserTest, TakesAnUnknownIdAtTheEndOfAnIdleStream) {
     EXPECT_THAT(log.events, ElementsAre("frame 0/7", "frame 385/9"));
 }
 
+TEST_F(StreamParserTest, SettlesAnUnknownIdAndJunk) {
+    const MessageTable only_heartbeat{std::span(test::golden_messages).first(1)};
+    StreamParser parser{only_heartbeat};
+    parser.feed(join({test::heartbeat_v2, test::tunnel_v2}), now, log);
+
+    parser.settle(log);
+    parser.feed(join({Bytes(5, 0), Bytes(test::heartbeat_v1.begin(), test::heartbeat_v1.begin() + 4)}), now, log);
+    parser.settle(log);
+
+    EXPECT_THAT(log.events, ElementsAre("frame 0/7", "frame 385/9", "junk 5"));
+    EXPECT_EQ(parser.pending_bytes(), 4u);
+}
+
+TEST_F(StreamParserTest, SettlesNoFrameWithinAnIncompleteFrame) {
+    Bytes start = {0xfe, 200, 0, 1, 1, 30};
+    feed(join({start, test::heartbeat_v2}));
+
+    sut.settle(log);
+
+    EXPECT_THAT(log.events, IsEmpty());
+    EXPECT_EQ(sut.pending_bytes(), start.size() + test::heartbeat_v2.size());
+}
+
 TEST_F(StreamParserTest, DoesNotTakeAnUnknownIdOutOfSync) {
     const MessageTable only_heartbeat{std::span(test::golden_messages).first(1)};
     StreamParser parser{only_heartbeat};
