@@ -73,6 +73,18 @@ def test_a_recording_is_read_as_pymavlink_reads_it(peer, their_mavutil, tmp_path
     assert ours.flightmode_list() == theirs.flightmode_list()
 
 
+@pytest.mark.parametrize("reads", [0, 5, 100])
+def test_the_list_of_flight_modes_reads_the_whole_recording_and_rewinds_it(reads, peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        log = module.mavlink_connection(path)
+        for _ in range(reads):
+            log.recv_msg()
+        found.append((log._count, log.flightmode_list(), dict(log.params), log.flightmode, str(log.recv_match()),
+                      log.flightmode_list(), str(log.recv_match())))
+    assert found[0] == found[1] and found[1][2] == {"P": 1.5}
+
+
 @pytest.mark.parametrize("selection", [
     {"type": "ATTITUDE"}, {"type": ["HEARTBEAT", "PARM"]}, {"type": {"BATTERY_STATUS"}},
     {"condition": "ATTITUDE.roll>0.15"}, {"type": "HEARTBEAT", "condition": "HEARTBEAT.custom_mode==4"},
