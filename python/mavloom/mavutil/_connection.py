@@ -213,7 +213,7 @@ class Connection:
         state = self.sysid_state[message.get_srcSystem()]
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
-        state.flightmode = _modes.ardupilot_name(message.type, message.custom_mode)
+        state.flightmode = _modes.slow_link_name(message.autopilot, message.type, message.custom_mode)
         if message.autopilot == _modes.AUTOPILOT_ARDUPILOT:
             state.base_mode = message.custom0
             state.armed = message.custom0 & ARMED
