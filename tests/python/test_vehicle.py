@@ -321,6 +321,8 @@ def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
         assert [(m.seq, m.command, m.z, m.param1) for m in stub.mission] == [
             (0, 16, 0, 0), (1, 16, 20, 0), (2, 16, 25.5, 0), (3, 16, 30, 0), (4, 177, 0, 2)]
         assert vehicle.mission.download() == items and items[3].param1 == 1
+        vehicle.mission.upload([items[0], mavloom.MissionItem("MAV_CMD_DO_JUMP", param1=0)])
+        assert [(m.seq, m.command, m.param1) for m in stub.mission] == [(0, 16, 0), (1, 16, 0), (2, 177, 1)]
         vehicle.mission.upload([])
         assert stub.mission == [] == vehicle.mission.download()
         vehicle.mission.upload(items[:2], 1)
