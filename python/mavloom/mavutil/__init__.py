@@ -12,6 +12,8 @@ mavloom.Link behind it. `mavlink` is the module of constants, enums and message 
 """
 from __future__ import annotations
 
+import copy
+import operator
 import os
 import sys
 import warnings
@@ -75,8 +77,14 @@ def mavlink20() -> bool:
 
 
 def add_message(messages: dict[str, Any], mtype: str, msg: Any) -> None:
-    """Adds a message to those of a connection."""
-    messages[mtype] = msg
+    """Adds a message to a dictionary: under its type, and under "TYPE[INSTANCE]" if it has instances."""
+    newest, field = msg, getattr(msg, "_instance_field", None)
+    if field is not None:
+        instance, before = getattr(msg, field), messages.get(mtype)
+        newest = copy.copy(msg)
+        newest._instances = {**(getattr(before, "_instances", None) or {}), instance: msg}
+        messages[f"{mtype}[{instance}]"] = msg
+    messages[mtype] = newest
 
 
 def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations: bool | None = None) -> None:
@@ -91,12 +99,13 @@ def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations
     current_dialect = dialect if isinstance(dialect, str) else _current.module().DIALECT
 
 
-def _check(system: int, component: int, unknown: dict[str, Any]) -> None:
+def _check(system: int, component: int, unknown: dict[str, Any]) -> tuple[int, int]:
     for keyword in unknown:
         warnings.warn(f"mavlink_connection() has no keyword {keyword!r}; it is ignored, as by pymavlink", stacklevel=3)
     for what, number in (("source_system", system), ("source_component", component)):
-        if not isinstance(number, int) or not 0 <= number <= 255:
+        if not hasattr(number, "__index__") or not 0 <= number <= 255:
             raise UsageError(f"{what}: {number!r} is out of range, 0 to 255")
+    return operator.index(system), operator.index(component)
 
 
 def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, source_system: int = 255,
@@ -118,7 +127,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     connections.
     """
     global mavfile_global
-    _check(source_system, source_component, opts)
+    source_system, source_component = _check(source_system, source_component, opts)
     if dialect is not None:
         set_dialect(dialect)
     target = _urls.target_of(device)

@@ -103,6 +103,8 @@ class MavlinkModule(types.ModuleType):
             return Enums(self.dialect)
         if name == "mavlink_map":
             return {self.dialect[one].id: self.classes.of(one) for one in self.dialect.message_names}
+        if name == "MAVLink_waypoint_message":  # the old name, which pymavlink keeps
+            return self.classes.of("MISSION_ITEM")
         if name.startswith("MAVLink_") and name.endswith("_message"):
             message = name[len("MAVLink_"):-len("_message")].upper()
             if message in self.dialect and name == f"MAVLink_{message.lower()}_message":

@@ -38,6 +38,11 @@ def test_constants_are_those_of_pymavlink(mavlink, peer):
     assert set(wanted) <= set(dir(mavlink))
 
 
+def test_the_old_name_of_items(mavlink):
+    """pymavlink makes it when a connection is opened."""
+    assert mavlink.MAVLink_waypoint_message is mavlink.MAVLink_mission_item_message
+
+
 def test_enums_are_those_of_pymavlink(mavlink, peer):
     assert set(mavlink.enums) == set(peer.enums) and len(mavlink.enums) == len(peer.enums)
     for name, entries in peer.enums.items():
