@@ -67,12 +67,15 @@ UDP_MAX_PACKET_LEN = 65535
 
 
 def mavlink10() -> bool:
-    """Whether MAVLink 1 is sent until a vehicle answers in MAVLink 2: not if MAVLINK20 is in the environment."""
-    return not mavlink20()
+    """True: MAVLink 0.9 is not supported, as in pymavlink."""
+    return True
 
 
 def mavlink20() -> bool:
-    """Whether MAVLINK20 is in the environment: MAVLink 2 is sent from the start."""
+    """Whether MAVLINK20 is in the environment: MAVLink 2 is sent from the start.
+
+    As in pymavlink, the first vehicle that sends MAVLink 2 sets it.
+    """
     return "MAVLINK20" in os.environ
 
 
@@ -94,8 +97,7 @@ def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations
     XML file, or a mavloom.Dialect.
     """
     global current_dialect
-    version = 2 if mavlink20() or _current.module().wire == 2 else 1
-    _current.use(_current.module_of(_current.dialect_of(dialect), version))
+    _current.use(_current.module_of(_current.dialect_of(dialect), _current.version_from_environment()))
     current_dialect = dialect if isinstance(dialect, str) else _current.module().DIALECT
 
 

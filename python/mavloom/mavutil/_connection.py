@@ -350,7 +350,7 @@ class Connection:
         return default if message is None else getattr(message, field, default)
 
     def mavlink10(self) -> bool:
-        """Whether MAVLink messages are sent at all, as opposed to those of version 0.9: True."""
+        """Always True: MAVLink 0.9 is not supported."""
         return True
 
     def mavlink20(self) -> bool:

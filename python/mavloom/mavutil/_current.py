@@ -10,6 +10,7 @@ from .._errors import UsageError
 from ._module import MavlinkModule, make_module
 
 NAME = "mavloom.mavutil.mavlink"
+VERSION_2 = "MAVLINK20"  # the environment variable
 # pymavlink's dialects. Ours has the messages of all of them.
 DIALECTS = frozenset({"ASLUAV", "AVSSUAS", "all", "ardupilotmega", "autoquad", "common", "csAirLink",
                       "cubepilot", "development", "icarous", "loweheiser", "marsh", "matrixpilot", "minimal",
@@ -21,7 +22,7 @@ link_ids = 0
 
 
 def version_from_environment() -> int:
-    return 2 if "MAVLINK20" in os.environ else 1
+    return 2 if VERSION_2 in os.environ else 1
 
 
 def module_of(dialect: Dialect, version: int) -> MavlinkModule:
@@ -47,6 +48,7 @@ def use(new: MavlinkModule) -> MavlinkModule:
 
 
 def change_to_version_2() -> MavlinkModule:
+    os.environ[VERSION_2] = "1"
     return use(module_of(current.dialect, 2))
 
 

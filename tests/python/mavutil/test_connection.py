@@ -134,6 +134,22 @@ def test_ids_of_numpy(peer, tmp_path):
     assert {type(number) for number in (log.source_system, log.target_system)} == {int}
 
 
+def test_the_version_is_that_of_the_environment(peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        os.environ.pop("MAVLINK20", None)
+        module.set_dialect("ardupilotmega")
+        states = [(module.mavlink10(), module.mavlink20())]
+        module.mavlink_connection(path).recv_msg()
+        states.append((module.mavlink10(), module.mavlink20(), os.environ.get("MAVLINK20")))
+        module.set_dialect("ardupilotmega")
+        states.append(module.mavlink.WIRE_PROTOCOL_VERSION)
+        os.environ.pop("MAVLINK20", None)
+        module.set_dialect("ardupilotmega")
+        found.append([*states, module.mavlink.WIRE_PROTOCOL_VERSION])
+    assert found[0] == found[1] == [(True, False), (True, True, "1"), "2.0", "1.0"]
+
+
 def test_the_addresses_of_tcp(their_mavutil):
     with socket.create_server(("127.0.0.1", 0)) as server:
         device = f"tcp:127.0.0.1:{server.getsockname()[1]}"
