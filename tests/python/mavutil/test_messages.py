@@ -9,6 +9,7 @@ import random
 import struct
 import weakref
 
+import numpy as np
 import pytest
 from pymavlink import mavutil as theirs
 
@@ -181,6 +182,16 @@ def test_text(mavlink, peer):
     assert sender.decode(message.pack(sender)).text == "two"
     with pytest.raises(mavloom.UsageError, match="cannot be encoded as UTF-8"):
         mavlink.MAVLink_statustext_message(6, "\udc80").pack(sender)
+
+
+@pytest.mark.parametrize("values", [[1] * 12, tuple(range(12)), np.arange(12), bytes(range(12)), range(11),
+                                    [*range(10), "x"]])
+def test_arrays_that_are_too_long_are_cut(values, mavlink, peer):
+    packed = [module.MAVLink_battery_status_message(0, 0, 0, 200, values, 1, 1, 1, 50).pack(module.MAVLink(None))
+              for module in (peer, mavlink)]
+    assert bytes(packed[0]) == packed[1]
+    with pytest.raises(mavloom.UsageError, match="expected 10 elements, not 9"):
+        mavlink.MAVLink_battery_status_message(0, 0, 0, 200, values[:9], 1, 1, 1, 50).pack(mavlink.MAVLink(None))
 
 
 @pytest.mark.parametrize("values", [(1.5, 0, 0, 0, 0), (300, 0, 0, 0, 0), (None, 0, 0, 0, 0), ("x", 0, 0, 0, 0),
