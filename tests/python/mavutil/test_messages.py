@@ -2,11 +2,13 @@
 """mavutil.mavlink, its messages and MAVLink, against the module that pymavlink's generator makes of our definitions."""
 import copy
 import inspect
+import io
 import json
 import math
 import pickle
 import random
 import struct
+import time
 import weakref
 
 import numpy as np
@@ -407,6 +409,43 @@ def test_small_helpers():
     assert mavutil.u_ord("a") == mavutil.u_ord(97) == 97
     with pytest.raises(AttributeError, match="HEARTBEAT.type is not a bitmask"):
         mavutil.decode_bitmask("HEARTBEAT", "type", 3)
+
+
+@pytest.mark.parametrize("zone", ["UTC", "Asia/Tokyo", "America/St_Johns"])
+def test_the_verbose_form_has_local_times_and_the_link_of_the_signature(zone, mavlink, peer, their_mavutil, monkeypatch):
+    monkeypatch.setenv("TZ", zone)
+    time.tzset()
+    sender, found = peer.MAVLink(None, 1, 1), []
+    plain = bytes(peer.MAVLink_system_time_message(1700000000123456, 5).pack(sender))
+    sender.signing.secret_key, sender.signing.sign_outgoing, sender.signing.link_id = bytes(32), True, 7
+    signed = bytes(peer.MAVLink_system_time_message(1700000000123456, 5).pack(sender))
+    for module, definitions in ((their_mavutil, peer), (mavutil, mavlink)):
+        receiver, text = definitions.MAVLink(None), io.StringIO()
+        receiver.signing.secret_key, receiver.signing.allow_unsigned_callback = bytes(32), lambda *_: True
+        for frame in (plain, signed):
+            message = receiver.decode(bytearray(frame))
+            message._timestamp, message._link = 1700000000.25, 3
+            module.dump_message_verbose(text, message)
+        found.append(text.getvalue())
+    monkeypatch.undo()
+    time.tzset()
+    assert found[0] == found[1] and "(signed=Yes; out-link=7)" in found[1]
+
+
+OWN = """<mavlink><enums><enum name="MYF" bitmask="true"><entry name="MYF_A" value="1"/><entry name="MYF_B" value="2"/>
+</enum><enum name="MYE"><entry name="MYE_ONE" value="1"/></enum></enums><messages><message id="61000" name="MINE">
+<field type="uint16_t" name="e" enum="MYE">a</field>
+<field type="uint16_t" name="f" enum="MYF" display="bitmask">a</field></message></messages></mavlink>"""
+
+
+def test_the_verbose_form_of_a_message_of_ones_own_definitions(tmp_path):
+    (tmp_path / "own.xml").write_text(OWN)
+    mavutil.set_dialect(str(tmp_path / "own.xml"))
+    text = io.StringIO()
+    mavutil.dump_message_verbose(text, mavutil.mavlink.MAVLink_mine_message(1, 2))
+    assert text.getvalue().splitlines()[1:] == ["    e: 1 (MYE_ONE)", "    f: 0x2 (2)", "      ! MYF_A", "        MYF_B"]
+    bits = mavutil.decode_bitmask("MINE", "f", 2)
+    assert [(bit.name, bit.value) for bit in bits][:2] == [("MYF_A", False), ("MYF_B", True)]
 
 
 def test_quaternions():
