@@ -278,8 +278,9 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
       time in ns, an aware datetime, a numpy.datetime64 or a pandas.Timestamp.
     - `fields` selects the columns; time_ns, sys and comp are always there.
 
-    An unknown name, a field that none of the messages has, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
-    file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
+    An unknown name, a field that none of the messages has, or `instance` for a message without such a field, raises
+    UsageError (a ValueError). Damage in the file is skipped and counted in `junk_bytes`. Checksums of other messages
+    are checked only after damage.
 
     The call releases the GIL while it reads. At its peak, it needs the memory of all arrays plus that of the largest.
     """

@@ -282,7 +282,8 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
         mavloom.columns(flight, "ATTITUDE", start="yesterday")
 
 
-@pytest.mark.parametrize("far", [np.datetime64("3000-01-01"), np.datetime64("1600", "Y"), np.datetime64("2262-01", "s")])
+@pytest.mark.parametrize("far", [np.datetime64("3000-01-01"), np.datetime64("1600", "Y"),
+                                 np.datetime64("2262-01", "s")])
 def test_times_that_numpy_cannot_hold_in_ns(far, flight):
     assert int(far.astype("datetime64[Y]").astype(int)) not in range(-292, 292)
     with pytest.raises(mavloom.UsageError, match="is out of range, the years 1678 to 2261"):

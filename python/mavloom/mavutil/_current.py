@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 
-from .._core import Dialect
+from .._core import Dialect, dialect_key
 from .._errors import UsageError
 from ._module import MavlinkModule, make_module
 
@@ -17,7 +17,7 @@ DIALECTS = frozenset({"ASLUAV", "AVSSUAS", "all", "ardupilotmega", "autoquad", "
                       "paparazzi", "standard", "stemstudios", "storm32", "test", "uAvionix", "ualberta"})
 
 lock = threading.Lock()
-modules: dict[tuple[str | None, int], MavlinkModule] = {}
+modules: dict[tuple[bytes, int], MavlinkModule] = {}  # by file of the dialect, and version
 link_ids = 0
 
 
@@ -26,7 +26,7 @@ def version_from_environment() -> int:
 
 
 def module_of(dialect: Dialect, version: int) -> MavlinkModule:
-    key = (dialect.path, version)
+    key = (dialect_key(dialect), version)
     if key not in modules:
         modules.setdefault(key, make_module(NAME, dialect, version))
     return modules[key]

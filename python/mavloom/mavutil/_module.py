@@ -61,14 +61,15 @@ class x25crc:
         self.accumulate(buf)
 
 
-@functools.lru_cache(maxsize=16)
-def classes_by_path(path: str | None) -> Classes:
-    return Classes(Dialect(path), "mavloom.mavutil.mavlink")
+made: dict[bytes, Classes] = {}  # by file of the dialect
 
 
 def classes_of(dialect: Dialect) -> Classes:
     """The message classes of a dialect. Dialects of one file share theirs, so pickled messages keep their class."""
-    return classes_by_path(dialect.path)
+    key = _core.dialect_key(dialect)
+    if key not in made:
+        made.setdefault(key, Classes(dialect, "mavloom.mavutil.mavlink"))
+    return made[key]
 
 
 class MavlinkModule(types.ModuleType):

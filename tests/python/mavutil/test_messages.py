@@ -252,6 +252,19 @@ def test_a_dialect_of_ones_own(tmp_path):
         mavutil.current_dialect = "all"
 
 
+def test_definitions_that_change(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("ONE", "THREE"):
+        (tmp_path / "mine.xml").write_text(
+            f'<mavlink><enums><enum name="MY"><entry name="MY_{name}" value="1"/></enum></enums><messages>'
+            f'<message id="61000" name="MINE"><field type="uint16_t" name="{name}">a</field></message></messages>'
+            '</mavlink>')
+        mavutil.set_dialect("mine.xml")
+        assert getattr(mavutil.mavlink, f"MY_{name}") == 1
+        message = mavutil.mavlink.MAVLink_mine_message(7)
+        assert pickle.loads(pickle.dumps(message)).to_dict() == {"mavpackettype": "MINE", name: 7}
+
+
 def test_fields_with_names_that_python_does_not_allow(tmp_path):
     xml = tmp_path / "mine.xml"
     fields = "".join(f'<field type="uint8_t" name="{name}">a</field>' for name in ("from", "1st", "None"))
@@ -412,7 +425,8 @@ def test_small_helpers():
 
 
 @pytest.mark.parametrize("zone", ["UTC", "Asia/Tokyo", "America/St_Johns"])
-def test_the_verbose_form_has_local_times_and_the_link_of_the_signature(zone, mavlink, peer, their_mavutil, monkeypatch):
+def test_the_verbose_form_has_local_times_and_the_link_of_the_signature(zone, mavlink, peer, their_mavutil,
+                                                                        monkeypatch):
     monkeypatch.setenv("TZ", zone)
     time.tzset()
     sender, found = peer.MAVLink(None, 1, 1), []
@@ -443,7 +457,8 @@ def test_the_verbose_form_of_a_message_of_ones_own_definitions(tmp_path):
     mavutil.set_dialect(str(tmp_path / "own.xml"))
     text = io.StringIO()
     mavutil.dump_message_verbose(text, mavutil.mavlink.MAVLink_mine_message(1, 2))
-    assert text.getvalue().splitlines()[1:] == ["    e: 1 (MYE_ONE)", "    f: 0x2 (2)", "      ! MYF_A", "        MYF_B"]
+    assert text.getvalue().splitlines()[1:] == ["    e: 1 (MYE_ONE)", "    f: 0x2 (2)",
+                                                "      ! MYF_A", "        MYF_B"]
     bits = mavutil.decode_bitmask("MINE", "f", 2)
     assert [(bit.name, bit.value) for bit in bits][:2] == [("MYF_A", False), ("MYF_B", True)]
 

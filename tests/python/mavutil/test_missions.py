@@ -29,7 +29,7 @@ def item(mavlink, command=16, x=1.0, y=2.0, param1=0, param2=0):
 
 
 def both(loaders, act):
-    """What `act` returns with Mavloom, after a check that it is the same with pymavlink."""
+    """Returns the result of `act` with Mavloom, after a check that it is the same with pymavlink."""
     theirs, ours = (act(module, mavlink) for module, mavlink in loaders)
     assert ours == theirs
     return ours
