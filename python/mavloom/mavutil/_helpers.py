@@ -13,6 +13,8 @@ from ._messages import MAVLink_message
 
 UNIX_TIME_US = 10**15  # greater times in µs are shown as dates, since 2001
 SHOWN_AS_SECONDS_US = 10**6
+# In pymavlink's order; it has no ttyAMA.
+SERIAL_DEVICES = ("/dev/ttyS*", "/dev/ttyUSB*", "/dev/ttyACM*", "/dev/serial/by-id/*", "/dev/ttyAMA*")
 # Units that dump_message_verbose converts: divisor and result.
 dump_message_unit_decoder: dict[str, tuple[float, str]] = {
     "d%": (10.0, "%"), "c%": (100.0, "%"), "cA": (100.0, "A"), "cdegC": (100.0, "degC"), "cdeg": (100.0, "deg"),
@@ -176,11 +178,10 @@ class SerialPort:
 
 
 def auto_detect_serial(preferred_list: Any = ("*",)) -> list[SerialPort]:
-    """The serial devices whose names match, those of `preferred_list` first."""
+    """Returns the serial devices that match a pattern of `preferred_list`; all of them if none matches."""
     import fnmatch
     import glob
-    devices = sorted(path for pattern in ("/dev/serial/by-id/*", "/dev/ttyACM*", "/dev/ttyUSB*", "/dev/ttyAMA*")
-                     for path in glob.glob(pattern))
+    devices = [path for pattern in SERIAL_DEVICES for path in sorted(glob.glob(pattern))]
     preferred = [one for one in devices if any(fnmatch.fnmatch(one, pattern) for pattern in preferred_list)]
     return [SerialPort(device) for device in preferred or devices]
 

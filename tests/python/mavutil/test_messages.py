@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """mavutil.mavlink, its messages and MAVLink, against the module that pymavlink's generator makes of our definitions."""
 import copy
+import fnmatch
 import inspect
 import io
 import json
@@ -422,6 +423,14 @@ def test_small_helpers():
     assert mavutil.u_ord("a") == mavutil.u_ord(97) == 97
     with pytest.raises(AttributeError, match="HEARTBEAT.type is not a bitmask"):
         mavutil.decode_bitmask("HEARTBEAT", "type", 3)
+
+
+@pytest.mark.parametrize("preferred", [["*"], ["*ACM*", "*3D*"], ["*none*"]])
+def test_serial_devices_are_found_as_by_pymavlink(preferred, monkeypatch):
+    devices = ["/dev/ttyS0", "/dev/ttyUSB0", "/dev/ttyACM0", "/dev/serial/by-id/usb-3D_Robotics-if00"]
+    monkeypatch.setattr("glob.glob", lambda pattern: fnmatch.filter(devices, pattern))
+    found = [[str(port) for port in module.auto_detect_serial(preferred)] for module in (theirs, mavutil)]
+    assert found[0] == found[1] != []
 
 
 @pytest.mark.parametrize("zone", ["UTC", "Asia/Tokyo", "America/St_Johns"])
