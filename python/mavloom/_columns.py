@@ -28,6 +28,7 @@ Names = Union["list[str]", "list[type[Message]]", "tuple[Name, ...]", "set[Name]
 # A point in time: Unix time in ns, an aware datetime, or anything that numpy.datetime64 takes.
 Time = Union[int, datetime.datetime, np.datetime64]
 HEADER = ("time_ns", "sys", "comp")
+YEARS = 292  # before and after 1970: what a time in ns can hold
 
 
 def flat(arrays: dict[str, Array]) -> dict[str, Array]:
@@ -171,6 +172,8 @@ class Columns(dict[str, Array]):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
         """A structured array with one field for each column. Elements of array fields are `voltages[0]`, ..."""
+        if copy is False:
+            raise ValueError(f"the columns of {self.name} are separate arrays: one array of them is a copy")
         made = np.empty(len(self), [(name, values.dtype) for name, values in self.items()])
         for name, values in self.items():
             made[name] = values
@@ -266,7 +269,8 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
     `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages. It may
-    also be a list of these; the result is then {name: Columns}, like that of `tables`.
+    also be a list of these; the result is then {name: Columns}, like that of `tables`. A list of names with `fields` or
+    `instance` takes one pass for each name.
 
     - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
       sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
@@ -274,8 +278,9 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
       time in ns, an aware datetime, a numpy.datetime64 or a pandas.Timestamp.
     - `fields` selects the columns; time_ns, sys and comp are always there.
 
-    An unknown name, or `instance` for a message without such a field, raises UsageError (a ValueError). Damage in the
-    file is skipped and counted in `junk_bytes`. Checksums of other messages are checked only after damage.
+    An unknown name, a field that none of the messages has, or `instance` for a message without such a field, raises
+    UsageError (a ValueError). Damage in the file is skipped and counted in `junk_bytes`. Checksums of other messages
+    are checked only after damage.
 
     The call releases the GIL while it reads. At its peak, it needs the memory of all arrays plus that of the largest.
     """
@@ -289,6 +294,7 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
             found = tables(files, names, system=system, component=component, start=begin, end=before,
                            dialect=definitions)
             return {one: found[one] for one in names}
+        check_fields(definitions, names, wanted or [])
         return {one: columns(files, one, system=system, component=component, instance=instance, start=begin, end=before,
                              fields=None if wanted is None else [f for f in wanted if has_field(definitions, one, f)],
                              dialect=definitions) for one in names}
@@ -301,7 +307,7 @@ def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None 
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
-    without a definition are left out. In all else, `tables` works like `columns`, but it checks every checksum.
+    without a definition are left out. Otherwise, `tables` works like `columns`, but it checks every checksum.
     """
     definitions = Dialect() if dialect is None else dialect
     made, junk_bytes = read_tables(paths_of(path), type, system, component, time_ns_of("start", start),
@@ -335,6 +341,13 @@ def list_of_names(what: str, given: Iterable[Any]) -> list[str]:
     return names
 
 
+def check_fields(dialect: Dialect, messages: list[str], fields: list[str]) -> None:
+    """Raises UsageError for a field that none of the messages has."""
+    for field in fields:
+        if messages and not any(has_field(dialect, one, field) for one in messages):
+            raise UsageError(f"fields: none of {', '.join(messages)} has a field {field!r}")
+
+
 def has_field(dialect: Dialect, message: str, field: str) -> bool:
     return any(one.name == field for one in dialect[message].fields)
 
@@ -356,6 +369,8 @@ def time_ns_of(what: str, given: Time | None) -> int | None:
         since = given - datetime.datetime(1970, 1, 1, tzinfo=datetime.timezone.utc)
         return (since.days * 86400 + since.seconds) * 10**9 + since.microseconds * 1000
     if isinstance(given, np.datetime64):
+        if not -YEARS <= int(given.astype("datetime64[Y]").astype("int64")) < YEARS:
+            raise UsageError(f"{what}: {given} is out of range, the years {1970 - YEARS} to {1969 + YEARS}")
         return int(given.astype("datetime64[ns]").astype("int64"))
     raise UsageError(f"{what}: a time is Unix time in ns, an aware datetime or a numpy.datetime64, not {given!r}")
 

@@ -6,17 +6,19 @@ import collections.abc
 import enum
 from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
+from . import _core
+
 if TYPE_CHECKING:
     from ._core import Dialect
 
 EnumClass = type[enum.IntEnum] | type[enum.IntFlag]
-# By path and name. Dialects made from one file share their classes, so that members also compare by identity.
-_made: dict[tuple[str | None, str], EnumClass] = {}
+# By file and name. Dialects made from one file share their classes, so that members also compare by identity.
+_made: dict[tuple[bytes, str], EnumClass] = {}
 
 
 def make(dialect: Dialect, name: str) -> EnumClass:
     """Returns the class of an enum. The first call creates it."""
-    key = (dialect.path, name)
+    key = (_core.dialect_key(dialect), name)
     if key not in _made:
         bitmask, entries = dialect.enum_entries(name)
         base: Any = enum.IntFlag if bitmask else enum.IntEnum

@@ -168,15 +168,16 @@ class Link(Sends):
 
     # ---- vehicles
 
-    def vehicle(self, system: int | None = None, component: int = 1, *, timeout: float = 10.0) -> Vehicle:
+    def vehicle(self, system: int | None = None, component: int | None = None, *, timeout: float = 10.0) -> Vehicle:
         """Returns a Vehicle: arm, set_mode, takeoff, land, command, params, mission.
 
         Without `system`, this is the first vehicle that the link hears. Raises TimeoutError if it hears none within
-        `timeout` seconds.
+        `timeout` seconds. Without `component`, it is the one that was heard, or component 1 of `system`.
         """
-        if system is None:
-            system, component = self._first_vehicle(timeout)
-        return Vehicle(self, target_id("system", system), target_id("component", component))
+        if component is not None:
+            component = target_id("component", component)
+        first = (target_id("system", system), 1) if system is not None else self._first_vehicle(timeout)
+        return Vehicle(self, first[0], first[1] if component is None else component)
 
     def vehicle_async(self, system: int, component: int = 1) -> AsyncVehicle:
         """Returns an AsyncVehicle, whose methods must be awaited."""

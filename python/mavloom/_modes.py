@@ -66,6 +66,13 @@ def mode_name(autopilot: int, vehicle_type: int, base_mode: int, custom_mode: in
     return ardupilot_name(vehicle_type, custom_mode)
 
 
+def slow_link_name(autopilot: int, vehicle_type: int, custom_mode: int) -> str:
+    """The name of the mode that a HIGH_LATENCY2 reports. Its 16 bits cannot hold the mode of a PX4."""
+    if autopilot == AUTOPILOT_PX4:
+        return f"Mode({custom_mode})"
+    return ardupilot_name(vehicle_type, custom_mode)
+
+
 def ardupilot_name(vehicle_type: int, custom_mode: int) -> str:
     """The name of an ArduPilot mode; "Mode(5)" if it is not in the tables."""
     return ARDUPILOT.get(vehicle_type, {}).get(custom_mode, f"Mode({custom_mode})")

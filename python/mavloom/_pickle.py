@@ -22,9 +22,10 @@ def restore_dialect(path: str | None) -> _core.Dialect:
         status = None if path is None else os.stat(path)
     except OSError:
         status = None  # reading the file raises the error
-    return load(path, status and status.st_mtime_ns, status and status.st_size)
+    place = None if path is None else os.path.abspath(path)
+    return load(path, place, status and status.st_mtime_ns, status and status.st_size)
 
 
 @functools.lru_cache(maxsize=8)
-def load(path: str | None, mtime_ns: int | None, size: int | None) -> _core.Dialect:
+def load(path: str | None, place: str | None, mtime_ns: int | None, size: int | None) -> _core.Dialect:
     return _core.Dialect(path)

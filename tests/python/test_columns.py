@@ -282,10 +282,28 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
         mavloom.columns(flight, "ATTITUDE", start="yesterday")
 
 
+@pytest.mark.parametrize("far", [np.datetime64("3000-01-01"), np.datetime64("1600", "Y"),
+                                 np.datetime64("2262-01", "s")])
+def test_times_that_numpy_cannot_hold_in_ns(far, flight):
+    assert int(far.astype("datetime64[Y]").astype(int)) not in range(-292, 292)
+    with pytest.raises(mavloom.UsageError, match="is out of range, the years 1678 to 2261"):
+        mavloom.columns(flight, "ATTITUDE", end=far)
+    assert len(mavloom.columns(flight, "ATTITUDE", end=np.datetime64("2261-12-31"))) > 0
+
+
+def test_an_array_that_is_no_copy_is_refused(flight):
+    columns = mavloom.columns(flight, "ATTITUDE")
+    with pytest.raises(ValueError, match="separate arrays"):  # as numpy 2 expects of __array__
+        columns.__array__(copy=False)
+    assert len(columns.__array__(copy=True)) == len(columns.__array__()) == len(np.asarray(columns)) == len(columns)
+
+
 def test_several_messages_are_a_dictionary(flight):
     both = mavloom.columns(flight, ["ATTITUDE", "RPM"], fields=["roll", "rpm1"])
     assert list(both) == ["ATTITUDE", "RPM"]
     assert list(both["ATTITUDE"])[3:] == ["roll"] and list(both["RPM"])[3:] == ["rpm1"] and len(both["RPM"]) == 0
+    with pytest.raises(mavloom.UsageError, match="none of ATTITUDE, RPM has a field 'rol'"):
+        mavloom.columns(flight, ["ATTITUDE", "RPM"], fields=["roll", "rol"])
     for wrong in (None, 3, ["ATTITUDE", 3]):
         with pytest.raises(mavloom.UsageError, match="name= takes a name or a list of names"):
             mavloom.columns(flight, wrong)

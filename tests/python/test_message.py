@@ -413,6 +413,33 @@ def test_an_own_dialect_is_read_once_for_all_messages_of_pickles(tmp_path):
         pickle.loads(gone)
 
 
+def entry(name):
+    return (f'<mavlink><enums><enum name="MY"><entry name="MY_{name}" value="1"/></enum></enums><messages>'
+            '<message id="61000" name="MINE"><field type="uint16_t" name="a" enum="MY">a</field></message>'
+            '</messages></mavlink>')
+
+
+def test_the_definitions_are_those_of_the_file_that_was_read(tmp_path, monkeypatch):
+    """Files of one relative name in two folders, and a file that changes."""
+    for folder in ("one", "two"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "mine.xml").write_text(entry(folder))
+    made = []
+    for folder in ("one", "two", "one"):
+        monkeypatch.chdir(tmp_path / folder)
+        made.append(mavloom.Dialect("mine.xml"))
+    (tmp_path / "one" / "mine.xml").write_text(entry("three"))
+    made.append(mavloom.Dialect("mine.xml"))
+    assert [list(dialect.enum("MY").__members__) for dialect in made] == [["MY_one"], ["MY_two"], ["MY_one"],
+                                                                         ["MY_three"]]
+    assert made[0].enum("MY") is made[2].enum("MY") and made[0].enums["MY"][1].name == "MY_one"
+    pickled = []
+    for folder in ("two", "one"):
+        monkeypatch.chdir(tmp_path / folder)
+        pickled.append(pickle.loads(pickle.dumps(made[1])))
+    assert [dict(dialect.enum("MY").__members__) for dialect in pickled] == [{"MY_two": 1}, {"MY_three": 1}]
+
+
 def test_row_13_a_strict_parser_reads_every_message(dialect, peer):
     for message_class in peer.mavlink_map.values():
         for case in ("nan", "infinite", "tiny", "maximum"):

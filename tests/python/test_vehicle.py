@@ -169,8 +169,40 @@ def test_a_refused_command_is_an_error_with_the_reason(peer):
 def test_silence_is_a_timeout(peer, quick):
     with flown(peer, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
         with pytest.raises(TimeoutError, match="no answer to MAV_CMD_DO_SET_SERVO after 4 tries"):
-            vehicle.command("DO_SET_SERVO")
+            vehicle.command("DO_SET_SERVO", timeout=0.05)
         assert len(stub.messages) == 4
+
+
+def test_a_command_is_repeated_as_often_as_the_script_says(peer):
+    with flown(peer, silent=frozenset({"COMMAND_LONG"})) as (vehicle, stub):
+        with pytest.raises(TimeoutError, match="no answer to MAV_CMD_DO_SET_SERVO after 7 tries"):
+            vehicle.command("DO_SET_SERVO", 9, timeout=0.02, tries=7)
+        assert [m.confirmation for m in stub.messages] == list(range(7))
+        with pytest.raises(TimeoutError, match="after 1 tries"):
+            asyncio.run(vehicle.link.vehicle_async(1).command("DO_SET_SERVO", 9, timeout=0.02, tries=1))
+        assert len(stub.messages) == 8
+        for wrong in ({"timeout": 0}, {"timeout": math.nan}, {"timeout": "1"}, {"tries": 0}, {"tries": 257},
+                      {"tries": 1.5}):
+            with pytest.raises(mavloom.UsageError, match=next(iter(wrong))):
+                vehicle.command("DO_SET_SERVO", **wrong)
+        assert len(stub.messages) == 8
+
+
+def test_names_that_no_parameter_can_have(peer, quick):
+    with flown(peer) as (vehicle, stub):
+        for name in ("X" * 17, "", "H\u00f6he", 5, None):
+            assert name not in vehicle.params
+        assert stub.messages == []
+
+
+def test_a_component_of_the_first_vehicle(peer):
+    with flown(peer) as (first, _):
+        link = first.link
+        assert (link.vehicle().component, link.vehicle(1).component) == (1, 1)
+        for vehicle in (link.vehicle(component=5), link.vehicle(None, 5), link.vehicle(1, 5)):
+            assert (vehicle.system, vehicle.component) == (1, 5)
+        with pytest.raises(mavloom.UsageError, match="component: 300 is out of range"):
+            link.vehicle(component=300)
 
 
 # ---- parameters
@@ -321,6 +353,8 @@ def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
         assert [(m.seq, m.command, m.z, m.param1) for m in stub.mission] == [
             (0, 16, 0, 0), (1, 16, 20, 0), (2, 16, 25.5, 0), (3, 16, 30, 0), (4, 177, 0, 2)]
         assert vehicle.mission.download() == items and items[3].param1 == 1
+        vehicle.mission.upload([items[0], mavloom.MissionItem("MAV_CMD_DO_JUMP", param1=0)])
+        assert [(m.seq, m.command, m.param1) for m in stub.mission] == [(0, 16, 0), (1, 16, 0), (2, 177, 1)]
         vehicle.mission.upload([])
         assert stub.mission == [] == vehicle.mission.download()
         vehicle.mission.upload(items[:2], 1)

@@ -21,7 +21,9 @@ _T = TypeVar("_T")
 ANSWERS = ("COMMAND_ACK", "HEARTBEAT")
 TAKEOFF_ANSWERS = (*ANSWERS, "GLOBAL_POSITION_INT")
 ANSWER_S = 1.0  # how long one request waits for its answer
+LONGEST_ANSWER_S = 86400
 TRIES = 4
+MOST_TRIES = 256  # what the field `confirmation` can count
 IN_PROGRESS_S = 30.0  # how long a command in progress may report nothing
 HEARTBEATS_S = 5.0  # how long a change of mode or of arming may take to appear in heartbeats
 POSITION_S = 5.0  # how old the present place may be, and how long it may take to arrive
@@ -64,7 +66,8 @@ def result_name(result: int) -> str:
     return names.get(result, f"result {result}")
 
 
-def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRIES) -> Protocol[Message]:
+def command(peer: Peer, number: int, params: tuple[float, ...], answer_s: float | None = None,
+            tries: int = TRIES) -> Protocol[Message]:
     """Sends a command until it is acknowledged. Returns the acknowledgement.
 
     Raises CommandError if the vehicle refuses it, and TimeoutError if it does not answer. An acknowledgement has only
@@ -72,14 +75,19 @@ def command(peer: Peer, number: int, params: tuple[float, ...], tries: int = TRI
     """
     if len(params) > 7:
         raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
-    return (yield from exclusive(peer, name_of(number), tries * ANSWER_S, acknowledged(peer, number, params, tries)))
+    wait = ANSWER_S if answer_s is None else answer_s
+    if not 0 < checked_number("timeout", wait) <= LONGEST_ANSWER_S:
+        raise UsageError(f"timeout: {wait} is out of range, more than 0 to {LONGEST_ANSWER_S} s")
+    if not isinstance(tries, int) or not 1 <= tries <= MOST_TRIES:
+        raise UsageError(f"tries: {tries!r} is out of range, 1 to {MOST_TRIES}")
+    return (yield from exclusive(peer, name_of(number), tries * wait, acknowledged(peer, number, params, wait, tries)))
 
 
-def acknowledged(peer: Peer, number: int, params: tuple[float, ...], tries: int) -> Protocol[Message]:
+def acknowledged(peer: Peer, number: int, params: tuple[float, ...], wait: float, tries: int) -> Protocol[Message]:
     fields = {f"param{place}": value for place, value in enumerate(params, 1)}
     for confirmation in range(tries):
         peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
-        answer = yield from acknowledgement(peer, number)
+        answer = yield from acknowledgement(peer, number, wait)
         if answer is None:
             continue
         if answer["result"] != ACCEPTED:
@@ -88,13 +96,13 @@ def acknowledged(peer: Peer, number: int, params: tuple[float, ...], tries: int)
     raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
 
 
-def acknowledgement(peer: Peer, number: int) -> Generator[float, Message | None, Message | None]:
+def acknowledgement(peer: Peer, number: int, wait: float) -> Generator[float, Message | None, Message | None]:
     """Waits for the final answer to a command; None if there is none, so the command may be repeated.
 
     A command in progress must not be repeated, because the vehicle would begin again: if it falls silent, raises
     TimeoutError.
     """
-    deadline, in_progress = time.monotonic() + ANSWER_S, False
+    deadline, in_progress = time.monotonic() + wait, False
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
             continue

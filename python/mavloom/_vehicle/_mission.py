@@ -130,7 +130,12 @@ def begins_with_home(peer: Peer, kind: int) -> Protocol[bool]:
 
 def renumbered(items: list[MissionItem], by: int) -> list[MissionItem]:
     """The items, with jumps to the numbers that their targets have when `by` items are put before them."""
-    return [replace(item, param1=item.param1 + by) if item.command == DO_JUMP else item for item in items]
+    return [replace(item, param1=item.param1 + by) if is_jump(item) else item for item in items]
+
+
+def is_jump(item: MissionItem) -> bool:
+    """Whether an item is a DO_JUMP. Its command may be given by name, which the encoder takes too."""
+    return (number_of(item.command) if isinstance(item.command, str) else item.command) == DO_JUMP
 
 
 def items_sent(peer: Peer, wanted: list[MissionItem], kind: int) -> Protocol[None]:

@@ -9,6 +9,7 @@ import math
 import struct
 import time
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from .. import _modes, enums
 from .._core import Message
@@ -16,6 +17,9 @@ from .._errors import ParameterError, UsageError
 from ._commands import known_heartbeat
 from ._exchange import Peer, Protocol, wait_until
 from ._turns import exclusive
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeGuard
 
 ANSWERS = ("PARAM_VALUE", "PARAM_ERROR", "HEARTBEAT")
 ANSWER_S = 1.0
@@ -79,8 +83,13 @@ def pack(name: str, layout: str, value: float) -> bytes:
         raise UsageError(f"parameter {name}: {value} does not fit its type: {error}") from None
 
 
+def is_name(name: object) -> TypeGuard[str]:
+    """Whether a parameter can have this name."""
+    return isinstance(name, str) and name.isascii() and 1 <= len(name) <= LONGEST_NAME
+
+
 def check_name(name: str) -> None:
-    if not isinstance(name, str) or not name.isascii() or not 1 <= len(name) <= LONGEST_NAME:
+    if not is_name(name):
         raise UsageError(f"{name!r} is no name of a parameter: 1 to {LONGEST_NAME} ASCII characters")
 
 

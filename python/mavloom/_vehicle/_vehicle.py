@@ -91,13 +91,15 @@ class Vehicle(_Common):
         self.params = Params(self._peer)
         self.mission = Mission(self._peer)
 
-    def command(self, command: int | str, *params: float) -> Message:
+    def command(self, command: int | str, *params: float, timeout: float = _commands.ANSWER_S,
+                tries: int = _commands.TRIES) -> Message:
         """Sends a command as COMMAND_LONG; parameters that are not given are 0. Returns its COMMAND_ACK.
 
-        `command` is a number or a name of MAV_CMD: vehicle.command("DO_SET_SERVO", 9, 1500).
+        `command` is a number or a name of MAV_CMD: vehicle.command("DO_SET_SERVO", 9, 1500). It is sent up to `tries`
+        times, and each time the vehicle has `timeout` seconds to answer. A command in progress may take longer.
         """
         number = _commands.number_of(command)
-        return run(self._peer, _commands.ANSWERS, _commands.command(self._peer, number, params))
+        return run(self._peer, _commands.ANSWERS, _commands.command(self._peer, number, params, timeout, tries))
 
     def arm(self, *, force: bool = False) -> None:
         """Arms the motors, and waits until the heartbeats report it. `force` skips the vehicle's own checks."""
@@ -127,8 +129,11 @@ class Vehicle(_Common):
 class Params(MutableMapping[str, "int | float"]):
     """The parameters of a vehicle as a mapping: vehicle.params["MPC_XY_VEL_MAX"] = 8.
 
-    The first look at a parameter requests it; later ones return the value that is known. `fetch()` requests all of
-    them, as iteration does. Setting a parameter waits for the vehicle's confirmation.
+    The first access requests the parameter; later accesses return the cached value. `fetch()` requests all of them, as
+    iteration does. Setting a parameter waits for the vehicle's confirmation.
+
+    An ArduPilot does not answer a request for a parameter that it does not have, so `params[name]`, `get` and `in`
+    raise TimeoutError for such a name. After `fetch()` they know all names and request nothing.
     """
 
     def __init__(self, peer: Peer) -> None:
@@ -183,7 +188,7 @@ class Params(MutableMapping[str, "int | float"]):
         return len(self._known)
 
     def __contains__(self, name: object) -> bool:
-        if not isinstance(name, str):
+        if not _params.is_name(name):
             return False
         try:
             self[name]
@@ -232,10 +237,11 @@ class AsyncVehicle(_Common):
         self.params = AsyncParams(self._peer)
         self.mission = AsyncMission(self._peer)
 
-    async def command(self, command: int | str, *params: float) -> Message:
+    async def command(self, command: int | str, *params: float, timeout: float = _commands.ANSWER_S,
+                      tries: int = _commands.TRIES) -> Message:
         """See Vehicle.command."""
-        number = _commands.number_of(command)
-        return await run_async(self._peer, _commands.ANSWERS, _commands.command(self._peer, number, params))
+        protocol = _commands.command(self._peer, _commands.number_of(command), params, timeout, tries)
+        return await run_async(self._peer, _commands.ANSWERS, protocol)
 
     async def arm(self, *, force: bool = False) -> None:
         """See Vehicle.arm."""

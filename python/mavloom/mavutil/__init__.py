@@ -12,6 +12,8 @@ mavloom.Link behind it. `mavlink` is the module of constants, enums and message 
 """
 from __future__ import annotations
 
+import copy
+import operator
 import os
 import sys
 import warnings
@@ -65,18 +67,27 @@ UDP_MAX_PACKET_LEN = 65535
 
 
 def mavlink10() -> bool:
-    """Whether MAVLink 1 is sent until a vehicle answers in MAVLink 2: not if MAVLINK20 is in the environment."""
-    return not mavlink20()
+    """True: MAVLink 0.9 is not supported, as in pymavlink."""
+    return True
 
 
 def mavlink20() -> bool:
-    """Whether MAVLINK20 is in the environment: MAVLink 2 is sent from the start."""
+    """Whether MAVLINK20 is in the environment: MAVLink 2 is sent from the start.
+
+    As in pymavlink, the first vehicle that sends MAVLink 2 sets it.
+    """
     return "MAVLINK20" in os.environ
 
 
 def add_message(messages: dict[str, Any], mtype: str, msg: Any) -> None:
-    """Adds a message to those of a connection."""
-    messages[mtype] = msg
+    """Adds a message to a dictionary: under its type, and under "TYPE[INSTANCE]" if it has instances."""
+    newest, field = msg, getattr(msg, "_instance_field", None)
+    if field is not None:
+        instance, before = getattr(msg, field), messages.get(mtype)
+        newest = copy.copy(msg)
+        newest._instances = {**(getattr(before, "_instances", None) or {}), instance: msg}
+        messages[f"{mtype}[{instance}]"] = msg
+    messages[mtype] = newest
 
 
 def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations: bool | None = None) -> None:
@@ -86,17 +97,17 @@ def set_dialect(dialect: str | Dialect | os.PathLike[str], with_type_annotations
     XML file, or a mavloom.Dialect.
     """
     global current_dialect
-    version = 2 if mavlink20() or _current.module().wire == 2 else 1
-    _current.use(_current.module_of(_current.dialect_of(dialect), version))
+    _current.use(_current.module_of(_current.dialect_of(dialect), _current.version_from_environment()))
     current_dialect = dialect if isinstance(dialect, str) else _current.module().DIALECT
 
 
-def _check(system: int, component: int, unknown: dict[str, Any]) -> None:
+def _check(system: int, component: int, unknown: dict[str, Any]) -> tuple[int, int]:
     for keyword in unknown:
         warnings.warn(f"mavlink_connection() has no keyword {keyword!r}; it is ignored, as by pymavlink", stacklevel=3)
     for what, number in (("source_system", system), ("source_component", component)):
-        if not isinstance(number, int) or not 0 <= number <= 255:
+        if not hasattr(number, "__index__") or not 0 <= number <= 255:
             raise UsageError(f"{what}: {number!r} is out of range, 0 to 255")
+    return operator.index(system), operator.index(component)
 
 
 def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, source_system: int = 255,
@@ -119,7 +130,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
     These have no meaning here and are accepted: use_native, zero_time_base, robust_parsing of live connections.
     """
     global mavfile_global
-    _check(source_system, source_component, opts)
+    source_system, source_component = _check(source_system, source_component, opts)
     if dialect is not None:
         set_dialect(dialect)
     target = _urls.target_of(device)

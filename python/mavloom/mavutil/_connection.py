@@ -2,6 +2,7 @@
 """Connection: reading, and the state that is read, of live connections and recordings."""
 from __future__ import annotations
 
+import operator
 import os
 import select
 import struct
@@ -54,6 +55,10 @@ class Connection:
         self.start_time = time.time()
         self.param_fetch_start: float = 0
         self.target_component = 0
+        self._param_system = 0
+        self._count_offset = 0  # of what was set to the present counters
+        self._loss_offset = 0
+        self._set_time: tuple[int, float] | None = None  # time_ns of the last message then, and what was set
         self.param_state: dict[tuple[int, int], param_state] = {(0, 0): param_state()}
         self.message_hooks: list[Callable[[Any, MAVLink_message], object]] = []
         self.idle_hooks: list[Callable[[Any], object]] = []
@@ -254,7 +259,7 @@ class Connection:
         state = self.sysid_state[message.get_srcSystem()]
         state.mav_type = message.type
         state.mav_autopilot = message.autopilot
-        state.flightmode = _modes.ardupilot_name(message.type, message.custom_mode)
+        state.flightmode = _modes.slow_link_name(message.autopilot, message.type, message.custom_mode)
         if message.autopilot == _modes.AUTOPILOT_ARDUPILOT:
             state.base_mode = message.custom0
             state.armed = message.custom0 & ARMED
@@ -272,13 +277,16 @@ class Connection:
 
     @target_system.setter
     def target_system(self, value: int) -> None:
-        if not isinstance(value, int) or not 0 <= value <= 255:
+        if not hasattr(value, "__index__") or not 0 <= value <= 255:
             raise UsageError(f"target_system: {value!r} is no system, 0 to 255")
-        self._state.target = value
+        self._state.target = self._param_system = operator.index(value)
+
+    sysid = target_system
 
     @property
-    def sysid(self) -> int:
-        return self._state.target
+    def param_sysid(self) -> tuple[int, int]:
+        """The system and component that the script set as the target; 0 for what it did not set."""
+        return self._param_system, self.target_component
 
     @property
     def _target(self) -> mavfile_state:
@@ -331,12 +339,20 @@ class Connection:
     @property
     def mav_count(self) -> int:
         """The number of messages that were read."""
-        return self._state.count
+        return self._state.count + self._count_offset
+
+    @mav_count.setter
+    def mav_count(self, value: int) -> None:
+        self._count_offset = value - self._state.count
 
     @property
     def mav_loss(self) -> int:
         """The number of messages that were lost, by sequence numbers. As in pymavlink, one duplicate counts as 255."""
-        return self._state.loss
+        return self._state.loss + self._loss_offset
+
+    @mav_loss.setter
+    def mav_loss(self, value: int) -> None:
+        self._loss_offset = value - self._state.loss
 
     @property
     def last_seq(self) -> dict[tuple[int, int], int]:
@@ -344,14 +360,20 @@ class Connection:
         return self._state.last_sequences
 
     def packet_loss(self) -> float:
-        """The loss since the start, in percent."""
-        total = self._state.count + self._state.loss
-        return 100.0 * self._state.loss / total if total else 0
+        """The loss since the start, or since the counters were set, in percent."""
+        total = self.mav_count + self.mav_loss
+        return 100.0 * self.mav_loss / total if total else 0
 
     @property
     def timestamp(self) -> float:
-        """The time of the last message."""
+        """The time of the last message, or what was set since."""
+        if self._set_time is not None and self._set_time[0] == self._state.time_ns:
+            return self._set_time[1]
         return self._state.time_ns // 1000 * 1e-6
+
+    @timestamp.setter
+    def timestamp(self, value: float) -> None:
+        self._set_time = self._state.time_ns, value
 
     @property
     def uptime(self) -> float:
@@ -369,7 +391,7 @@ class Connection:
         return default if message is None else getattr(message, field, default)
 
     def mavlink10(self) -> bool:
-        """Whether MAVLink messages are sent at all, as opposed to those of version 0.9: True."""
+        """Always True: MAVLink 0.9 is not supported."""
         return True
 
     def mavlink20(self) -> bool:

@@ -5,27 +5,28 @@ from __future__ import annotations
 import os
 import threading
 
-from .._core import Dialect
+from .._core import Dialect, dialect_key
 from .._errors import UsageError
 from ._module import MavlinkModule, make_module
 
 NAME = "mavloom.mavutil.mavlink"
+VERSION_2 = "MAVLINK20"  # the environment variable
 # pymavlink's dialects. Ours has the messages of all of them.
 DIALECTS = frozenset({"ASLUAV", "AVSSUAS", "all", "ardupilotmega", "autoquad", "common", "csAirLink",
                       "cubepilot", "development", "icarous", "loweheiser", "marsh", "matrixpilot", "minimal",
                       "paparazzi", "standard", "stemstudios", "storm32", "test", "uAvionix", "ualberta"})
 
 lock = threading.Lock()
-modules: dict[tuple[str | None, int], MavlinkModule] = {}
+modules: dict[tuple[bytes, int], MavlinkModule] = {}  # by file of the dialect, and version
 link_ids = 0
 
 
 def version_from_environment() -> int:
-    return 2 if "MAVLINK20" in os.environ else 1
+    return 2 if VERSION_2 in os.environ else 1
 
 
 def module_of(dialect: Dialect, version: int) -> MavlinkModule:
-    key = (dialect.path, version)
+    key = (dialect_key(dialect), version)
     if key not in modules:
         modules.setdefault(key, make_module(NAME, dialect, version))
     return modules[key]
@@ -47,6 +48,7 @@ def use(new: MavlinkModule) -> MavlinkModule:
 
 
 def change_to_version_2() -> MavlinkModule:
+    os.environ[VERSION_2] = "1"
     return use(module_of(current.dialect, 2))
 
 

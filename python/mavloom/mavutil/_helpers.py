@@ -8,10 +8,13 @@ from typing import Any, TextIO
 
 from .._core import Dialect
 from .._errors import UsageError
+from . import _current
 from ._messages import MAVLink_message
 
 UNIX_TIME_US = 10**15  # greater times in µs are shown as dates, since 2001
 SHOWN_AS_SECONDS_US = 10**6
+# In pymavlink's order; it has no ttyAMA.
+SERIAL_DEVICES = ("/dev/ttyS*", "/dev/ttyUSB*", "/dev/ttyACM*", "/dev/serial/by-id/*", "/dev/ttyAMA*")
 # Units that dump_message_verbose converts: divisor and result.
 dump_message_unit_decoder: dict[str, tuple[float, str]] = {
     "d%": (10.0, "%"), "c%": (100.0, "%"), "cA": (100.0, "A"), "cdegC": (100.0, "degC"), "cdeg": (100.0, "deg"),
@@ -61,7 +64,7 @@ class periodic_event:
 
 
 def u_ord(c: Any) -> Any:
-    """The number of a byte that is a number already or a character."""
+    """Converts a one-character str or bytes to its number; returns an int unchanged."""
     return ord(c) if isinstance(c, (str, bytes, bytearray)) else c
 
 
@@ -92,14 +95,17 @@ class EnumBitInfo:
 
 
 def decode_bitmask(messagetype: str, field: str, value: int, dialect: Dialect | None = None) -> list[EnumBitInfo]:
-    """Returns the bits of a bitmask field, from the lowest one: those with a name, and those up to the highest that is
-    set."""
-    info = next((one for one in (dialect or Dialect())[messagetype].fields if one.name == field), None)
+    """Returns all named bits, and the unnamed ones up to the highest bit that is set, lowest first.
+
+    The definitions are those of `mavlink` now if `dialect` is None.
+    """
+    definitions = dialect or _current.module().dialect
+    info = next((one for one in definitions[messagetype].fields if one.name == field), None)
     if info is None:
         raise UsageError(f"{messagetype} has no field '{field}'")
     if not info.bitmask:
         raise AttributeError(f"{messagetype}.{field} is not a bitmask")
-    entries = dict((dialect or Dialect()).enum_entries(info.enum)[1]) if info.enum else {}
+    entries = dict(definitions.enum_entries(info.enum)[1]) if info.enum else {}
     if entries:
         entries[f"{info.enum}_ENUM_END"] = max(entries.values()) + 1  # an entry of pymavlink's enums
     names = {number.bit_length() - 1: name for name, number in entries.items() if number and not number & number - 1}
@@ -111,7 +117,7 @@ def dump_message_verbose(f: TextIO, m: MAVLink_message) -> None:
     """Writes a message with one line for each field, with units and names of enum entries."""
     seconds = m._timestamp
     when = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds))
-    signed = "No" if not m.get_signed() else "Yes"
+    signed = f"Yes; out-link={m.get_link_id()}" if m.get_signed() else "No"
     f.write(f"{when}.{int(seconds * 100.0) % 100:02d}: {m.get_type()} (id={m.get_msgId()}) (seq={m.get_seq()}) "
             f"(src={m.get_srcSystem()}/{m.get_srcComponent()}) (in-link={m._link}) (signed={signed})\n")
     if m.get_type() == "BAD_DATA":
@@ -144,7 +150,8 @@ def with_unit(m: MAVLink_message, name: str, value: Any) -> str:
 def as_time(value_us: int) -> str:
     if value_us > UNIX_TIME_US:
         seconds, rest = divmod(value_us, 10**6)
-        return f" ({time.strftime('%Y-%m-%d %H:%M:%S', time.gmtime(seconds))}.{rest:06d} UTC)"
+        local = time.localtime(seconds)
+        return f" ({time.strftime('%Y-%m-%d %H:%M:%S', local)}.{rest:06d} {time.strftime('%Z', local)})"
     return f" ({value_us / 1e6}s)" if value_us > SHOWN_AS_SECONDS_US else ""
 
 
@@ -152,7 +159,8 @@ def enum_name(m: MAVLink_message, name: str, value: Any) -> str:
     enum = m.fieldenums_by_name.get(name)
     if enum is None or isinstance(value, list):
         return ""
-    entries = Dialect().enum_entries(enum)[1] if enum in Dialect().enum_names else {}
+    definitions = _current.module().dialect
+    entries = definitions.enum_entries(enum)[1] if enum in definitions.enum_names else {}
     return f" ({next((entry for entry, number in entries.items() if number == value), '[UNKNOWN]')})"
 
 
@@ -170,11 +178,10 @@ class SerialPort:
 
 
 def auto_detect_serial(preferred_list: Any = ("*",)) -> list[SerialPort]:
-    """The serial devices whose names match, those of `preferred_list` first."""
+    """Returns the serial devices that match a pattern of `preferred_list`; all of them if none matches."""
     import fnmatch
     import glob
-    devices = sorted(path for pattern in ("/dev/serial/by-id/*", "/dev/ttyACM*", "/dev/ttyUSB*", "/dev/ttyAMA*")
-                     for path in glob.glob(pattern))
+    devices = [path for pattern in SERIAL_DEVICES for path in sorted(glob.glob(pattern))]
     preferred = [one for one in devices if any(fnmatch.fnmatch(one, pattern) for pattern in preferred_list)]
     return [SerialPort(device) for device in preferred or devices]
 

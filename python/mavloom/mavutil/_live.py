@@ -237,7 +237,7 @@ class mavtcp(mavlive):
         self.autoreconnect = autoreconnect
         self.retries = retries
         self.reconnect_delay = seconds(reconnect_delay, "reconnect_delay")
-        super().__init__(f"tcpout://{host}:{port}?required=true", device, source_system, source_component)
+        super().__init__(f"tcpout://{host}:{port}?required=true", f"tcp:{device}", source_system, source_component)
 
     def _open(self, url: str) -> Link:
         """Tries `retries` times, with a pause of `reconnect_delay` seconds."""
@@ -259,7 +259,7 @@ class mavtcpin(mavlive):
     def __init__(self, device: str, source_system: int = 255, source_component: int = 0, retries: int = 3,
                  use_native: bool = False) -> None:
         host, port = host_and_port(device, "TCP")
-        super().__init__(f"tcpin://{host}:{port}", device, source_system, source_component)
+        super().__init__(f"tcpin://{host}:{port}", f"tcpin:{device}", source_system, source_component)
 
 
 class mavserial(mavlive):

@@ -187,6 +187,10 @@ class mavmmaplog(mavlogfile):
                 del instances[instance]
 
     @property
+    def _count(self) -> int:
+        return sum(self._counts.values())
+
+    @property
     def counts(self) -> dict[int, int]:
         """{message id: how many there are}."""
         return {self.name_to_id[name]: count for name, count in self._counts.items()}
@@ -198,23 +202,22 @@ class mavmmaplog(mavlogfile):
     _rewind = rewind
 
     def flightmode_list(self) -> list[tuple[str, float, float]]:
-        """The flight modes of the target in order: (name, time of the first message, time of the last one)."""
+        """The flight modes of the target in order: (name, time of the first message, time of the last one).
+
+        Reads the whole recording, so that `params` is complete, and rewinds it.
+        """
+        self.rewind()
         if self._flightmodes is None:
-            self._flightmodes = flightmodes_of(self.filename, self._state.target)
+            self._flightmodes = [(name, begin, end) for name, begin, end in self._read_flightmodes()]
+            self.rewind()
         return self._flightmodes
 
-
-def flightmodes_of(filename: str, system: int) -> list[tuple[str, float, float]]:
-    log: Any = mavlogfile(filename)
-    log.target_system = system
-    modes: list[list[Any]] = []
-    message = log.recv_match(type="HEARTBEAT")
-    while message is not None:
-        if not modes or modes[-1][0] != log.flightmode:
-            if modes:
-                modes[-1][2] = message._timestamp
-            modes.append([log.flightmode, message._timestamp, message._timestamp])
-        modes[-1][2] = message._timestamp
-        message = log.recv_match(type="HEARTBEAT")
-    log.close()
-    return [(name, begin, end) for name, begin, end in modes]
+    def _read_flightmodes(self) -> list[list[Any]]:
+        modes: list[list[Any]] = []
+        while (message := self.recv_match(type="HEARTBEAT")) is not None:
+            if not modes or modes[-1][0] != self.flightmode:
+                if modes:
+                    modes[-1][2] = message._timestamp
+                modes.append([self.flightmode, message._timestamp, message._timestamp])
+            modes[-1][2] = message._timestamp
+        return modes

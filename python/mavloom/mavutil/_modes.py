@@ -41,7 +41,9 @@ auto_mode_flags = 4 | 8 | 16  # MAV_MODE_FLAG: auto, guided, stabilize
 
 
 def mode_string_v10(msg: Any) -> str:
-    """The name of the mode in a HEARTBEAT."""
+    """The name of the mode in a HEARTBEAT or HIGH_LATENCY2."""
+    if msg.get_type() == "HIGH_LATENCY2":
+        return _modes.slow_link_name(msg.autopilot, msg.type, msg.custom_mode)
     return _modes.mode_name(msg.autopilot, msg.type, msg.base_mode, msg.custom_mode)
 
 

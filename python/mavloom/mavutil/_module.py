@@ -61,14 +61,15 @@ class x25crc:
         self.accumulate(buf)
 
 
-@functools.lru_cache(maxsize=16)
-def classes_by_path(path: str | None) -> Classes:
-    return Classes(Dialect(path), "mavloom.mavutil.mavlink")
+made: dict[bytes, Classes] = {}  # by file of the dialect
 
 
 def classes_of(dialect: Dialect) -> Classes:
     """The message classes of a dialect. Dialects of one file share theirs, so pickled messages keep their class."""
-    return classes_by_path(dialect.path)
+    key = _core.dialect_key(dialect)
+    if key not in made:
+        made.setdefault(key, Classes(dialect, "mavloom.mavutil.mavlink"))
+    return made[key]
 
 
 class MavlinkModule(types.ModuleType):
@@ -103,6 +104,8 @@ class MavlinkModule(types.ModuleType):
             return Enums(self.dialect)
         if name == "mavlink_map":
             return {self.dialect[one].id: self.classes.of(one) for one in self.dialect.message_names}
+        if name == "MAVLink_waypoint_message":  # the old name, which pymavlink keeps
+            return self.classes.of("MISSION_ITEM")
         if name.startswith("MAVLink_") and name.endswith("_message"):
             message = name[len("MAVLink_"):-len("_message")].upper()
             if message in self.dialect and name == f"MAVLink_{message.lower()}_message":

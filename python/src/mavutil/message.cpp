@@ -210,13 +210,25 @@ void construct(MavutilMessage* self, const PyDialect& dialect, std::optional<std
     }
 }
 
-// The values that were set, by field. Text that is too long is cut, as pymavlink does.
+nb::object cut_array(const nb::object& values, const Field& field) {
+    const auto count = static_cast<Py_ssize_t>(field.count());
+    if (PySequence_Check(values.ptr()) == 0 || PySequence_Size(values.ptr()) <= count) {
+        PyErr_Clear();  // `set_fields` reports what is no array
+        return values;
+    }
+    nb::object cut = nb::steal(PySequence_GetSlice(values.ptr(), 0, count));
+    if (!cut.is_valid()) throw nb::python_error();
+    return cut;
+}
+
+// The values that were set, by field. Text and arrays that are too long are cut, as pymavlink does.
 nb::object packed_value(const MavutilMessage& message, const Field& field, const nb::object& name) {
     nb::object value;
     if (field.is_text())
         value = nb::borrow(
             PyDict_GetItem(message.extra.ptr(), nb::str(fmt::format("_{}_raw", field.name).c_str()).ptr()));
     if (!value.is_valid()) value = nb::borrow(PyDict_GetItem(message.extra.ptr(), name.ptr()));
+    if (value.is_valid() && field.is_array() && !field.is_text()) return cut_array(value, field);
     if (!value.is_valid() || !field.is_text()) return value;
     std::optional<std::string_view> text;
     if (PyUnicode_Check(value.ptr()) != 0) text = name_utf8(value.ptr());

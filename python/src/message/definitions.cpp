@@ -6,8 +6,11 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "errors.hpp"
@@ -197,10 +200,19 @@ nb::object path_or_none(const PyDialect& dialect) {
     return path.empty() ? nb::none() : nb::object(nb::str(path.c_str(), path.size()));
 }
 
+// Nothing of a file that cannot be read, which the reader reports.
+std::string key_of(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const auto changed = fs::last_write_time(path, ignored).time_since_epoch().count();
+    const auto size = fs::file_size(path, ignored);
+    return fmt::format("{} {} {}", fs::absolute(path, ignored).string(), changed, size);
+}
+
 }  // namespace
 
-Definitions::Definitions(dialect::Dialect dialect, std::string path)
-    : dialect_(std::move(dialect)), path_(std::move(path)), type_key_(interned("mavpackettype")) {
+Definitions::Definitions(dialect::Dialect dialect, std::string path, std::string key)
+    : dialect_(std::move(dialect)), path_(std::move(path)), key_(std::move(key)), type_key_(interned("mavpackettype")) {
     const nb::handle message_type = nb::type<Message>();
     constexpr std::string_view of_header[] = {"frame", "id", "seq", "version"};
     names_.reserve(dialect_.messages().size());
@@ -230,17 +242,18 @@ std::shared_ptr<const Definitions> Definitions::builtin() {
     static const std::shared_ptr<const Definitions>* made = nullptr;
     const nb::ft_lock_guard lock(making);
     if (made == nullptr)
-        made = new auto(std::make_shared<const Definitions>(dialect::default_dialect(), std::string()));
+        made = new auto(std::make_shared<const Definitions>(dialect::default_dialect(), std::string(), std::string()));
     return *made;
 }
 
 std::shared_ptr<const Definitions> Definitions::load(const std::string& path) {
+    auto key = key_of(path);  // before the file is read: a change meanwhile makes another key for later readers
     auto dialect = [&] {
         const WithoutGil outside;
         auto own = dialect::Dialect::load(path);
         return own ? dialect::default_dialect().with(*own) : std::move(own);
     }();
-    return std::make_shared<Definitions>(value_or_raise(std::move(dialect)), path);
+    return std::make_shared<Definitions>(value_or_raise(std::move(dialect)), path, std::move(key));
 }
 
 std::shared_ptr<const Definitions> definitions_of(const nb::object& dialect) {
@@ -258,6 +271,14 @@ std::shared_ptr<MavutilStyle> style_of(const nb::object& dialect) {
 
 void bind_dialect(nb::module_& module) {
     bind_infos(module);
+    module.def(
+        "dialect_key",
+        [](const PyDialect& dialect) {
+            const auto& key = dialect.definitions->key();
+            return nb::bytes(key.data(), key.size());
+        },
+        nb::arg("dialect"),
+        "Equal for dialects that were read from the same state of one file; empty for the built-in definitions.");
     nb::class_<PyDialect>(
         module, "Dialect", nb::is_final(),
         "Message definitions: the built-in ones. If `path` is given, the definitions of that XML file and\n"

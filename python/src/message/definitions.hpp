@@ -32,8 +32,9 @@ public:
         const dialect::Field* clock = nullptr;
     };
 
-    // `path` is the file that the dialect was read from; empty for the built-in dialect.
-    Definitions(dialect::Dialect dialect, std::string path);
+    // `path` is the file that the dialect was read from, `key` is unique for each state of it; both are empty for the
+    // built-in dialect.
+    Definitions(dialect::Dialect dialect, std::string path, std::string key);
 
     // Returns the built-in definitions, which are created once.
     [[nodiscard]] static std::shared_ptr<const Definitions> builtin();
@@ -43,6 +44,8 @@ public:
 
     [[nodiscard]] const dialect::Dialect& dialect() const noexcept { return dialect_; }
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
+    // The absolute path of the file, its size and its time of change when it was read.
+    [[nodiscard]] const std::string& key() const noexcept { return key_; }
     // `message` is one of dialect().messages().
     [[nodiscard]] const Names& names(const dialect::Message& message) const noexcept {
         return names_[static_cast<std::size_t>(&message - dialect_.messages().data())];
@@ -54,6 +57,7 @@ public:
 private:
     dialect::Dialect dialect_;
     std::string path_;
+    std::string key_;
     nb::object type_key_;
     std::vector<Names> names_;  // by message
 };

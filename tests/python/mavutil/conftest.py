@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Both modules with the same definitions, as they are when they are imported."""
+import os
 import sys
 
 import pytest
@@ -16,6 +17,7 @@ def as_imported(monkeypatch):
     before = mavutil.mavlink
     mavutil._current.use(mavutil._current.module_of(mavloom.Dialect(), 1))
     yield
+    os.environ.pop("MAVLINK20", None)  # monkeypatch restores what was there before
     mavutil._current.use(before)
 
 

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 
+import numpy as np
 import pytest
 
 import mavloom
@@ -71,6 +72,93 @@ def test_a_recording_is_read_as_pymavlink_reads_it(peer, their_mavutil, tmp_path
         assert state_of(ours) == state_of(theirs)
     assert our is None and ours.percent == 100
     assert ours.flightmode_list() == theirs.flightmode_list()
+
+
+@pytest.mark.parametrize("reads", [0, 5, 100])
+def test_the_list_of_flight_modes_reads_the_whole_recording_and_rewinds_it(reads, peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        log = module.mavlink_connection(path)
+        for _ in range(reads):
+            log.recv_msg()
+        found.append((log._count, log.flightmode_list(), dict(log.params), log.flightmode, str(log.recv_match()),
+                      log.flightmode_list(), str(log.recv_match())))
+    assert found[0] == found[1] and found[1][2] == {"P": 1.5}
+
+
+def test_counters_and_times_can_be_set(peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        log, states = module.mavlogfile(path), []
+        for number in range(19):
+            log.recv_msg()
+            if number == 8:
+                log.mav_loss = log.mav_count = 0
+                log.timestamp = 5.0
+                states.append(log.timestamp)
+            states.append((log.mav_count, log.mav_loss, round(log.packet_loss(), 9)))
+        found.append([*states, log.timestamp])
+    assert found[0] == found[1] and 5.0 in found[1]
+
+
+def test_the_target_of_parameters(peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        log = module.mavlogfile(path)
+        log.recv_match(type="PARAM_VALUE")
+        states = [(log.param_sysid, log.sysid)]
+        for name, value in (("target_component", 3), ("target_system", 7), ("target_component", 1), ("sysid", 1)):
+            setattr(log, name, value)
+            states.append((log.param_sysid[1], log.sysid, log.target_system, log.target_component))
+        found.append(states)
+    assert found[0] == found[1]
+
+
+def test_messages_are_added_to_a_dictionary_with_their_instances(peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        log, messages = module.mavlogfile(path), {}
+        while (message := log.recv_msg()) is not None:
+            module.add_message(messages, message.get_type(), message)
+        battery = messages["BATTERY_STATUS"]
+        found.append(({key: str(message) for key, message in messages.items()}, str(battery[0]), str(battery[1]),
+                      messages["NAMED_VALUE_FLOAT"]["speed"].value))
+    assert found[0] == found[1] and "BATTERY_STATUS[1]" in found[1][0]
+
+
+def test_ids_of_numpy(peer, tmp_path):
+    log = mavutil.mavlink_connection(busy_log(peer, tmp_path / "x.tlog"), source_system=np.uint8(7),
+                                     source_component=np.int64(8))
+    log.target_system = np.uint8(2)
+    assert (log.mav.srcSystem, log.mav.srcComponent, log.target_system) == (7, 8, 2)
+    assert {type(number) for number in (log.source_system, log.target_system)} == {int}
+
+
+def test_the_version_is_that_of_the_environment(peer, their_mavutil, tmp_path):
+    path, found = busy_log(peer, tmp_path / "x.tlog"), []
+    for module in (their_mavutil, mavutil):
+        os.environ.pop("MAVLINK20", None)
+        module.set_dialect("ardupilotmega")
+        states = [(module.mavlink10(), module.mavlink20())]
+        module.mavlink_connection(path).recv_msg()
+        states.append((module.mavlink10(), module.mavlink20(), os.environ.get("MAVLINK20")))
+        module.set_dialect("ardupilotmega")
+        states.append(module.mavlink.WIRE_PROTOCOL_VERSION)
+        os.environ.pop("MAVLINK20", None)
+        module.set_dialect("ardupilotmega")
+        found.append([*states, module.mavlink.WIRE_PROTOCOL_VERSION])
+    assert found[0] == found[1] == [(True, False), (True, True, "1"), "2.0", "1.0"]
+
+
+def test_the_addresses_of_tcp(their_mavutil):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        device = f"tcp:127.0.0.1:{server.getsockname()[1]}"
+        theirs, ours = their_mavutil.mavlink_connection(device), mavutil.mavlink_connection(device)
+        assert ours.address == theirs.address == device
+        theirs.close()
+        ours.close()
+    with mavutil.mavlink_connection("tcpin:127.0.0.1:0") as server:
+        assert server.address == "tcpin:127.0.0.1:0"
 
 
 @pytest.mark.parametrize("selection", [

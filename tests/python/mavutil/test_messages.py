@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: MIT
 """mavutil.mavlink, its messages and MAVLink, against the module that pymavlink's generator makes of our definitions."""
 import copy
+import fnmatch
 import inspect
+import io
 import json
 import math
 import pickle
 import random
 import struct
+import time
 import weakref
 
+import numpy as np
 import pytest
 from pymavlink import mavutil as theirs
 
@@ -36,6 +40,11 @@ def test_constants_are_those_of_pymavlink(mavlink, peer):
     assert len(wanted) > 3000
     assert {name: getattr(mavlink, name, None) for name in wanted} == wanted
     assert set(wanted) <= set(dir(mavlink))
+
+
+def test_the_old_name_of_items(mavlink):
+    """pymavlink makes it when a connection is opened."""
+    assert mavlink.MAVLink_waypoint_message is mavlink.MAVLink_mission_item_message
 
 
 def test_enums_are_those_of_pymavlink(mavlink, peer):
@@ -178,6 +187,16 @@ def test_text(mavlink, peer):
         mavlink.MAVLink_statustext_message(6, "\udc80").pack(sender)
 
 
+@pytest.mark.parametrize("values", [[1] * 12, tuple(range(12)), np.arange(12), bytes(range(12)), range(11),
+                                    [*range(10), "x"]])
+def test_arrays_that_are_too_long_are_cut(values, mavlink, peer):
+    packed = [module.MAVLink_battery_status_message(0, 0, 0, 200, values, 1, 1, 1, 50).pack(module.MAVLink(None))
+              for module in (peer, mavlink)]
+    assert bytes(packed[0]) == packed[1]
+    with pytest.raises(mavloom.UsageError, match="expected 10 elements, not 9"):
+        mavlink.MAVLink_battery_status_message(0, 0, 0, 200, values[:9], 1, 1, 1, 50).pack(mavlink.MAVLink(None))
+
+
 @pytest.mark.parametrize("values", [(1.5, 0, 0, 0, 0), (300, 0, 0, 0, 0), (None, 0, 0, 0, 0), ("x", 0, 0, 0, 0),
                                     (2**70, 0, 0, 0, 0), ([1], 0, 0, 0, 0)])
 def test_values_that_cannot_be_packed(values, mavlink):
@@ -232,6 +251,19 @@ def test_a_dialect_of_ones_own(tmp_path):
     finally:
         mavutil._current.use(before)
         mavutil.current_dialect = "all"
+
+
+def test_definitions_that_change(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("ONE", "THREE"):
+        (tmp_path / "mine.xml").write_text(
+            f'<mavlink><enums><enum name="MY"><entry name="MY_{name}" value="1"/></enum></enums><messages>'
+            f'<message id="61000" name="MINE"><field type="uint16_t" name="{name}">a</field></message></messages>'
+            '</mavlink>')
+        mavutil.set_dialect("mine.xml")
+        assert getattr(mavutil.mavlink, f"MY_{name}") == 1
+        message = mavutil.mavlink.MAVLink_mine_message(7)
+        assert pickle.loads(pickle.dumps(message)).to_dict() == {"mavpackettype": "MINE", name: 7}
 
 
 def test_fields_with_names_that_python_does_not_allow(tmp_path):
@@ -416,6 +448,53 @@ def test_small_helpers():
     assert mavutil.u_ord("a") == mavutil.u_ord(97) == 97
     with pytest.raises(AttributeError, match="HEARTBEAT.type is not a bitmask"):
         mavutil.decode_bitmask("HEARTBEAT", "type", 3)
+
+
+@pytest.mark.parametrize("preferred", [["*"], ["*ACM*", "*3D*"], ["*none*"]])
+def test_serial_devices_are_found_as_by_pymavlink(preferred, monkeypatch):
+    devices = ["/dev/ttyS0", "/dev/ttyUSB0", "/dev/ttyACM0", "/dev/serial/by-id/usb-3D_Robotics-if00"]
+    monkeypatch.setattr("glob.glob", lambda pattern: fnmatch.filter(devices, pattern))
+    found = [[str(port) for port in module.auto_detect_serial(preferred)] for module in (theirs, mavutil)]
+    assert found[0] == found[1] != []
+
+
+@pytest.mark.parametrize("zone", ["UTC", "Asia/Tokyo", "America/St_Johns"])
+def test_the_verbose_form_has_local_times_and_the_link_of_the_signature(zone, mavlink, peer, their_mavutil,
+                                                                        monkeypatch):
+    monkeypatch.setenv("TZ", zone)
+    time.tzset()
+    sender, found = peer.MAVLink(None, 1, 1), []
+    plain = bytes(peer.MAVLink_system_time_message(1700000000123456, 5).pack(sender))
+    sender.signing.secret_key, sender.signing.sign_outgoing, sender.signing.link_id = bytes(32), True, 7
+    signed = bytes(peer.MAVLink_system_time_message(1700000000123456, 5).pack(sender))
+    for module, definitions in ((their_mavutil, peer), (mavutil, mavlink)):
+        receiver, text = definitions.MAVLink(None), io.StringIO()
+        receiver.signing.secret_key, receiver.signing.allow_unsigned_callback = bytes(32), lambda *_: True
+        for frame in (plain, signed):
+            message = receiver.decode(bytearray(frame))
+            message._timestamp, message._link = 1700000000.25, 3
+            module.dump_message_verbose(text, message)
+        found.append(text.getvalue())
+    monkeypatch.undo()
+    time.tzset()
+    assert found[0] == found[1] and "(signed=Yes; out-link=7)" in found[1]
+
+
+OWN = """<mavlink><enums><enum name="MYF" bitmask="true"><entry name="MYF_A" value="1"/><entry name="MYF_B" value="2"/>
+</enum><enum name="MYE"><entry name="MYE_ONE" value="1"/></enum></enums><messages><message id="61000" name="MINE">
+<field type="uint16_t" name="e" enum="MYE">a</field>
+<field type="uint16_t" name="f" enum="MYF" display="bitmask">a</field></message></messages></mavlink>"""
+
+
+def test_the_verbose_form_of_a_message_of_ones_own_definitions(tmp_path):
+    (tmp_path / "own.xml").write_text(OWN)
+    mavutil.set_dialect(str(tmp_path / "own.xml"))
+    text = io.StringIO()
+    mavutil.dump_message_verbose(text, mavutil.mavlink.MAVLink_mine_message(1, 2))
+    assert text.getvalue().splitlines()[1:] == ["    e: 1 (MYE_ONE)", "    f: 0x2 (2)",
+                                                "      ! MYF_A", "        MYF_B"]
+    bits = mavutil.decode_bitmask("MINE", "f", 2)
+    assert [(bit.name, bit.value) for bit in bits][:2] == [("MYF_A", False), ("MYF_B", True)]
 
 
 def test_quaternions():

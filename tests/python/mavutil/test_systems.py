@@ -86,7 +86,8 @@ def test_other_components_do_not_change_the_modes_of_their_vehicle(autopilot, cu
 SUMMARIES = {
     "copter": [high_latency(QUADROTOR, ARDUPILOT)], "plane": [high_latency(1, ARDUPILOT, 10)],
     "unknown mode": [high_latency(QUADROTOR, ARDUPILOT, 99)], "armed": [high_latency(QUADROTOR, ARDUPILOT, 5, -64)],
-    "px4": [high_latency(QUADROTOR, PX4, 0x304)], "home-made": [high_latency(QUADROTOR, NONE)],
+    "px4": [high_latency(QUADROTOR, PX4, 0x304)], "px4, position": [high_latency(QUADROTOR, PX4, 3)],
+    "home-made": [high_latency(QUADROTOR, NONE)],
     "before a heartbeat": [high_latency(QUADROTOR, ARDUPILOT), ("heartbeat", QUADROTOR, ARDUPILOT, 217, 5, 4, 3)],
     "after a heartbeat": [("heartbeat", QUADROTOR, ARDUPILOT, 217, 5, 4, 3), high_latency(QUADROTOR, ARDUPILOT)]}
 
@@ -98,6 +99,13 @@ def test_a_vehicle_on_a_slow_link_is_known_by_its_high_latency2(messages, peer, 
     theirs, ours = both_read(tmp_path / "x.tlog", frames, their_mavutil)
     assert state_of(ours) == state_of(theirs)
     assert ours.target_system == 7
+
+
+@pytest.mark.parametrize("messages", SUMMARIES.values(), ids=list(SUMMARIES))
+def test_the_mode_in_a_message(messages, peer, their_mavutil):
+    for name, *values in messages:
+        message = getattr(peer, f"MAVLink_{name}_message")(*values)
+        assert mavutil.mode_string_v10(message) == their_mavutil.mode_string_v10(message)
 
 
 def test_high_latency2_of_a_gimbal_changes_nothing(peer, tmp_path):
