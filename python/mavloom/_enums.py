@@ -26,6 +26,11 @@ def make(dialect: Dialect, name: str) -> EnumClass:
     return _made[key]
 
 
+def entry_name(kind: EnumClass, number: int) -> str | None:
+    """The name of an entry; None if the enum has no such number."""
+    return next((name for name, member in kind.__members__.items() if member == number), None)
+
+
 class Enums(Mapping[str, Mapping[int, "enum.IntEnum | enum.IntFlag"]]):
     """{"MAV_CMD": {16: <MAV_CMD.MAV_CMD_NAV_WAYPOINT>, ...}, ...}; each enum is created when it is read."""
 

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from .. import _modes, enums
 from .._core import Message
+from .._enums import entry_name
 from .._errors import CommandError, UsageError
 from ._exchange import Peer, Protocol, wait_until
 from ._turns import exclusive
@@ -57,13 +58,11 @@ def checked_number(what: str, value: float) -> float:
 
 
 def name_of(command: int) -> str:
-    names = {int(member): name for name, member in enums.MAV_CMD.__members__.items()}
-    return names.get(command, f"command {command}")
+    return entry_name(enums.MAV_CMD, command) or f"command {command}"
 
 
 def result_name(result: int) -> str:
-    names = {int(member): name for name, member in enums.MAV_RESULT.__members__.items()}
-    return names.get(result, f"result {result}")
+    return entry_name(enums.MAV_RESULT, result) or f"result {result}"
 
 
 def command(peer: Peer, number: int, params: tuple[float, ...], answer_s: float | None = None,

@@ -13,6 +13,7 @@ from typing import Any
 
 from .. import _modes, enums
 from .._core import Message
+from .._enums import entry_name
 from .._errors import MissionError, UsageError
 from ._commands import checked_number, known_heartbeat, number_of
 from ._exchange import Peer, Protocol, T, wait_until
@@ -98,8 +99,8 @@ def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
 def raise_if_refused(peer: Peer, what: str, answer: Message) -> None:
     """Raises MissionError if the answer is a MISSION_ACK that refuses."""
     if answer.name == "MISSION_ACK" and (result := answer["type"]) != ACCEPTED:
-        names = {int(member): text for text, member in enums.MAV_MISSION_RESULT.__members__.items()}
-        raise MissionError(f"{peer}: {what}: {names.get(result, result)}", result)
+        reason = entry_name(enums.MAV_MISSION_RESULT, result) or result
+        raise MissionError(f"{peer}: {what}: {reason}", result)
 
 
 def answer_of(peer: Peer, names: tuple[str, ...], kind: int, deadline: float) -> Protocol[Message | None]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from .. import _modes, enums
 from .._core import Message
+from .._enums import entry_name
 from .._errors import ParameterError, UsageError
 from ._commands import known_heartbeat
 from ._exchange import Peer, Protocol, wait_until
@@ -102,8 +103,8 @@ def answer_about(name: str, deadline: float) -> Protocol[Message | None]:
 
 
 def error_in(peer: Peer, answer: Message, name: str) -> ParameterError:
-    names = {int(member): text for text, member in enums.MAV_PARAM_ERROR.__members__.items()}
-    return ParameterError(f"{peer}: parameter {name}: {names.get(answer['error'], answer['error'])}", answer["error"])
+    reason = entry_name(enums.MAV_PARAM_ERROR, answer["error"]) or answer["error"]
+    return ParameterError(f"{peer}: parameter {name}: {reason}", answer["error"])
 
 
 def read(peer: Peer, name: str) -> Protocol[Value]:

@@ -143,5 +143,4 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
                                     source_system, source_component)
     else:
         mavfile_global = mavmmaplog(target.rest, progress_callback, source_system, source_component)
-        mavfile_global.robust_parsing = robust_parsing
     return mavfile_global

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from .._core import Dialect, FieldInfo, MavutilParser
+from .._core import FieldInfo, MavutilParser
 from .._errors import UsageError
 from .._signatures import parameter_name
 from ._messages import MAVError, MAVLink_bad_data, MAVLink_message, as_bytes, parameters
@@ -319,7 +319,7 @@ def make_call(module: MavlinkModule, name: str, verb: str, fields: list[FieldInf
     return made
 
 
-class Call:
+class LateMethod:
     """The method NAME_send or NAME_encode, which is made when it is first read.
 
     Not a method `__getattr__`, which would slow down every other attribute.
@@ -341,10 +341,6 @@ class Call:
 
 
 def new_class(module: MavlinkModule) -> type[MAVLink]:
-    calls = {f"{name.lower()}_{verb}": Call(module, name, verb)
+    calls = {f"{name.lower()}_{verb}": LateMethod(module, name, verb)
              for name in module.dialect.message_names for verb in ("send", "encode")}
     return type("MAVLink", (MAVLink,), {"_module": module, "__module__": module.__name__, **calls})
-
-
-def dialect_of(mav: MAVLink) -> Dialect:
-    return mav._dialect

@@ -326,11 +326,6 @@ std::uint64_t MavutilLog::damaged() {
     return damaged_;
 }
 
-std::uint64_t MavutilLog::size() {
-    const auto lock = lock_without_gil(mutex_);
-    return size_;
-}
-
 void MavutilLog::close() {
     const auto lock = lock_without_gil(mutex_);
     reader_.reset();
@@ -373,7 +368,6 @@ void bind_mavutil_log(nb::module_& module) {
         .def_prop_ro("percent", &MavutilLog::percent)
         .def_prop_ro("totals", &MavutilLog::totals, nb::sig("def totals(self) -> tuple[int, int]"))
         .def_prop_ro("damaged", &MavutilLog::damaged)
-        .def_prop_ro("size", &MavutilLog::size)
         .def("close", &MavutilLog::close);
 }
 

@@ -50,7 +50,6 @@ public:
     void rewind();
     // The place of the last message that was returned, in percent of the file.
     [[nodiscard]] double percent();
-    [[nodiscard]] std::uint64_t size();
     // How many messages were returned, with BAD_DATA, and how many bytes they had.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> totals();
     // How many of them are BAD_DATA.

@@ -12,7 +12,6 @@
 #include "bindings.hpp"
 #include "errors.hpp"
 #include "integer.hpp"
-#include "mavloom/ring/frames.hpp"
 #include "message/encode.hpp"
 #include "strings.hpp"
 
@@ -374,7 +373,6 @@ int header_sequence_of(const wire::FrameView& frame) { return frame.sequence(); 
 int header_incompat_flags(const wire::FrameView& frame) { return frame.incompat_flags(); }
 int header_compat_flags(const wire::FrameView& frame) { return frame.compat_flags(); }
 int header_payload_length(const wire::FrameView& frame) { return frame.payload_length(); }
-std::uint32_t header_id_of(const wire::FrameView& frame) { return frame.id().value; }
 
 double time_in_seconds(const MavutilMessage& message) {
     const auto microseconds = message.base.time_ns / 1000;  // pymavlink's times have no more
@@ -431,15 +429,10 @@ void bind_mavutil_message(nb::module_& module) {
             "_frame",
             [](const MavutilMessage& m) { return bytes_of(m.base.size == 0 ? ByteView() : m.base.frame().bytes()); })
         .def_prop_ro("_frame_payload", [](const MavutilMessage& m) { return bytes_of(m.payload()); })
-        .def_prop_ro("_frame_id", of_frame<header_id_of>())
         .def_prop_ro("_frame_incompat", of_frame<header_incompat_flags>())
         .def_prop_ro("_frame_compat", of_frame<header_compat_flags>())
         .def_prop_ro("_frame_mlen", of_frame<header_payload_length>())
-        .def_prop_ro(
-            "_is_verified",
-            [](const MavutilMessage& m) { return ring::signature_of(m.base.verdict) == ring::FrameSignature::good; })
         .def_prop_ro("_timestamp", &time_in_seconds)
-        .def_prop_ro("_time_ns", [](const MavutilMessage& m) { return m.base.time_ns; })
         .def_prop_ro("_link", [](const MavutilMessage& m) { return m.base.link; });
 
     module.def(
