@@ -48,7 +48,7 @@ def number_of(command: int | str) -> int:
 
 
 def checked_number(what: str, value: float) -> float:
-    """The value as float. Raises UsageError for what is no number."""
+    """The value as float. Raises UsageError if the value is not a number."""
     if isinstance(value, (str, bytes, bool)):
         raise UsageError(f"{what}: a number, not {value!r}")
     try:

@@ -33,7 +33,7 @@ MOST_ITEMS = 65534  # MISSION_COUNT counts to 65535, with the home of an ArduPil
 
 
 def scaled(name: str, value: float, scale: float) -> int:
-    """A coordinate as the integer that is sent. Raises UsageError for what is none."""
+    """A coordinate as the integer that is sent. Raises UsageError if the value is not a number."""
     number = checked_number(name, value)
     if not math.isfinite(number):
         raise UsageError(f"{name}: {number} is no coordinate")
@@ -122,7 +122,7 @@ def transfer(peer: Peer, protocol: Protocol[T]) -> Protocol[T]:
 
 
 def begins_with_home(peer: Peer, kind: int) -> Protocol[bool]:
-    """Whether the vehicle's item 0 is home, as that of an ArduPilot. Callers never see it: they count from the next."""
+    """Whether the vehicle's item 0 is home. ArduPilot stores home as item 0. Callers' lists do not contain it."""
     if kind != MISSION:
         return False
     heartbeat = yield from known_heartbeat(peer)

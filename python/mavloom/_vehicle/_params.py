@@ -192,8 +192,8 @@ def fetched(peer: Peer) -> Protocol[dict[str, Value]]:
 
 def collect(found: dict[str, Value], seen: set[int], asked: set[int], count: int | None,
             bytewise: bool) -> Protocol[int | None]:
-    """Takes values until all that were `asked` for are there (all, if none were), or until no new one arrives for a
-    while. Returns how many the vehicle has."""
+    """Collects values until every requested index has arrived (all parameters if `asked` is empty), or until no new one
+    arrives for a while. Returns how many the vehicle has."""
     deadline = time.monotonic() + (QUIET_S if count is not None else ANSWER_S * 2)
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name != "PARAM_VALUE":

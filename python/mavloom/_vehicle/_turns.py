@@ -50,7 +50,7 @@ class Turns:
 def exclusive(peer: Peer, what: str, patience_s: float, protocol: Protocol[T]) -> Protocol[T]:
     """Runs a protocol when no other exchange of this kind runs with the vehicle.
 
-    Raises TimeoutError if the vehicle answers none of those before it for `patience_s`.
+    Raises TimeoutError if the exchange in front gets no answer for `patience_s`.
     """
     turns, key, ticket = peer.link._turns, (peer.system, peer.component, what), object()
     turns.join(key, ticket)

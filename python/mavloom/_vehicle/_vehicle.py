@@ -78,7 +78,7 @@ class _Common:
 class Vehicle(_Common):
     """A vehicle on a link, from `link.vehicle()`. Its methods wait for the vehicle's answer.
 
-    They repeat what is lost. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
+    They resend lost requests. They raise CommandError, ParameterError or MissionError, with the vehicle's reason, if it
     refuses, and TimeoutError if it does not answer.
 
     Any thread may call them. Calls that the protocol would mix up take turns, on one link: transfers of missions,
@@ -106,7 +106,7 @@ class Vehicle(_Common):
         run(self._peer, _commands.ANSWERS, _commands.arm(self._peer, True, force))
 
     def disarm(self, *, force: bool = False) -> None:
-        """Disarms the motors. `force` does so in flight."""
+        """Disarms the motors. With `force`, disarms even in flight."""
         run(self._peer, _commands.ANSWERS, _commands.arm(self._peer, False, force))
 
     def set_mode(self, mode: str | int) -> None:

@@ -50,7 +50,7 @@ class Connection:
         self.notimestamps = notimestamps
         self.robust_parsing = True
         self.portdead = False
-        self.first_byte = True  # whether auto_mavlink_version() was not called yet
+        self.first_byte = True  # True until the first bytes were examined
         self.stop_on_EOF = True
         self.start_time = time.time()
         self.param_fetch_start: float = 0
@@ -203,9 +203,9 @@ class Connection:
         return evaluate_condition(condition, self.messages)
 
     def post_message(self, msg: MAVLink_message) -> None:
-        """Notes a message that the program received itself, and calls the hooks: with `recv` and `mav.parse_buffer`.
+        """Call this for messages that you parsed yourself (`recv`, `mav.parse_buffer`).
 
-        Does nothing for a message that was noted before.
+        It updates `messages` and calls the hooks. Does nothing for a message that was noted before.
         """
         concerns_connection = self._state.note(msg)
         if concerns_connection is None:

@@ -73,10 +73,7 @@ class mavlive(mavfile):
             return 0
 
     def _arm(self) -> MAVLink_message | None:
-        """After a read that found nothing: the descriptor becomes readable when the next message arrives.
-
-        Until then it stays readable, also for programs that read one message each time.
-        """
+        """Call after an empty read. Clears the descriptor; the next message makes it readable again."""
         descriptor = self._reader.event_fd()
         try:
             os.read(descriptor, 8)
@@ -88,9 +85,9 @@ class mavlive(mavfile):
         return message
 
     def recv(self, n: int | None = None) -> bytes:
-        """Returns the bytes of the messages that are there now, about `n` of them; b"" if there are none.
+        """Returns the bytes of waiting frames: whole frames, until there are at least `n` bytes.
 
-        Without `n`, returns those of one message.
+        Without `n`, returns one frame; b"" if none waits.
         """
         data = self._read_frame()
         while n is not None and 0 < len(data) < n and (more := self._read_frame()):
@@ -183,9 +180,9 @@ def frame_length(data: bytes) -> int:
 
 
 class mavudp(mavlive):
-    """A UDP socket: `input` binds and answers those that it hears; else it sends to the address.
+    """A UDP socket. With `input`, binds and sends to every peer it has heard. Otherwise sends to `device`.
 
-    A program that it hears gets everything from then on. It is forgotten after `timeout` seconds of silence; 0: never.
+    A peer is forgotten after `timeout` seconds of silence; 0: never.
     """
 
     def __init__(self, device: str, input: bool = True, broadcast: bool = False, source_system: int = 255,
@@ -222,7 +219,7 @@ def refusal(error: SystemFailure) -> OSError:
 
 
 def seconds(value: float, name: str) -> float:
-    """A pause in seconds. Raises UsageError for what is none."""
+    """A pause in seconds. Raises UsageError if the value is not a number."""
     if not isinstance(value, (int, float)) or not 0 <= value <= LONGEST_WAIT_S:
         raise UsageError(f"{name}: {value!r} is no number of seconds, 0 to {LONGEST_WAIT_S}")
     return value

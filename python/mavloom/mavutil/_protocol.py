@@ -31,7 +31,7 @@ def signing_time() -> int:
 
 
 class MAVLinkSigning:
-    """The state of signing. A message that was signed with another key changes none of it but the counters.
+    """The state of signing. A bad signature changes only the counters.
 
     `sig_count` has the messages with a signature, good or not. A connection counts them only while it has a key.
     `unsigned_count` has those without a good signature that the callback accepted.

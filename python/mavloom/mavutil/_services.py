@@ -164,7 +164,7 @@ class mavfile(Connection):
         self._command(COMPONENT_ARM_DISARM, 0)
 
     def motors_armed(self) -> int | bool:
-        """Not 0 if the last heartbeat of the vehicle reported armed motors."""
+        """The armed flag (128) of the newest heartbeat; 0 or False if disarmed."""
         armed: int | bool = self.sysid_state[self.target_system].armed
         return armed
 
