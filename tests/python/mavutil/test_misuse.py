@@ -44,7 +44,8 @@ def made():
             mavloom.columns(flight, "HEARTBEAT"), mavloom.RingWriter(rings[-1]), mavloom.RingReader(rings[-1]),
             live, live.mav, live.messages, live.mav.signing, log, log.mav, log.recv_match(type="ATTITUDE"),
             mavlink.MAVLink_mission_item_int_message(*range(14)), mavlink.MAVLink_bad_data(b"x", "y"),
-            mavlink.enums, mavutil.mavmmaplog(flight), mavwp.MAVWPLoader(), quaternion.QuaternionBase([1, 0, 0, 0])]
+            mavlink.enums, mavutil.mavmmaplog(flight), mavwp.MAVWPLoader(), mavwp.MAVFenceLoader(),
+            quaternion.QuaternionBase([1, 0, 0, 0])]
 
 # What ends the process, changes it for all later calls, or takes long by design.
 LEFT_OUT = {"stop_all", "set_leak_warnings", "install", "set_dialect", "set_signature", "warnings", "sys", "os"}
