@@ -269,8 +269,8 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
     """Reads all messages `name` of a tlog as columns, in one pass in C++ and without an object for each message.
 
     `path` may be a list of files, whose rows follow each other. `name` is a name or a class of mavloom.messages. It may
-    also be a list of these; the result is then {name: Columns}, like that of `tables`. A list of names with `fields` or
-    `instance` takes one pass for each name.
+    also be a list of these; the result is then {name: Columns}, like that of `tables`. A list of names with `instance`
+    takes one pass for each name.
 
     - `system`, `component` and `instance` select rows. `instance` is the value of the field that distinguishes several
       sensors in one message, such as BATTERY_STATUS.id or NAMED_VALUE_FLOAT.name.
@@ -290,11 +290,11 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
     name = name_of(name)
     if not isinstance(name, str):
         names = list_of_names("name", map(name_of, name if isinstance(name, Iterable) else [name]))
-        if instance is None and wanted is None:
-            found = tables(files, names, system=system, component=component, start=begin, end=before,
+        check_fields(definitions, names, wanted or [])
+        if instance is None:
+            found = tables(files, names, system=system, component=component, start=begin, end=before, fields=wanted,
                            dialect=definitions)
             return {one: found[one] for one in names}
-        check_fields(definitions, names, wanted or [])
         return {one: columns(files, one, system=system, component=component, instance=instance, start=begin, end=before,
                              fields=None if wanted is None else [f for f in wanted if has_field(definitions, one, f)],
                              dialect=definitions) for one in names}
@@ -303,15 +303,18 @@ def columns(path: Paths, name: str | type[Message] | Names, *, system: int | Non
 
 
 def tables(path: Paths, type: MessageTypes | None = None, *, system: int | None = None, component: int | None = None,
-           start: Time | None = None, end: Time | None = None, dialect: Dialect | None = None) -> dict[str, Columns]:
+           start: Time | None = None, end: Time | None = None, fields: str | Iterable[str] | None = None,
+           dialect: Dialect | None = None) -> dict[str, Columns]:
     """Reads several messages of a tlog as columns, in one pass: {"ATTITUDE": Columns, ...}, ordered by message id.
 
     Without `type`, returns all messages that occur in the file; with `type`, the messages that it names. Messages
-    without a definition are left out. Otherwise, `tables` works like `columns`, but it checks every checksum.
+    without a definition are left out, and so are those that have none of `fields`, unless `type` names them. Otherwise,
+    `tables` works like `columns`, but it checks every checksum.
     """
     definitions = Dialect() if dialect is None else dialect
+    wanted = None if fields is None else list_of_names("fields", fields)
     made, junk_bytes = read_tables(paths_of(path), type, system, component, time_ns_of("start", start),
-                                   time_ns_of("end", end), definitions)
+                                   time_ns_of("end", end), wanted, definitions)
     return {name: _made(definitions, name, parts, junk_bytes) for name, parts in made.items()}
 
 

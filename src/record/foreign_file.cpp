@@ -65,9 +65,9 @@ constexpr bool is_text(std::uint8_t byte) noexcept {
     return (byte >= 0x20 && byte < 0x7f) || byte == '\t' || byte == '\n' || byte == '\r';
 }
 
-// Text has no signature. So much of it holds no frame, and is more than damage of a tlog.
+// Text has no signature. A record always contains other bytes, and 4096 bytes of text are more than damage of a tlog.
 std::optional<ForeignFormat> text_format(ByteView first_bytes) noexcept {
-    if (first_bytes.size() < foreign_format_bytes || !std::ranges::all_of(first_bytes, is_text)) return std::nullopt;
+    if (first_bytes.empty() || !std::ranges::all_of(first_bytes, is_text)) return std::nullopt;
     if (first_bytes[0] == '{' || first_bytes[0] == '[') return ForeignFormat{"JSON", "read it with Python's json"};
     return ForeignFormat{"text", "if it is CSV, read it with Python's csv or with pandas.read_csv"};
 }

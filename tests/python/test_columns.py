@@ -268,6 +268,12 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
         assert list(part) == ["time_ns", "sys", "comp", "roll", "yaw"]
         assert part["roll"].tolist() == whole["roll"][100:300].tolist()
     assert len(mavloom.tables(flight, start=first, end=last)["ATTITUDE"]) == 200
+    parts = mavloom.tables(flight, fields=["yaw", "roll"])
+    assert list(parts["ATTITUDE"]) == list(part) and "HEARTBEAT" not in parts
+    assert list(mavloom.tables(flight, "HEARTBEAT", fields="type")["HEARTBEAT"]) == ["time_ns", "sys", "comp", "type"]
+    assert list(mavloom.tables(flight, ["HEARTBEAT", "ATTITUDE"], fields="roll")["HEARTBEAT"]) == list(part)[:3]
+    with pytest.raises(mavloom.UsageError, match="none of the messages has a field 'rol'"):
+        mavloom.tables(flight, fields=["rol"])
     with pytest.raises(mavloom.UsageError, match="no field 'rol', did you mean 'roll'"):
         mavloom.columns(flight, "ATTITUDE", fields=["rol"])
     with pytest.raises(mavloom.UsageError, match="start: a time is .*, not '20"):

@@ -356,3 +356,14 @@ def test_files_of_other_formats_are_refused_by_name(start, text, tmp_path):
     for read in (mavloom.read, mavloom.tables, lambda path: mavloom.columns(path, "ATTITUDE")):
         with pytest.raises(mavloom.InputError, match=f"{path} is {text}, not a tlog: "):
             read(path)
+
+
+@pytest.mark.parametrize("content, text", [
+    (b"a,b\n1,2\n", "is text, not a tlog"), (b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 8, "begins a MAVLink record"),
+    (bytes(5000), "begins a MAVLink record")])
+def test_a_file_without_a_record_is_refused(content, text, tmp_path):
+    path = tmp_path / "log"
+    path.write_bytes(content)
+    for read in (lambda path: list(mavloom.read(path)), mavloom.tables, lambda path: mavloom.columns(path, "ATTITUDE")):
+        with pytest.raises(mavloom.InputError, match=text):
+            read(path)

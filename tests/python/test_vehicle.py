@@ -9,6 +9,7 @@ import pytest
 
 import mavloom
 from autopilot import ARDUPILOT_PARAMS, ARMED, PX4_PARAMS, Autopilot, Settings
+from mavloom import mavutil
 from mavloom._vehicle import _commands, _mission, _params
 from vehicles import again_and_again
 
@@ -364,11 +365,12 @@ def test_the_home_of_an_ardupilot_is_no_item_of_its_mission(peer):
 def test_items_as_mappings_and_messages(peer):
     dialect = mavloom.Dialect()
     items = [{"command": 22, "z": 10.0}, dialect.message("MISSION_ITEM_INT", command=16, x=1, y=2, z=3, frame=6),
-             dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3)]
+             dialect.message("MISSION_ITEM", command=16, x=47.5, y=8.25, z=3, frame=3),
+             mavutil.mavlink.MAVLink_mission_item_int_message(1, 1, 0, 6, 16, 0, 1, 0, 0, 0, 0, 4, 5, 6)]
     with flown(peer, px4=True) as (vehicle, stub):
         vehicle.mission.upload(items)
         assert [(m.command, m.x, m.y, m.z) for m in stub.mission] == [(22, 0, 0, 10), (16, 1, 2, 3),
-                                                                      (16, 475000000, 82500000, 3)]
+                                                                      (16, 475000000, 82500000, 3), (16, 4, 5, 6)]
 
 
 def test_an_item_that_cannot_be_sent_sends_nothing(peer):
@@ -387,6 +389,7 @@ def test_places_and_altitudes_that_are_none(peer):
     with flown(peer, px4=True) as (vehicle, stub):
         for call, text in ((lambda: item.at(nan, 2, 3), "^lat: nan is no coordinate"),
                            (lambda: item.at(1, math.inf, 3), "^lon: inf is no coordinate"),
+                           (lambda: item.at(147.5, 8, 3), "^lat: 147.5 is out of range, -90 to 90 degrees"),
                            (lambda: item.at("a", 2, 3), "^lat: a number, not 'a'"),
                            (lambda: item.at(1, 2, None), "^alt: a number, not None"),
                            (lambda: item.at(1, 2, 3, command="DANCE"), "^unknown command 'DANCE'"),

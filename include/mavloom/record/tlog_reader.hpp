@@ -65,6 +65,12 @@ public:
     // The file's size when it was opened; 0 for a pipe.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
     [[nodiscard]] const ReadCounters& counters() const noexcept { return counters_; }
+    // At the end: whether all bytes were damaged, and were more than one cut-off record. Such a file is no recording.
+    [[nodiscard]] bool found_no_record() const noexcept {
+        return counters_.lost_bytes.value() > max_record_length && counters_.lost_bytes.value() == position();
+    }
+    // The error for such a file.
+    [[nodiscard]] SetupError no_record_error() const;
 
 private:
     static constexpr std::size_t buffer_length = 256 * 1024;

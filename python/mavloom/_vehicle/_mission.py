@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from .. import _modes, enums
-from .._core import Message
+from .._core import MavutilMessage, Message
 from .._enums import entry_name
 from .._errors import MissionError, UsageError
 from ._commands import checked_number, known_heartbeat, number_of
@@ -40,6 +40,14 @@ def scaled(name: str, value: float, scale: float) -> int:
     return round(number * scale)
 
 
+def degrees(name: str, value: float, most: int) -> int:
+    """A latitude or longitude as the integer that is sent. Raises UsageError if it is out of range."""
+    number = scaled(name, value, DEGREES)
+    if abs(number) > most * DEGREES:
+        raise UsageError(f"{name}: {value} is out of range, -{most} to {most} degrees")
+    return number
+
+
 @dataclass
 class MissionItem:
     """One item of a mission. `x` and `y` are degrees * 1e7 in a global frame, else metres * 1e4."""
@@ -58,7 +66,7 @@ class MissionItem:
     @classmethod
     def at(cls, lat: float, lon: float, alt: float, command: int | str = 16, **fields: Any) -> MissionItem:
         """An item at a place in degrees, `alt` m above home: MissionItem.at(47.398, 8.546, 20)."""
-        x, y = (scaled(name, value, DEGREES) for name, value in (("lat", lat), ("lon", lon)))
+        x, y = (degrees(name, value, most) for name, value, most in (("lat", lat, 90), ("lon", lon, 180)))
         return cls(number_of(command), x, y, checked_number("alt", alt), **fields)
 
     @property
@@ -81,19 +89,26 @@ def item_of(given: MissionItem | Message | Mapping[str, Any]) -> MissionItem:
     if isinstance(given, MissionItem):
         return given
     if isinstance(given, Message):
-        if given.name not in ("MISSION_ITEM_INT", "MISSION_ITEM"):
-            raise UsageError(f"a mission has items, not {given.name}")
-        fields = {name: given[name] for name in FIELDS}
-        if given.name == "MISSION_ITEM":
-            scale = DEGREES if given["frame"] in FRAMES_IN_DEGREES else 1e4
-            fields.update({name: scaled(name, given[name], scale) for name in ("x", "y")})
-        return MissionItem(**fields)
+        return item_of_message(given.name, given.to_dict())
+    if isinstance(given, MavutilMessage):
+        values = given.to_dict()
+        return item_of_message(values["mavpackettype"], values)
     if not isinstance(given, Mapping):
         raise UsageError(f"an item is a MissionItem, a MISSION_ITEM_INT or a mapping, not {given!r}")
     unknown = set(given) - set(FIELDS)
     if unknown:
         raise UsageError(f"an item of a mission has no {sorted(unknown)[0]!r}; it has {', '.join(FIELDS)}")
     return MissionItem(**given)
+
+
+def item_of_message(message: str | None, values: Mapping[str, Any]) -> MissionItem:
+    if message not in ("MISSION_ITEM_INT", "MISSION_ITEM"):
+        raise UsageError(f"a mission has items, not {message}")
+    fields = {name: values[name] for name in FIELDS}
+    if message == "MISSION_ITEM":
+        scale = DEGREES if fields["frame"] in FRAMES_IN_DEGREES else 1e4
+        fields.update({name: scaled(name, fields[name], scale) for name in ("x", "y")})
+    return MissionItem(**fields)
 
 
 def raise_if_refused(peer: Peer, what: str, answer: Message) -> None:

@@ -281,7 +281,7 @@ class AsyncParams:
         return {name: one.value for name, one in self._known.items()}
 
     async def get(self, name: str) -> int | float:
-        """Requests one parameter. Raises KeyError if the vehicle has no such parameter."""
+        """Requests one parameter, each time. Raises KeyError if the vehicle has no such parameter."""
         try:
             self._known[name] = await run_async(self._peer, _params.ANSWERS, _params.read(self._peer, name))
         except ParameterError as error:

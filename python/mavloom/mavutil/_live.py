@@ -48,6 +48,8 @@ class mavlive(mavfile):
         if message is None and self._watched:
             message = self._arm()
         if message is not None:
+            if self._watched:
+                self._hold()
             self._change_version()
         return message
 
@@ -114,7 +116,7 @@ class mavlive(mavfile):
 
     @property
     def fd(self) -> int:
-        """A descriptor for select and poll. It is readable while there may be messages."""
+        """A descriptor for select and poll. It is readable while there are messages."""
         if not self._watched:
             self._watched = True
             self._hold()

@@ -61,6 +61,10 @@ class x25crc:
         self.accumulate(buf)
 
 
+# Entries of MAV_TYPE that have other names now; pymavlink 2.4.50 has these.
+OLD_TYPES = {"MAV_TYPE_VTOL_DUOROTOR": 19, "MAV_TYPE_VTOL_QUADROTOR": 20, "MAV_TYPE_VTOL_RESERVED2": 22,
+             "MAV_TYPE_VTOL_RESERVED3": 23, "MAV_TYPE_VTOL_RESERVED4": 24}
+
 made: dict[bytes, Classes] = {}  # by file of the dialect
 
 
@@ -123,6 +127,8 @@ class MavlinkModule(types.ModuleType):
             found[f"{name}_ENUM_END"] = max(entries.values(), default=0) + 1
         for name in self.dialect.message_names:
             found[f"MAVLINK_MSG_ID_{name}"] = self.dialect[name].id
+        if "MAV_TYPE" in self.dialect.enum_names:
+            found.update(OLD_TYPES)
         found["MAVLINK_MSG_ID_BAD_DATA"] = -1
         found["MAVLINK_MSG_ID_UNKNOWN"] = -2
         return found

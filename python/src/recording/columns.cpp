@@ -121,9 +121,10 @@ Values Table::take(std::size_t column) {
     return values;
 }
 
-std::vector<std::size_t> all_fields(const dialect::Message& message) {
-    std::vector<std::size_t> places(message.fields.size());
-    std::iota(places.begin(), places.end(), std::size_t{0});
+std::vector<std::size_t> fields_in(const dialect::Message& message, const FieldNames& names) {
+    std::vector<std::size_t> places;
+    for (std::size_t place = 0; place < message.fields.size(); ++place)
+        if (!names || std::ranges::find(*names, message.fields[place].name) != names->end()) places.push_back(place);
     return places;
 }
 
@@ -143,6 +144,7 @@ SetupResult<bool> read_records(record::TlogReader& reader, std::uint64_t most_by
             continue;
         }
         if (record.error() == Stop::failed) return tl::unexpected(reader.error());
+        if (record.error() == Stop::end && reader.found_no_record()) return tl::unexpected(reader.no_record_error());
         return record.error() != Stop::end;
     }
     return true;
@@ -170,7 +172,7 @@ SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect
             const auto& message = *dialect.find(record.frame.id());
             if (!is_wanted(record, query, message)) return;
             auto& table = tables.tables[place];
-            if (!table) table = std::make_unique<Table>(message, all_fields(message));
+            if (!table) table = std::make_unique<Table>(message, fields_in(message, tables.fields));
             table->add(record.time.time_since_epoch().count(), record.frame);
         });
 }

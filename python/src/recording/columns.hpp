@@ -89,6 +89,11 @@ struct Column {
 // Values in native byte order, row by row.
 using Values = std::unique_ptr<std::uint8_t[]>;
 
+// The fields that become columns, by name; all if it is empty.
+using FieldNames = std::optional<std::vector<std::string>>;
+// The positions of the fields of a message that `names` selects.
+[[nodiscard]] std::vector<std::size_t> fields_in(const dialect::Message& message, const FieldNames& names);
+
 // The rows of one message, as they are read.
 class Table {
 public:
@@ -127,12 +132,10 @@ private:
 struct Tables {
     std::vector<bool> wanted;
     std::vector<std::unique_ptr<Table>> tables;
+    FieldNames fields{};
 };
 // Like read_rows, but checks every checksum.
 [[nodiscard]] SetupResult<bool> read_tables(record::TlogReader& reader, const dialect::Dialect& dialect,
                                             const RowsQuery& query, Tables& tables, std::uint64_t most_bytes);
-
-// The positions of all fields.
-[[nodiscard]] std::vector<std::size_t> all_fields(const dialect::Message& message);
 
 }  // namespace mavloom::python

@@ -63,20 +63,12 @@ nb::tuple arrays_of(const Definitions& definitions, Table& table) {
     return nb::make_tuple(times, systems, components, fields);
 }
 
-// The positions of the named fields, in the order of the definition; of all fields if none are named.
+// As fields_in. Raises for a name that the message has not.
 std::vector<std::size_t> places_of(const dialect::Dialect& dialect, const dialect::Message& message,
-                                   const std::optional<std::vector<std::string>>& fields) {
-    if (!fields) return all_fields(message);
-    std::vector<std::size_t> places;
-    for (const auto& name : *fields) {
-        const auto* field = message.find(name);
-        if (field == nullptr) raise(dialect.field(fmt::format("{}.{}", message.name, name)).error());
-        places.push_back(static_cast<std::size_t>(field - message.fields.data()));
-    }
-    std::ranges::sort(places);
-    const auto twice = std::ranges::unique(places);
-    places.erase(twice.begin(), twice.end());
-    return places;
+                                   const FieldNames& fields) {
+    for (const auto& name : fields.value_or(std::vector<std::string>{}))
+        if (message.find(name) == nullptr) raise(dialect.field(fmt::format("{}.{}", message.name, name)).error());
+    return fields_in(message, fields);
 }
 
 record::TlogReader open(const nb::handle& path, const dialect::Dialect& dialect) {
@@ -105,8 +97,7 @@ RowsQuery query_of(const OptionalInteger& system, const OptionalInteger& compone
 
 nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const OptionalInteger& system,
                           const OptionalInteger& component, const nb::object& instance, const OptionalInteger& begin,
-                          const OptionalInteger& end, const std::optional<std::vector<std::string>>& fields,
-                          const nb::object& dialect) {
+                          const OptionalInteger& end, const FieldNames& fields, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& message = *value_or_raise(definitions->dialect().message(name));
     auto query = query_of(system, component, begin, end);
@@ -122,22 +113,34 @@ nb::tuple read_columns_of(const nb::list& paths, const std::string& name, const 
     return nb::make_tuple(arrays_of(*definitions, table), lost_bytes);
 }
 
+// Raises for a field that no wanted message has.
+void check_fields(const dialect::Dialect& dialect, const Tables& tables) {
+    const auto infos = dialect.wire_table().messages();
+    for (const auto& name : tables.fields.value_or(std::vector<std::string>{})) {
+        bool found = false;
+        for (std::size_t i = 0; i < infos.size() && !found; ++i)
+            found = tables.wanted[i] && dialect.find(infos[i].id)->find(name) != nullptr;
+        if (!found) raise_usage(fmt::format("fields: none of the messages has a field '{}'", name));
+    }
+}
+
 nb::tuple read_tables_of(const nb::list& paths, const nb::object& type, const OptionalInteger& system,
                          const OptionalInteger& component, const OptionalInteger& begin, const OptionalInteger& end,
-                         const nb::object& dialect) {
+                         const FieldNames& fields, const nb::object& dialect) {
     const auto definitions = definitions_of(dialect);
     const auto& known = definitions->dialect();
     const auto infos = known.wire_table().messages();
     const auto filter = make_filter(known, type, system, component);
-    Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Table>>(infos.size())};
+    Tables tables{std::vector<bool>(infos.size()), std::vector<std::unique_ptr<Table>>(infos.size()), fields};
     for (std::size_t i = 0; i < infos.size(); ++i) {
         const bool named = filter.ids && std::ranges::find(*filter.ids, infos[i].id) != filter.ids->end();
-        tables.wanted[i] = !filter.ids || named;
-        if (!named) continue;
-        // A named message gets a table even if it does not occur.
         const auto& message = *known.find(infos[i].id);
-        tables.tables[i] = std::make_unique<Table>(message, all_fields(message));
+        const auto places = fields_in(message, fields);
+        tables.wanted[i] = named || (!filter.ids && !(fields && places.empty()));
+        // A named message gets a table even if it does not occur.
+        if (named) tables.tables[i] = std::make_unique<Table>(message, places);
     }
+    check_fields(known, tables);
     const auto query = query_of(system, component, begin, end);
     std::uint64_t lost_bytes = 0;
     for (const nb::handle path : paths) {
@@ -170,9 +173,10 @@ void bind_columns(nb::module_& module) {
         "mavloom.columns() makes its result.");
     module.def(
         "read_tables", &read_tables_of, nb::arg("paths"), nb::arg("type").none(), nb::arg("system").none(),
-        nb::arg("component").none(), nb::arg("begin").none(), nb::arg("end").none(), nb::arg("dialect").none(),
+        nb::arg("component").none(), nb::arg("begin").none(), nb::arg("end").none(), nb::arg("fields").none(),
+        nb::arg("dialect").none(),
         nb::sig("def read_tables(paths: list[str | os.PathLike[str]], type: MessageTypes | None, system: int | None, "
-                "component: int | None, begin: int | None, end: int | None, "
+                "component: int | None, begin: int | None, end: int | None, fields: list[str] | None, "
                 "dialect: Dialect | None) -> tuple[dict[str, tuple[typing.Any, typing.Any, typing.Any, "
                 "dict[str, typing.Any]]], int]"),
         "Returns ({message: as in read_columns}, bytes of damage), from which mavloom.tables() makes its\n"

@@ -165,6 +165,7 @@ private:
         using Stop = record::TlogReader::Stop;
         ended_ = stop == Stop::end;
         if (stop == Stop::failed && batch_.size() == 0) raise(file.error());
+        if (ended_ && file.found_no_record()) raise(file.no_record_error());
         return stop != Stop::nothing_yet || batch_.size() != 0;
     }
 

@@ -2,6 +2,7 @@
 """Opening live connections of mavloom.mavutil, and what they count, against pymavlink's."""
 import contextlib
 import os
+import select
 import shutil
 import socket
 import subprocess
@@ -115,6 +116,19 @@ def test_times_that_are_none_are_refused(call, module):
     connection = module.mavlink_connection(f"udpin:127.0.0.1:{free_udp_port()}")
     with pytest.raises(ValueError):
         call(connection)
+    connection.close()
+
+
+def test_a_descriptor_is_ready_only_while_messages_wait(module, peer):
+    port = free_udp_port()
+    connection, vehicle = module.mavlink_connection(f"udpin:127.0.0.1:{port}"), Vehicle(peer, port)
+    for burst in (1, 3, 1):
+        for _ in range(burst):
+            vehicle.send(vehicle.heartbeat())
+        for _ in range(burst):
+            assert select.select([connection.fd], [], [], DEADLINE_S)[0]
+            assert connection.recv_msg().get_type() == "HEARTBEAT"
+        assert not select.select([connection.fd], [], [], 0.05)[0]
     connection.close()
 
 

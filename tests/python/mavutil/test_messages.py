@@ -42,6 +42,13 @@ def test_constants_are_those_of_pymavlink(mavlink, peer):
     assert set(wanted) <= set(dir(mavlink))
 
 
+def test_old_names_of_vehicle_types(mavlink):
+    import pymavlink.dialects.v20.ardupilotmega as real
+    types = {name: value for name, value in vars(real).items() if name.startswith("MAV_TYPE_VTOL_")}
+    assert types["MAV_TYPE_VTOL_QUADROTOR"] == 20
+    assert {name: getattr(mavlink, name, None) for name in types} == types
+
+
 def test_the_old_name_of_items(mavlink):
     """pymavlink makes it when a connection is opened."""
     assert mavlink.MAVLink_waypoint_message is mavlink.MAVLink_mission_item_message
