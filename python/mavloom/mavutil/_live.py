@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import select
+import socket
 import sys
 import time
 from collections import deque
@@ -190,6 +191,8 @@ class mavudp(mavlive):
     def __init__(self, device: str, input: bool = True, broadcast: bool = False, source_system: int = 255,
                  source_component: int = 0, use_native: bool = False, timeout: float = 0) -> None:
         host, port = host_and_port(device, "UDP", "0.0.0.0" if input else "127.0.0.1")
+        if input:
+            socket.getaddrinfo(host.strip("[]"), port)  # raises gaierror for a host that does not exist
         scheme = "udpin" if input else "udpbcast" if broadcast else "udpout"
         options = FRAMES_APART + ("&reuse=true" if input else "")
         if scheme != "udpout":

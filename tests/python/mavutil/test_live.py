@@ -102,6 +102,12 @@ def test_programs_are_refused_and_executable_recordings_are_read(tmp_path, fligh
     assert mavutil.mavlink_connection(log).recv_msg() is not None
 
 
+def test_a_host_that_does_not_exist_is_an_error(module):
+    for text in ("nohost.invalid:14550", "udpin:nohost.invalid:14550"):
+        with pytest.raises(socket.gaierror):
+            module.mavlink_connection(text)
+
+
 def test_a_folder_is_refused_by_name(tmp_path):
     with pytest.raises(mavloom.SystemFailure, match="is a folder, neither") as caught:
         mavutil.mavlink_connection(tmp_path)
