@@ -118,7 +118,7 @@ class MAVWPLoader:
         `altitude` is in metres above home, or above the terrain with `terrain_alt`.
         """
         frame = GLOBAL_TERRAIN_ALT if terrain_alt else GLOBAL_RELATIVE_ALT
-        self.add(self._item(0, frame, NAV_WAYPOINT, 0, 1, 0, 0, 0, 0, lat, lon, altitude))
+        self.add(self._item(0, frame, NAV_WAYPOINT, 0, 0, 0, 0, 0, 0, lat, lon, altitude))
 
     def _item(self, *values: Any) -> Any:
         return mavutil.mavlink.MAVLink_mission_item_message(self.target_system, self.target_component, *values)

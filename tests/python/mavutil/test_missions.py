@@ -131,3 +131,13 @@ def test_a_file_that_is_no_fence(line, tmp_path):
     (tmp_path / "bad.txt").write_text(f"1 2\n{line}\n")
     with pytest.raises(mavwp.MAVFenceError, match=f":2: a line has a latitude and a longitude, not '{line}'"):
         mavwp.MAVFenceLoader().load(tmp_path / "bad.txt")
+
+
+def test_a_place_becomes_an_item(loaders):
+    def act(module, mavlink):
+        loader = module.MAVWPLoader()
+        loader.add_latlonalt(47.1, 8.5, 20)
+        loader.add_latlonalt(47.1, 8.5, 20, True)
+        return [{name: getattr(one, name) for name in item(mavlink).get_fieldnames() if name != "mission_type"}
+                for one in map(loader.wp, range(2))]
+    assert both(loaders, act)[1]["frame"] == 10
