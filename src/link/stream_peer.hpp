@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "link/core/core.hpp"
+#include "link/core/read_budget.hpp"
 #include "mavloom/net/io_result.hpp"
 #include "mavloom/wire/stream_parser.hpp"
 
@@ -90,7 +91,7 @@ protected:
     Stream stream_;
 
 private:
-    static constexpr std::size_t pieces_per_write = 128;
+    static constexpr std::size_t pieces_per_write = 128, least_read = 4096;
 
     void release() noexcept {
         core_.outlets.forget(*this);
@@ -101,14 +102,17 @@ private:
         queue.rewind();
     }
     void read() {
-        const ByteSpan room = core_.stream_buffer;
+        const ByteSpan room = ByteSpan(core_.stream_buffer).first(budget_.limit());
         const auto count = stream_.read(room);
         if (!count) {
             if (count.error() != net::IoError::would_block) on_end(count.error());
             return;
         }
         last_heard = core_.now();
+        const bool is_measured = *count >= ReadBudget::worth_measuring;
+        const MonoTime begin = is_measured ? mono_now() : MonoTime{};
         parser_.feed(room.first(*count), core_.now(), sink(wall_now()));
+        budget_.note(*count, is_measured ? mono_now() - begin : Nanoseconds{});
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);
     }
@@ -126,6 +130,7 @@ private:
 
     net::WatchId watch_;
     wire::StreamParser parser_;
+    ReadBudget budget_{least_read, Core::stream_buffer_bytes};
     bool blocked_ = false;  // the kernel accepts no more
 };
 

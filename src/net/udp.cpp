@@ -97,6 +97,12 @@ Datagram ReceiveBatch::operator[](std::size_t index) const noexcept {
             kernel_time(message.msg_hdr)};
 }
 
+std::size_t ReceiveBatch::bytes() const noexcept {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < count_; ++i) sum += headers_->messages[i].msg_len;
+    return sum;
+}
+
 SendBatch::SendBatch() : messages_(max_datagrams), iovecs_(max_pieces) {}
 
 void SendBatch::add(const Address* to, std::size_t pieces) noexcept {
@@ -181,10 +187,11 @@ SetupResult<UdpSocket> UdpSocket::open(const Address& local, const UdpOptions& o
     return socket;
 }
 
-IoResult<std::size_t> UdpSocket::receive(ReceiveBatch& batch) noexcept {
+IoResult<std::size_t> UdpSocket::receive(ReceiveBatch& batch, std::size_t most) noexcept {
     batch.rearm(batch.count_);
     batch.count_ = 0;
-    const int count = recvmmsg(fd_.get(), batch.headers_->messages.data(), ReceiveBatch::slots, 0, nullptr);
+    const int count = recvmmsg(fd_.get(), batch.headers_->messages.data(),
+                               static_cast<unsigned>(std::min(most, ReceiveBatch::slots)), 0, nullptr);
     if (count < 0) return tl::unexpected(io_error_of(errno));
     batch.count_ = static_cast<std::size_t>(count);
     for (std::size_t i = 0; i < batch.count_; ++i) batch.headers_->from[i].normalize();

@@ -44,6 +44,8 @@ public:
     ~ReceiveBatch();
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    // Of all datagrams together.
+    [[nodiscard]] std::size_t bytes() const noexcept;
     // Valid until the next receive with this batch.
     [[nodiscard]] Datagram operator[](std::size_t index) const noexcept;
 
@@ -108,7 +110,7 @@ public:
     [[nodiscard]] std::uint64_t receive_buffer_bytes() const noexcept { return receive_buffer_bytes_; }
 
     // Reads the waiting datagrams, at most one batch. Returns would_block if there are none.
-    [[nodiscard]] IoResult<std::size_t> receive(ReceiveBatch& batch) noexcept;
+    [[nodiscard]] IoResult<std::size_t> receive(ReceiveBatch& batch, std::size_t most = ReceiveBatch::slots) noexcept;
     // Sends batch[first...] and returns how many datagrams went out. After an error nothing was sent, and the error
     // concerns batch[first]. The exception is `refused`: it may concern any earlier datagram whose port was closed
     // (ICMP). It is reported once.

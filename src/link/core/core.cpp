@@ -6,8 +6,6 @@
 
 namespace mavloom::link::detail {
 
-// Large enough that one read takes everything that a fast sender writes during a turn. Small enough for the L2 cache.
-static constexpr std::size_t stream_buffer_bytes = 128 * 1024;
 // While an outlet is blocked, frames that are too old are dropped at least this often.
 static constexpr std::chrono::milliseconds expire_interval{100};
 

@@ -143,6 +143,9 @@ public:
     // Scratch memory for calls that read or write a socket.
     net::ReceiveBatch receive_batch;
     net::SendBatch send_batch;
+    // Large enough that one read takes everything that a fast sender writes during a turn. Small enough for the L2
+    // cache.
+    static constexpr std::size_t stream_buffer_bytes = 128 * 1024;
     std::vector<std::uint8_t> stream_buffer;
     std::vector<std::unique_ptr<Link>> graveyard;
     OpenEndpoints endpoints;  // declared last and so destroyed first, because endpoints use the other parts

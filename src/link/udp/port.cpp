@@ -135,11 +135,18 @@ void UdpPort::on_timer(MonoTime) {
 
 void UdpPort::receive() {
     net::ReceiveBatch& batch = core_.receive_batch;
-    const auto count = socket_.receive(batch);
+    const auto count = socket_.receive(batch, budget_.limit());
     // would_block, or an ICMP error. on_io also receives that error as `failed`.
     if (!count) return;
-    if (*count == net::ReceiveBatch::slots) core_.note_more_waits();
-    for (std::size_t i = 0; i < *count; ++i) {
+    if (*count == budget_.limit()) core_.note_more_waits();
+    const bool is_measured = batch.bytes() >= ReadBudget::worth_measuring;
+    const MonoTime begin = is_measured ? mono_now() : MonoTime{};
+    receive(batch);
+    budget_.note(*count, is_measured ? mono_now() - begin : Nanoseconds{});
+}
+
+void UdpPort::receive(const net::ReceiveBatch& batch) {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
         const net::Datagram datagram = batch[i];
         UdpPeer* const peer = owner_.peer_of(*this, datagram);
         if (peer == nullptr) continue;

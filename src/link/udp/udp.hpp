@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "link/core/core.hpp"
+#include "link/core/read_budget.hpp"
 #include "link/udp/peer_table.hpp"
 #include "mavloom/net/udp.hpp"
 #include "mavloom/wire/datagram_parser.hpp"
@@ -114,6 +115,7 @@ private:
     };
 
     void receive();
+    void receive(const net::ReceiveBatch& batch);
     bool submit();
     void recover(std::size_t& index, net::IoError error, int& refusals);
     void account(const Part& part) noexcept;
@@ -136,6 +138,7 @@ private:
     std::vector<UdpPeer*> unsettled_;
     std::uint64_t unsettled_turn_ = 0;  // Core::turns() when frames were sent to the peers in `unsettled_`
     std::uint32_t last_drops_ = 0;
+    ReadBudget budget_{1, net::ReceiveBatch::slots};
 };
 
 // The socket options that an endpoint's options require.
