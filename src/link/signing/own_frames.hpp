@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recognises the frames that this process signed itself when somebody sends them back. Whoever sends one back has
-// seen it, but need not have the key.
+// Recognises the frames that this process signed itself when somebody sends them back. That somebody has seen
+// them, but need not have the key.
 //
 // The newest signatures of a key are remembered, at least 45,000 and mostly 65,536 of them. For the rest, a frame with
 // one of our link ids is ours if its time is not newer than what was forgotten. Another program that uses the same key
@@ -37,7 +37,7 @@ public:
         bucket.forgotten = std::max(bucket.forgotten, oldest >> 16);
         oldest = mark.value;
     }
-    // True if this process signed the frame. Of frames that nobody with the key signed, it says nothing.
+    // True if this process signed the frame. The result has a meaning only if the frame's signature is good.
     [[nodiscard]] bool has(const wire::FrameView& frame) const noexcept {
         if (!ids_.test(frame.signature()[0])) return false;
         const Mark mark = mark_of(frame);
