@@ -2,6 +2,7 @@
 #include "link/open_endpoint.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace mavloom::link::detail {
 
@@ -32,14 +33,15 @@ bool OpenEndpoints::any_low_latency() const {
 std::optional<std::uint8_t> SigningIds::choose(const std::string& label, EndpointId fresh,
                                                const OpenEndpoints& endpoints) const {
     const Use* best = nullptr;
-    for (const Use& use : uses_) {
+    const auto id_of = [&](const Use* use) { return static_cast<std::uint8_t>(use - uses_.data()); };
+    for (const Use& use : uses_ | std::views::reverse) {
         if (use.number != 0 && endpoints.find(use.holder) != nullptr) continue;
-        if (use.number != 0 && !label.empty() && use.label == label) return static_cast<std::uint8_t>(&use - &uses_[0]);
+        if (use.number != 0 && !label.empty() && use.label == label) return id_of(&use);
         if (best == nullptr || use.number < best->number) best = &use;
     }
-    if (fresh.value < uses_.size() && uses_[fresh.value].number == 0) return static_cast<std::uint8_t>(fresh.value);
-    if (best == nullptr) return std::nullopt;
-    return static_cast<std::uint8_t>(best - &uses_[0]);
+    if (fresh.value < uses_.size())
+        if (const Use* const own = &uses_[uses_.size() - 1 - fresh.value]; own->number == 0) return id_of(own);
+    return best == nullptr ? std::nullopt : std::optional(id_of(best));
 }
 
 void SigningIds::keep(const std::string& label, std::uint8_t link_id, EndpointId holder) {

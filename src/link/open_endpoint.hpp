@@ -79,11 +79,12 @@ private:
 
 // Decides which link id an endpoint signs with. A signature has 8 bits for it, and two endpoints that are open must not
 // share one: the far side would take the frames of the slower for replays. A reopened endpoint keeps the link id of its
-// label, so that the far side sees the same link.
+// label, so that the far side sees the same link. Ids are given out from 255 downwards, because vehicles and ground
+// stations mostly sign with 0 and small ids.
 class SigningIds {
 public:
     // The link id for the endpoint that is about to be opened, whose id is `fresh`: the one that its label had, else
-    // `fresh` itself, else one that nobody used yet, else the one that was left longest ago. Empty if open endpoints
+    // 255 - `fresh`, else one that nobody used yet, else the one that was left longest ago. Empty if open endpoints
     // have all 256. An empty label is never the same.
     [[nodiscard]] std::optional<std::uint8_t> choose(const std::string& label, EndpointId fresh,
                                                      const OpenEndpoints& endpoints) const;

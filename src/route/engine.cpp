@@ -389,7 +389,7 @@ static Source target_of(const wire::FrameView& frame, const wire::MessageInfo* i
     return {SystemId{byte(info->target_system_offset)}, ComponentId{byte(info->target_component_offset)}};
 }
 
-Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
+Verdict Engine::Impl::choose_by_target(Passage& p) noexcept {
     const Source target = target_of(p.frame, p.info);
     if (target.system.value == 0) return to_everybody();
     if (options.own == target) return Verdict::consumed;
@@ -403,6 +403,7 @@ Verdict Engine::Impl::choose_by_target(const Passage& p) noexcept {
         ++unknown_[pair_of(target)];
         return Verdict::unknown_target;
     }
+    p.is_directed = true;
     if (reasons_ != nullptr) [[unlikely]]
         explain_target();
     return Verdict::forwarded;
@@ -453,10 +454,24 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
     each_word(words_, [&](std::size_t w) {
         scratch_[w] = 0;
         each_in_word(where[w] & candidates_[w], static_cast<Slot>(64 * w), [&](Slot slot) {
-            if (is_present(slot, p)) insert(scratch_.data(), slot);
+            if (is_origin(slot, p)) insert(scratch_.data(), slot);
         });
     });
     leave_out(scratch_.data(), Reason::source_here);
+}
+
+// Whether the frame's source counts as being on this link too, so that the link does not need the frame. Somebody there
+// may only claim to be the source. So if the source is present on the link that brought the frame, and was so earlier,
+// the claim must be as old as one to a route. Targeted frames go there all the same: two routers with two paths between
+// them still do not pass such a frame round, because they remember it.
+bool Engine::Impl::is_origin(Slot slot, const Passage& p) const noexcept {
+    if (!is_present(slot, p)) return false;
+    if (!is_present(p.slot, p)) return true;
+    if (p.is_directed) return false;
+    const std::int64_t since = routes_.find(slot, p.source)->since_ns;
+    if (routes_.find(p.slot, p.source)->since_ns >= since) return true;
+    if (links[slot]->policy.learns_first) return false;
+    return p.now.time_since_epoch().count() - since >= consistent_for.count();
 }
 
 // One frame may be forged. A source that is present was heard repeatedly and recently.

@@ -125,8 +125,9 @@ private:
         Link& link;
         MonoTime now;
         bool is_remembered = false;
-        bool is_copy = false;    // copy of a frame that arrived earlier on another link
-        std::size_t recent = 0;  // index in recent_
+        bool is_directed = false;  // goes to the links of its target
+        bool is_copy = false;      // copy of a frame that arrived earlier on another link
+        std::size_t recent = 0;    // index in recent_
     };
 
     [[nodiscard]] std::span<const LinkId> list_candidates(Link& from) noexcept;
@@ -150,6 +151,7 @@ private:
     Claim& note_claim(const Passage& p) noexcept;
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
+    [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;
     [[nodiscard]] bool is_present(Slot slot, const Passage& p) const noexcept;
     // Whether an earlier copy of the frame may be held against this one.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
@@ -159,7 +161,7 @@ private:
     // Whether the frame's source was heard on at least two links of the group.
     [[nodiscard]] bool is_on_two_members(const Passage& p) const noexcept;
     void watch_for_duplicate_ids(const Passage& p) noexcept;
-    [[nodiscard]] Verdict choose_by_target(const Passage& p) noexcept;
+    [[nodiscard]] Verdict choose_by_target(Passage& p) noexcept;
     [[nodiscard]] Verdict to_everybody() noexcept;
     [[nodiscard]] bool choose_links_of(Source target) noexcept;
     void explain_target() noexcept;

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import signal
+import socket
 import time
 
 import pytest
@@ -173,3 +174,26 @@ def test_a_file_that_cannot_be_written_is_told_and_routing_goes_on(border, udp_s
     vehicle.sendto(sender.heartbeat(ticks()), first.near)
 
     assert far.recv(1000)
+
+
+def test_a_client_that_sends_back_what_the_router_signed_proves_nothing(spawn, run, key, udp_port, tcp_port,
+                                                                        udp_socket, wait_for):
+    near, port, options = udp_port(), tcp_port(), f"verify={key}&sign={key}"
+    name = f"signing-{near}"
+    router = spawn("route", f"udpin://127.0.0.1:{near}?name=near&{options}",
+                   f"tcpin://127.0.0.1:{port}?name=clients&{options}", "--name", name)
+    router.wait_output("clients: ")
+    vehicle, sender = udp_socket(), Signer()
+
+    def ask(what):
+        return list(map(json.loads, run("ctl", name, what).lines))
+
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as client:
+        wait_for(lambda: any(o["link"].startswith("clients#") for o in ask("links")), what="the client's link")
+        vehicle.sendto(sender.heartbeat(ticks()), ("127.0.0.1", near))
+        client.sendall(client.recv(1000))
+        wait_for(lambda: any(o["link"].startswith("clients#") and o["bad_signature"] + o["frames_in"] > 0
+                             for o in ask("links")), what="what came back")
+
+        assert [o["link"].split("#")[0] for o in ask("routes") if o.get("sys") == 1] == ["near"]
+        assert [o["bad_signature"] for o in ask("links") if o["link"].startswith("clients#")] == [1]

@@ -23,9 +23,8 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
     if (!options.sign_key_file.empty()) {
         auto opened = signature->open(options.sign_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
-        const auto& [path, key, times] = signature->sign_with_.emplace(std::move(*opened));
-        if (auto begun = KeyStates::begin_signing(*times); !begun) return tl::unexpected(std::move(begun).error());
-        signature->signer_.emplace(key, signs_as, times->state.last_signed);
+        if (auto begun = signature->sign_with(std::move(*opened), signs_as); !begun)
+            return tl::unexpected(std::move(begun).error());
     }
     return signature;
 }
@@ -46,8 +45,18 @@ void Signature::judge(const OpenKey& with, bool in_group) {
     for (const auto& stream : judge_->verifier.streams()) own_->restore(stream);
 }
 
+SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
+    const auto& [path, key, times] = sign_with_.emplace(std::move(with));
+    signs_under_ = states_.judge_of(key);
+    if (auto begun = KeyStates::begin_signing(*times); !begun) return begun;
+    signs_under_->own.sign_as(link_id);
+    signer_.emplace(key, link_id, times->state.last_signed);
+    return {};
+}
+
 bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
     using enum wire::Verifier::Verdict;
+    if (frame.is_signed() && judge_->own.has(frame)) return false;
     if (!own_) return judge_->verifier.verify(frame, now) == good;
     if (own_->verify(frame, now) != good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
@@ -117,7 +126,9 @@ wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::Messag
     const std::uint16_t before_extra = wire::crc_update(wire::crc_seed, now_covered);
     store_le(buffer_.data() + covered, wire::crc_update(before_extra, static_cast<std::uint8_t>(extra)));
     const std::size_t size = signer_->sign(buffer_, covered + wire::checksum_length, wire::SigningTime::from(now));
-    return wire::FrameView::unchecked(ByteView(buffer_).first(size));
+    const auto signed_frame = wire::FrameView::unchecked(ByteView(buffer_).first(size));
+    signs_under_->own.note(signed_frame);
+    return signed_frame;
 }
 
 }  // namespace mavloom::link::detail

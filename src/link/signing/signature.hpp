@@ -55,12 +55,14 @@ private:
     };
     [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
     void judge(const OpenKey& with, bool in_group);
+    [[nodiscard]] SetupResult<void> sign_with(OpenKey with, std::uint8_t link_id);
     [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
 
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
-    std::shared_ptr<KeyJudge> judge_;    // null without verify=
-    std::optional<wire::Verifier> own_;  // in a group, the endpoint's own verifier
+    std::shared_ptr<KeyJudge> judge_;        // null without verify=
+    std::shared_ptr<KeyJudge> signs_under_;  // of the key of sign=; null without it
+    std::optional<wire::Verifier> own_;      // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
     // Start of the frame that `accepts_early` has already verified.
     const std::uint8_t* accepted_ = nullptr;

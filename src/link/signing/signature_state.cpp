@@ -199,6 +199,13 @@ KeyStates::~KeyStates() {
     for (const auto& file : files_) (void)file->write(file->state);
 }
 
+// The time up to which earlier runs signed. A program that was killed left a time with the reserve, which may be later
+// than all signatures.
+static wire::SigningTime signed_until(const KeyState& state, wire::SigningTime now) noexcept {
+    const std::uint64_t stored = state.last_signed.ticks;
+    return {std::max(stored - std::min(stored, KeyStates::reserve_ticks), std::min(stored, now.ticks))};
+}
+
 std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, const wire::SigningKey& key,
                                          std::vector<std::string>& notices) {
     auto file = std::make_shared<KeyFile>(path);
@@ -215,6 +222,8 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
                                       file->path().string(), ahead));
     if (const auto written = file->write(file->state); !written) notices.push_back(written.error().text);
     files_.push_back(file);
+    if (const auto known = judges_.find(key.fingerprint()); known != judges_.end())
+        if (const auto judge = known->second.lock()) judge->own.forget_until(signed_until(file->state, now));
     due_ = std::min(due_, mono_now() + save_interval);
     return file;
 }
@@ -223,10 +232,12 @@ std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
     auto& known = judges_[key.fingerprint()];
     auto judge = known.lock();
     if (judge) return judge;
-    known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}});
-    for (const auto& file : files_)
-        if (file->state.key == key.fingerprint())
-            for (const auto& stream : file->state.heard) judge->verifier.restore(stream);
+    known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}, {}});
+    for (const auto& file : files_) {
+        if (file->state.key != key.fingerprint()) continue;
+        for (const auto& stream : file->state.heard) judge->verifier.restore(stream);
+        judge->own.forget_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
+    }
     return judge;
 }
 

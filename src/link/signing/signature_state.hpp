@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "link/signing/late_frames.hpp"
+#include "link/signing/own_frames.hpp"
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/result.hpp"
 #include "mavloom/wire/signing.hpp"
@@ -68,10 +69,11 @@ private:
     wire::SigningTime written_;  // guarded by mutex_
 };
 
-// Verification state that all endpoints with one key share, whichever file each loaded the key from.
+// State that all endpoints with one key share, whichever file each loaded the key from.
 struct KeyJudge {
     wire::Verifier verifier;
     LateFrames late;
+    OwnFrames own;
 };
 
 class KeyStates {
@@ -91,7 +93,7 @@ public:
     // receives problems that a person should know about.
     [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& path, const wire::SigningKey& key,
                                                 std::vector<std::string>& notices);
-    // The shared verification state of a key.
+    // The shared state of a key. Call it before `begin_signing`.
     [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);

@@ -354,12 +354,24 @@ private:
         return claim;
     }
 
-    // Heard twice at least half a second apart, and in the last 3 s.
-    [[nodiscard]] bool is_present(std::uint32_t link, std::uint8_t system, std::uint8_t component) const {
-        return std::ranges::any_of(heard_, [&](const Heard& h) {
-            return h.known && !h.only_echoes && h.link == link && h.system == system && h.component == component &&
-                   h.time - h.since >= std::chrono::milliseconds{500} && now_ - h.time < std::chrono::seconds{3};
-        });
+    // Since when the source is on the link, if it was heard there twice at least half a second apart, and in the last
+    // 3 s.
+    [[nodiscard]] std::optional<MonoTime> present_since(std::uint32_t link, const wire::FrameView& frame) const {
+        for (const Heard& h : heard_)
+            if (h.known && !h.only_echoes && h.link == link && h.system == frame.system().value &&
+                h.component == frame.component().value && h.time - h.since >= std::chrono::milliseconds{500} &&
+                now_ - h.time < std::chrono::seconds{3})
+                return h.since;
+        return std::nullopt;
+    }
+
+    bool is_origin(std::uint32_t link, std::uint32_t ingress, const wire::FrameView& frame, bool is_directed) {
+        const auto since = present_since(link, frame), here = present_since(ingress, frame);
+        if (!since || !here) return since.has_value();
+        if (is_directed) return false;
+        if (*here >= *since) return true;
+        if (links_[link].policy.learns_first) return false;
+        return now_ - *since >= std::chrono::seconds{5};
     }
 
     static const wire::MessageInfo* info(const wire::FrameView& frame) {
@@ -399,7 +411,7 @@ private:
             if (policy.is_private && !(exact && has_target)) why[id] = Reason::private_link;
             else if (!broadcast && !has_target) why[id] = Reason::other_target;
             else if (policy.group != 0 && policy.group == links_[ingress].policy.group) why[id] = Reason::same_group;
-            else if (is_present(id, frame.system().value, frame.component().value)) why[id] = Reason::source_here;
+            else if (is_origin(id, ingress, frame, !broadcast)) why[id] = Reason::source_here;
             else why[id] = Reason::sent;
             if (id == ingress) why[id] = Reason::ingress;
         }

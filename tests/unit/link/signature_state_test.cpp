@@ -252,6 +252,62 @@ TEST_F(SigningTimes, InAGroupAFrameThatCameLongAgoIsNotTakenFromAnotherLink) {
     EXPECT_TRUE(accepts(second, 2));
 }
 
+// A program with endpoints that sign and verify with one key. Their link ids are 255, 254 and so on.
+struct SigningProgram {
+    KeyStates states;
+    std::vector<std::unique_ptr<Signature>> endpoints;
+    wire::MessageTable table{test::golden_messages};
+
+    SigningProgram(const endpoint::EndpointOptions& options, int count, std::vector<std::string>& notices) {
+        for (int i = 0; i < count; ++i)
+            endpoints.push_back(*Signature::load(options, static_cast<std::uint8_t>(255 - i), states, notices));
+    }
+    [[nodiscard]] Bytes sign(std::size_t endpoint, WallTime now) {
+        const auto frame = endpoints[endpoint]->sign(wire::FrameView::unchecked(test::heartbeat_v2), table, now);
+        return {frame.bytes().begin(), frame.bytes().end()};
+    }
+    [[nodiscard]] bool accepts(std::size_t endpoint, const Bytes& frame, WallTime now) {
+        return endpoints[endpoint]->accepts(wire::FrameView::unchecked(frame), now);
+    }
+};
+
+// Everybody who saw it can send it back.
+TEST_F(SigningTimes, WhatTheProgramSignedItselfIsNotAccepted) {
+    const WallTime now = wall_now() + std::chrono::seconds{1};
+    SigningProgram program(options(true, true), 2, notices);
+    const Bytes seen = program.sign(0, now);
+
+    EXPECT_FALSE(program.accepts(0, seen, now));
+    EXPECT_FALSE(program.accepts(1, seen, now));
+    for (int i = 0; i < 200'000; ++i) (void)program.sign(1, now);
+    EXPECT_FALSE(program.accepts(0, seen, now));
+    EXPECT_FALSE(program.accepts(1, program.sign(0, now), now));
+}
+
+TEST_F(SigningTimes, WhatAnEarlierRunSignedIsNotAccepted) {
+    const WallTime begin = wall_now();
+    const Bytes seen = SigningProgram(options(true, true), 1, notices).sign(0, begin);
+    SigningProgram program(options(true, true), 1, notices);
+
+    EXPECT_FALSE(program.accepts(0, seen, begin));
+}
+
+// Two routers in a row choose the same link ids.
+TEST_F(SigningTimes, WhatAnotherProgramSignedWithTheSameLinkIdIsAccepted) {
+    const WallTime now = wall_now() + std::chrono::seconds{1};
+    SigningProgram program(options(true, true), 1, notices);
+    key = dir.path() / "copy.key";
+    write(key, std::string(64, 'a'));
+    SigningProgram other(options(true, true), 1, notices);
+
+    for (int i = 0; i < 1000; ++i) {
+        const Bytes from_other = other.sign(0, now);
+        (void)program.sign(0, now + std::chrono::seconds{2});
+        EXPECT_TRUE(program.accepts(0, from_other, now));
+        EXPECT_TRUE(other.accepts(0, program.sign(0, now), now));
+    }
+}
+
 TEST(KeyStates, WithoutAKeyThereIsNothingToDo) { EXPECT_EQ(KeyStates().due(), MonoTime::max()); }
 
 }  // namespace

@@ -169,6 +169,58 @@ TEST_F(Takeover, OneForgedFrameFromAStationsAddressCostsItNoTelemetry) {
     EXPECT_THAT(sut.send(1, "ATTITUDE", {1, 100}), ElementsAre(2, 3));
 }
 
+// Link 1 has the vehicle, link 3 the station. Somebody on link 1 sends as the station too, such as a member of a
+// multicast group.
+class ForgedStation : public Takeover {
+protected:
+    void fly(Nanoseconds time, bool forged) {
+        for (Nanoseconds passed{}; passed < time; passed += 500ms) {
+            sut.wait(500ms);
+            sut.hears(1, vehicle);
+            if (forged) sut.hears(1, gcs);
+            beat_went_to = sut.hears(3, gcs);
+        }
+    }
+    test::Ids beat_went_to;
+};
+
+TEST_F(ForgedStation, KeepsNoCommandsFromTheVehicleHoweverLong) {
+    sut.links(3);
+    fly(3s, false);
+    for (int i = 0; i < 60; ++i) {
+        fly(1s, true);
+        EXPECT_THAT(command(), ElementsAre(1)) << i;
+    }
+}
+
+TEST_F(ForgedStation, KeepsNoBroadcastsFromTheVehicleForFiveSeconds) {
+    sut.links(3);
+    fly(3s, false);
+    fly(5s, true);
+    EXPECT_THAT(beat_went_to, ElementsAre(1, 2));
+
+    fly(500ms, true);
+    EXPECT_THAT(beat_went_to, ElementsAre(2));
+}
+
+TEST_F(ForgedStation, KeepsNothingFromTheVehicleWithLearnFirst) {
+    sut.link({.learns_first = true});
+    sut.links(2);
+    fly(3s, false);
+    fly(60s, true);
+
+    EXPECT_THAT(beat_went_to, ElementsAre(1, 2));
+}
+
+TEST_F(ForgedStation, OfWhichOnlyTheOtherIsPresentGetsNothingFromThere) {
+    sut.links(3);
+    fly(3s, false);
+    sut.settles(2, {42, 1});
+    const auto went_to = sut.hears(1, {42, 1});
+
+    EXPECT_THAT(went_to, ElementsAre(3));
+}
+
 TEST_F(Takeover, AVerifiedLinkOutranksOthersAlways) {
     sut.links(1, {.is_verified = true});
     sut.links(2);
