@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -191,6 +192,14 @@ void keep_standard_descriptors() noexcept {
     }
 }
 
+// Shells often allow 1,024 descriptors and let programs raise that. Each TCP client takes one.
+void allow_many_descriptors() noexcept {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 SetupResult<dialect::Dialect> load_dialect(const Common& common) {
     dialect::Dialect all = dialect::default_dialect();
     for (const auto& file : common.dialect_files) {
@@ -223,6 +232,7 @@ int main(int argc, char** argv) {
     mavloom::app::Signals::watch();
     mavloom::app::Signals::survive_lost_rings();
     mavloom::app::keep_standard_descriptors();
+    mavloom::app::allow_many_descriptors();
     const auto status = mavloom::app::run(argc, argv);
     if (std::fflush(stdout) != 0 && status == mavloom::app::Exit::done && errno != EPIPE)
         return static_cast<int>(

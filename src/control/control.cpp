@@ -21,12 +21,14 @@
 #include "control/sessions.hpp"
 #include "mavloom/base/thread.hpp"
 #include "mavloom/net/fd.hpp"
+#include "mavloom/net/tcp.hpp"
 
 namespace mavloom::control {
 
 namespace {
 
 constexpr std::size_t most_sessions = 64;  // of each kind; a newcomer takes the place of the longest idle client
+constexpr std::size_t most_when_few_descriptors = 4;  // of the metrics server, whose clients may be anybody
 constexpr std::chrono::seconds look_interval{1};
 // Reports take much processor time. On a busy machine they wait for the threads that pass frames on.
 constexpr int niceness = 10;
@@ -127,7 +129,7 @@ private:
     // Disconnects the client that has been idle longest, if there are too many. Returns false if all await an answer.
     bool make_room() {
         std::erase_if(sessions_, [](const auto& session) { return session.expired(); });
-        if (sessions_.size() < most_sessions) return true;
+        if (sessions_.size() < most_now()) return true;
         std::shared_ptr<Session> idlest;
         for (const auto& weak : sessions_)
             if (auto session = weak.lock();
@@ -137,6 +139,10 @@ private:
         idlest->hang_up();
         std::erase_if(sessions_, [&](const auto& session) { return session.lock() == idlest; });
         return true;
+    }
+    [[nodiscard]] std::size_t most_now() {
+        const bool is_short = std::is_same_v<Protocol, Tcp> && net::few_descriptors_left(acceptor_.native_handle());
+        return is_short ? most_when_few_descriptors : most_sessions;
     }
     void accept_later() {
         retry_.expires_after(std::chrono::seconds(1));

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "mavloom/base/secret_hash.hpp"
+
 namespace mavloom::net {
 
 BlockQueue::Pushed BlockQueue::push(ByteView block, std::uint8_t block_class, std::uint64_t key, MonoTime now) {
@@ -250,7 +252,7 @@ void BlockQueue::grow_index() {
 // Open addressing. The table is never more than half full. Returns the key's place, which is 0 if it has none yet.
 std::uint32_t& BlockQueue::slot_of(std::uint64_t key) noexcept {
     const std::size_t mask = newest_.size() - 1;
-    std::size_t i = (key * 0x9e3779b97f4a7c15u >> 32) & mask;
+    std::size_t i = secret_hash(key) & mask;
     while (newest_[i] != 0 && entries_[newest_[i] - 1].key != key) i = (i + 1) & mask;
     return newest_[i];
 }

@@ -90,9 +90,8 @@ SetupResult<TcpListener> TcpListener::open(const Address& local, bool v6_only) {
     return listener;
 }
 
-// The kernel assigns the lowest free number, so that number shows how many are left. The last few are kept from
-// clients. The program's own control socket, recordings and look-ups need them.
-static bool few_descriptors_left(int any) noexcept {
+// The kernel assigns the lowest free number, so that number shows how many are left.
+bool few_descriptors_left(int any) noexcept {
     constexpr rlim_t kept = 16;
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return false;

@@ -108,7 +108,7 @@ SetupResult<void> RotatingWriter::begin_again() {
     const bool is_empty = writer_->buffered_bytes() == 0;
     if (rotation_.rotates() && is_empty) return end_segment();
     const auto begin = is_empty ? begin_ : writer_->first_buffered_time();
-    auto next = TlogWriter::create(rotation_.rotates() ? free_name(begin) : path_);
+    auto next = TlogWriter::create_file(rotation_.rotates() ? free_name(begin) : path_);
     if (!next) {
         if (!writer_->is_linked()) no_file_ = next.error();
         return tl::unexpected(std::move(next.error()));
@@ -123,7 +123,7 @@ SetupResult<void> RotatingWriter::write(WallTime time, const wire::FrameView& fr
     SetupResult<void> closed;
     auto taken = make_room(time, frame);
     if (taken && !no_file_ && begins_segment(time, frame)) {
-        if (auto next = TlogWriter::create(free_name(time)); next) closed = begin_segment(std::move(*next), time);
+        if (auto next = TlogWriter::create_file(free_name(time)); next) closed = begin_segment(std::move(*next), time);
         else taken = tl::unexpected(std::move(next.error()));
     }
     if (taken) taken = writer_->write(time, frame);

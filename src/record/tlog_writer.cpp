@@ -49,6 +49,9 @@ SetupResult<fs::path> move_away(const fs::path& path) {
 SetupResult<void> check_is_recording(const fs::path& path) {
     auto file = File::open_to_read(path);
     if (!file) return tl::unexpected(std::move(file.error()));
+    if (!file->is_regular())
+        return setup_error(SetupCode::in_use,
+                           fmt::format("{} is a device or FIFO, not a recording: remove it", path.string()));
     std::vector<std::uint8_t> first(recording_bytes);
     const auto count = file->read(first);
     if (!count) return tl::unexpected(count.error());
@@ -82,6 +85,12 @@ SetupResult<TlogWriter> TlogWriter::create(const fs::path& path, std::size_t buf
         if (!device) return tl::unexpected(std::move(device.error()));
         return TlogWriter(std::move(*device), {}, buffer_bytes);
     }
+    return create_file(path, buffer_bytes);
+}
+
+SetupResult<TlogWriter> TlogWriter::create_file(const fs::path& path, std::size_t buffer_bytes) {
+    buffer_bytes = std::max(buffer_bytes, max_record_length);
+    struct stat status {};
     fs::path old;
     if (::lstat(path.c_str(), &status) == 0) {
         if (auto checked = check_is_recording(path); !checked) return tl::unexpected(std::move(checked.error()));

@@ -4,27 +4,22 @@
 #include <algorithm>
 #include <bit>
 
-namespace mavloom::route {
+#include "mavloom/base/secret_hash.hpp"
 
-// Folds the 128-bit product, so that every bit of the result depends on every bit of both factors.
-static std::uint64_t mix(std::uint64_t a, std::uint64_t b) noexcept {
-    __extension__ using Wide = unsigned __int128;
-    const Wide product = static_cast<Wide>(a) * b;
-    return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
-}
+namespace mavloom::route {
 
 std::uint64_t hash_of(ByteView frame, std::uint64_t seed) noexcept {
     constexpr std::uint64_t k0 = 0x9e3779b97f4a7c15u, k1 = 0xd6e8feb86659fd93u;
     const std::uint8_t* p = frame.data();
     std::size_t left = frame.size();
-    std::uint64_t h = seed ^ mix(k0 ^ left, k1 ^ seed);
+    std::uint64_t h = seed ^ folded_product(k0 ^ left, k1 ^ seed);
     for (; left > 16; left -= 16, p += 16)
-        h = mix(load_le<std::uint64_t>(p) ^ k0, load_le<std::uint64_t>(p + 8) ^ k1 ^ h);
+        h = folded_product(load_le<std::uint64_t>(p) ^ k0, load_le<std::uint64_t>(p + 8) ^ k1 ^ h);
     // Mixes the last 8 to 16 bytes. If fewer than 8 are left, it reads some earlier bytes again.
     const std::uint8_t* const end = p + left;
     const std::uint64_t first = left >= 8 ? load_le<std::uint64_t>(p) : 0;
-    h = mix(first ^ k1, load_le<std::uint64_t>(end - 8) ^ k0 ^ h);
-    h = mix(h ^ k0, k1);
+    h = folded_product(first ^ k1, load_le<std::uint64_t>(end - 8) ^ k0 ^ h);
+    h = folded_product(h ^ k0, k1);
     return h == 0 ? 1 : h;
 }
 

@@ -16,7 +16,7 @@ RouteTable::RouteTable(std::size_t most, std::size_t per_link)
       per_link_(per_link),
       routes_(new Route[most]),
       index_(std::bit_ceil(2 * most)),
-      shift_(32u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
+      shift_(64u - static_cast<unsigned>(std::countr_zero(index_.size()))) {
     resize(1);
 }
 

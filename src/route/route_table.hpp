@@ -14,6 +14,7 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/secret_hash.hpp"
 #include "route/link_set.hpp"
 #include "route/zeroed_array.hpp"
 
@@ -102,7 +103,7 @@ private:
     };
 
     [[nodiscard]] std::size_t home(Slot slot, Pair pair) const noexcept {
-        return ((slot << 16 | pair) * 0x9e3779b1u) >> shift_;
+        return secret_hash(std::uint64_t{slot} << 16 | pair) >> shift_;
     }
     [[nodiscard]] std::size_t place_of(Slot slot, Pair pair) const noexcept;
     // Finds or adds the entry, and makes it the newest of its link.

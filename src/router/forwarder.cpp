@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "mavloom/base/secret_hash.hpp"
 #include "mavloom/msg/heartbeat.hpp"
 
 namespace mavloom::router {
@@ -21,7 +22,7 @@ route::Options engine_options(const config::RouterConfig& config) {
     options.route_timeout = config.route_timeout;
     if (config.heartbeat)
         options.own = Source{SystemId{config.heartbeat->first}, ComponentId{config.heartbeat->second}};
-    options.seed = static_cast<std::uint64_t>(wall_now().time_since_epoch().count());
+    options.seed = secret_hash(0);
     return options;
 }
 

@@ -30,7 +30,7 @@ std::uint32_t boot_ms_in(ByteView payload, std::size_t offset) noexcept {
     return value;
 }
 
-void add(SequenceTracker::Update& sum, const SequenceTracker::Update& one) noexcept {
+void add_to(SequenceTracker::Update& sum, const SequenceTracker::Update& one) noexcept {
     sum.lost += one.lost;
     sum.late += one.late;
     sum.duplicate += one.duplicate;
@@ -53,18 +53,21 @@ bool SequenceTracker::has_room() noexcept {
 }
 
 std::size_t SequenceTracker::find_or_add(Source source) {
+    const std::size_t page = page_of_[source.system.value];
+    const std::size_t index = page == 0 ? 0 : index_of_[page * 256 + source.component.value];
+    return index != 0 || !has_room() ? index : add(source);
+}
+
+std::size_t SequenceTracker::add(Source source) {
     auto& page = page_of_[source.system.value];
     if (page == 0) {
         page = static_cast<std::uint16_t>(index_of_.size() / 256);
         index_of_.resize(index_of_.size() + 256);
     }
-    auto& index = index_of_[std::size_t{page} * 256 + source.component.value];
-    if (index == 0 && has_room()) {
-        stats_.push_back({source});
-        states_.emplace_back();
-        index = static_cast<std::uint16_t>(stats_.size());
-    }
-    return index;
+    stats_.push_back({source});
+    states_.emplace_back();
+    index_of_[std::size_t{page} * 256 + source.component.value] = static_cast<std::uint16_t>(stats_.size());
+    return stats_.size();
 }
 
 const SequenceTracker::Update& SequenceTracker::changed(const Update& update) noexcept { return changed_ = update; }
@@ -85,7 +88,7 @@ const SequenceTracker::Update& SequenceTracker::changed(const Update& update) no
         stats.no_sequence = false;
     } else {
         result = &changed(judge(stats, state, frame));
-        add(state.since_clock_ran, *result);
+        add_to(state.since_clock_ran, *result);
     }
     ++stats.received;
     state.recent[frame.sequence() % window] = fingerprint(frame);

@@ -313,6 +313,35 @@ def test_without_file_descriptors_it_lives_on_and_recovers(pair, run):
         assert run("ctl", net.router.name, "links", env=net.router.env).status == 0
 
 
+def test_clients_of_the_metrics_leave_the_last_descriptors(pair):
+    port, metrics = routers.tcp_port(), routers.tcp_port()
+    net = pair(f"tcpin://{LOCALHOST}:{port}", "--metrics", f"{LOCALHOST}:{metrics}")
+    resource.prlimit(net.process.pid, resource.RLIMIT_NOFILE, (48, 48))
+    open_now = lambda: len(os.listdir(f"/proc/{net.process.pid}/fd"))
+    with contextlib.ExitStack() as clients:
+        connect = lambda port: clients.enter_context(socket.create_connection((LOCALHOST, port), 10))
+        for _ in range(60):
+            connect(port)
+        net.process.wait_output("few file descriptors left", stream="err")
+        before = open_now()
+        for _ in range(30):
+            connect(metrics)
+        last = connect(metrics)
+        last.sendall(b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        assert last.recv(12) == b"HTTP/1.1 200"
+        assert open_now() <= before + 4 + 2, "four clients, and two descriptors that are only open for a moment"
+
+
+def test_it_allows_itself_as_many_descriptors_as_the_system_permits(pair):
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (before[1] // 2, before[1]))
+    try:
+        net = pair()
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+    assert resource.prlimit(net.process.pid, resource.RLIMIT_NOFILE) == (before[1], before[1])
+
+
 @pytest.mark.parametrize("most", range(4, 24))
 def test_with_too_few_descriptors_it_says_so(program, most):
     if has_sanitizer(program):

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mavloom/base/secret_hash.hpp"
 #include "mavloom/dialect/rates.hpp"
 #include "mavloom/wire/frame.hpp"
 
@@ -66,7 +67,7 @@ private:
     static constexpr std::uint64_t no_stream = ~std::uint64_t{0};
 
     [[nodiscard]] Stream& stream_of(std::uint64_t key) noexcept {
-        Stream* const first = &streams_[(key * 0x9e3779b97f4a7c15u >> (64 - set_bits)) * ways];
+        Stream* const first = &streams_[(secret_hash(key) >> (64 - set_bits)) * ways];
         Stream* oldest = first;
         for (Stream* stream = first; stream != first + ways; ++stream) {
             if (stream->key == key) return *stream;

@@ -15,6 +15,8 @@
 #include <string>
 #include <string_view>
 
+#include "mavloom/base/secret_hash.hpp"
+
 namespace mavloom::net {
 
 class Address {
@@ -59,9 +61,8 @@ public:
     }
 
     [[nodiscard]] std::size_t hash() const noexcept {
-        std::uint64_t h = mix(word(0));
-        if (is_v6()) h = mix(mix(h ^ word(8)) ^ word(16));
-        return static_cast<std::size_t>(h);
+        const std::uint64_t h = secret_hash(word(0));
+        return static_cast<std::size_t>(is_v6() ? secret_hash(secret_hash(h, word(8)), word(16)) : h);
     }
     friend bool operator==(const Address& a, const Address& b) noexcept {
         if (a.word(0) != b.word(0)) return false;  // family, port and the IPv4 address
@@ -74,11 +75,6 @@ private:
         std::uint64_t w;
         std::memcpy(&w, reinterpret_cast<const char*>(&storage_) + offset, sizeof w);
         return w;
-    }
-    static std::uint64_t mix(std::uint64_t x) noexcept {
-        x ^= x >> 32;
-        x *= 0x9e3779b97f4a7c15u;
-        return x ^ x >> 29;
     }
 
     union {

@@ -49,6 +49,10 @@ private:
     Address remote_;
 };
 
+// Returns whether only the descriptors are left that are kept from clients, for the program's own control socket,
+// recordings and look-ups. `any`: an open descriptor.
+[[nodiscard]] bool few_descriptors_left(int any) noexcept;
+
 class TcpListener {
 public:
     TcpListener() noexcept = default;

@@ -12,6 +12,7 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/secret_hash.hpp"
 #include "mavloom/wire/frame.hpp"
 
 namespace mavloom::observe {
@@ -78,9 +79,7 @@ private:
         friend bool operator==(const Key&, const Key&) = default;
     };
     struct KeyHash {
-        std::size_t operator()(const Key& key) const noexcept {
-            return (key.source_and_id ^ std::uint64_t{key.link} << 40) * 0x9e3779b97f4a7c15u >> 7;
-        }
+        std::size_t operator()(const Key& key) const noexcept { return secret_hash(key.source_and_id, key.link); }
     };
 
     [[nodiscard]] static Key key_of(const TrafficRow& row) noexcept { return key_of(row.link, row.source, row.id); }

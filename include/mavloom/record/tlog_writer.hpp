@@ -23,6 +23,9 @@ public:
     // an error (`in_use`). A character device or FIFO is not renamed; the writer writes to it directly.
     [[nodiscard]] static SetupResult<TlogWriter> create(const std::filesystem::path& path,
                                                         std::size_t buffer_bytes = default_buffer_bytes);
+    // The same, but a device or FIFO is an error (`in_use`). It never waits: another user may have put a FIFO there.
+    [[nodiscard]] static SetupResult<TlogWriter> create_file(const std::filesystem::path& path,
+                                                             std::size_t buffer_bytes = default_buffer_bytes);
 
     TlogWriter(TlogWriter&&) noexcept = default;
     TlogWriter& operator=(TlogWriter&&) = delete;

@@ -111,6 +111,7 @@ private:
     };
 
     [[nodiscard]] std::size_t find_or_add(Source source);
+    std::size_t add(Source source);
     [[nodiscard]] bool has_room() noexcept;
     [[nodiscard]] const Update& changed(const Update& update) noexcept;
     [[nodiscard]] static Update judge(SequenceStats& stats, State& state, const FrameView& frame) noexcept;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mavloom/base/secret_hash.hpp"
 #include "mavloom/dialect/message_class.hpp"
 
 namespace mavloom::link {
@@ -39,9 +40,9 @@ MessageClasses::Rule MessageClasses::find(MessageId id) const noexcept {
     return at != far_.end() && at->id == id.value ? at->rule : Rule{};
 }
 
-// FNV-1a, for instance fields longer than two bytes (names).
+// FNV-1a with a secret start, for instance fields longer than two bytes (names).
 static std::uint64_t hash_of(ByteView bytes) noexcept {
-    std::uint64_t h = 0xcbf29ce484222325u;
+    std::uint64_t h = secret_hash(0);
     for (const std::uint8_t byte : bytes) h = (h ^ byte) * 0x100000001b3u;
     return h;
 }

@@ -2,6 +2,7 @@
 #include "mavloom/record/rotating_writer.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <string>
@@ -254,6 +255,36 @@ TEST(RotatingWriter, WithoutAFileNothingCountsAsWritten) {
     ASSERT_TRUE(writer.close().has_value());
     EXPECT_EQ(writer.written_records(), taken);
     EXPECT_EQ(content_of(dir / "sub/x.tlog").size(), taken * heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, AFifoInThePlaceOfItsFileIsAnErrorUntilItIsGone) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    std::filesystem::remove(dir / "x.tlog");
+    ASSERT_EQ(::mkfifo((dir / "x.tlog").c_str(), 0600), 0);
+
+    const auto refused = writer.look_after(MonoTime{} + 1s);  // waiting for a reader would hang the test
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_THAT(refused.error().text, HasSubstr("x.tlog is a device or FIFO"));
+    EXPECT_EQ(refused.error().code, SetupCode::in_use);
+
+    std::filesystem::remove(dir / "x.tlog");
+    EXPECT_EQ(writer.look_after(MonoTime{} + 2s).value(), dir / "x.tlog");
+    ASSERT_TRUE(writer.close().has_value());
+    EXPECT_EQ(content_of(dir / "x.tlog").size(), heartbeat_record_bytes);
+}
+
+TEST(RotatingWriter, ALinkToADeviceInThePlaceOfItsFileIsAnErrorAtTheEnd) {
+    const TempDir dir;
+    auto writer = created(dir / "x.tlog", {});
+    ASSERT_TRUE(writer.write(begin, heartbeat()).has_value());
+    std::filesystem::remove(dir / "x.tlog");
+    std::filesystem::create_symlink("/dev/null", dir / "x.tlog");
+
+    EXPECT_FALSE(writer.close().has_value());
+    EXPECT_EQ(writer.written_records(), 0u);
+    EXPECT_TRUE(std::filesystem::is_symlink(dir / "x.tlog"));
 }
 
 TEST(RotatingWriter, WhatNoNewFileTookIsLostAndCounted) {

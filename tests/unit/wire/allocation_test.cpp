@@ -41,4 +41,24 @@ TEST(Wire, AllocatesNothingForAFrameOrForJunk) {
     EXPECT_EQ(frames, 2001u * 4);
 }
 
+TEST(Wire, AllocatesNothingForSourcesBeyondTheBudget) {
+    SourceBudget budget(0);
+    SequenceTracker sut;
+    sut.limit_by(budget);
+    auto frame = test::heartbeat_v2;
+    const auto hear = [&](unsigned from, unsigned to) {
+        for (unsigned system = from; system < to; ++system) {
+            frame[5] = static_cast<std::uint8_t>(system);
+            sut.update(FrameView::unchecked(frame));
+        }
+    };
+    hear(0, SequenceTracker::own_sources);
+    const auto before = test::allocations;
+
+    hear(SequenceTracker::own_sources, 256);
+
+    EXPECT_EQ(test::allocations, before);
+    EXPECT_EQ(sut.untracked(), 256 - SequenceTracker::own_sources);
+}
+
 }  // namespace mavloom::wire

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Hashes for tables whose keys a sender can choose. The hash depends on a secret of the process, so that a sender
+// cannot choose keys that collide. One multiplication per hash. Hashes differ from run to run: never store them.
+#pragma once
+
+#include <cstdint>
+
+namespace mavloom {
+
+// Folds the 128-bit product, so that every bit of the result depends on every bit of both factors.
+[[nodiscard]] constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) noexcept {
+    __extension__ using Wide = unsigned __int128;
+    const Wide product = static_cast<Wide>(a) * b;
+    return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+
+class SecretHash {
+public:
+    constexpr SecretHash(std::uint64_t a, std::uint64_t b) noexcept : a_(a), b_(b) {}
+    // Reads a new secret from the kernel. If the kernel has none, the hash is not secret.
+    [[nodiscard]] static SecretHash random() noexcept;
+
+    [[nodiscard]] constexpr std::uint64_t operator()(std::uint64_t key, std::uint64_t more = 0) const noexcept {
+        return folded_product(key ^ a_, more ^ b_);
+    }
+
+private:
+    std::uint64_t a_, b_;
+};
+
+// The secret of this process.
+inline const SecretHash secret_hash = SecretHash::random();
+
+}  // namespace mavloom
