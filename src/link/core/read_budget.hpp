@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits how much one socket gives to a turn, so that a sender whose frames cost much does not hold up other sockets.
+// Limits how much one socket gives to a turn, so that a sender whose frames cost much does not delay other sockets.
 // Private to module link; single owner thread.
 #pragma once
 
