@@ -52,7 +52,11 @@ class MAVWPLoader:
 
     def add(self, w: Any, comment: str = "") -> None:
         """Appends a copy of an item, or of each item of a list, with the next number."""
-        self.insert(self.count(), w, comment)
+        for one in list(w) if isinstance(w, list) else [w]:
+            made = commented(one, comment)
+            made.seq = self.count()
+            self.wpoints.append(made)
+        self._changed()
 
     def insert(self, idx: int, w: Any, comment: str = "") -> None:
         """Inserts a copy of an item, or of each item of a list, before number `idx`."""
@@ -62,12 +66,11 @@ class MAVWPLoader:
     def set(self, w: Any, idx: int) -> None:
         """Replaces item number `idx`. Appends `w` if `idx` is the number of items."""
         w.seq = idx
-        if idx == self.count():
-            self.add(w)
-        elif idx < self.count():
-            self.wpoints[idx] = w
-        else:
+        if idx > self.count():
             raise MAVWPError(f"there is no item {idx}: the mission has {self.count()}")
+        if idx == self.count():
+            return self.add(w)
+        self.wpoints[idx] = w
         self._changed()
 
     def remove(self, w: Any) -> None:

@@ -9,7 +9,7 @@ namespace mavloom {
 
 SecretHash SecretHash::random() noexcept {
     std::array<std::uint64_t, 2> secret{0x9e3779b97f4a7c15u, 0xd6e8feb86659fd93u};
-    (void)!::getrandom(secret.data(), sizeof secret, 0);
+    (void)!::getrandom(secret.data(), sizeof secret, GRND_NONBLOCK);
     return {secret[0], secret[1]};
 }
 

@@ -126,10 +126,14 @@ private:
         sessions_.push_back(session);
         session->read();
     }
-    // Disconnects the client that has been idle longest, if there are too many. Returns false if all await an answer.
+    // Disconnects the clients that have been idle longest, if there are too many. Returns false if the rest await answers.
     bool make_room() {
         std::erase_if(sessions_, [](const auto& session) { return session.expired(); });
-        if (sessions_.size() < most_now()) return true;
+        for (const auto most = most_now(); sessions_.size() >= most;)
+            if (!hang_up_idlest()) return false;
+        return true;
+    }
+    bool hang_up_idlest() {
         std::shared_ptr<Session> idlest;
         for (const auto& weak : sessions_)
             if (auto session = weak.lock();

@@ -233,6 +233,7 @@ private:
 // Limits turns, not time: on a busy machine, much time may pass before the first turn.
 void Sources::drain(link::LinkHandler& handler, const std::function<Room()>& room) {
     rings_->end_here();
+    links_->read_all();
     EarlyFrames early(handler, wall_now());
     int empty_turns = 0, late_turns = 0;
     for (int turns = 0; turns < most_drain_turns && empty_turns < last_empty_turns && late_turns < last_late_turns;

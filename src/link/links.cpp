@@ -156,6 +156,8 @@ void Links::count_from(LinkId last) noexcept { core_->links.count_from(last); }
 
 std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return core_->turn(handler, deadline); }
 
+void Links::read_all() noexcept { core_->reads_all = true; }
+
 std::size_t Links::send(std::span<const LinkId> links, const wire::FrameView& frame) {
     Departure departure(frame);
     std::size_t taken = 0;

@@ -102,17 +102,16 @@ private:
         queue.rewind();
     }
     void read() {
-        const ByteSpan room = ByteSpan(core_.stream_buffer).first(budget_.limit());
+        const auto most = core_.reads_all ? Core::stream_buffer_bytes : budget_.limit();
+        const ByteSpan room = ByteSpan(core_.stream_buffer).first(most);
         const auto count = stream_.read(room);
         if (!count) {
             if (count.error() != net::IoError::would_block) on_end(count.error());
             return;
         }
         last_heard = core_.now();
-        const bool is_measured = *count >= ReadBudget::worth_measuring;
-        const MonoTime begin = is_measured ? mono_now() : MonoTime{};
-        parser_.feed(room.first(*count), core_.now(), sink(wall_now()));
-        budget_.note(*count, is_measured ? mono_now() - begin : Nanoseconds{});
+        budget_.spend(*count, *count,
+                      [&] { parser_.feed(room.first(*count), core_.now(), sink(wall_now())); });
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);
     }

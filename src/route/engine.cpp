@@ -460,25 +460,28 @@ void Engine::Impl::leave_out_origin(const Passage& p) noexcept {
     leave_out(scratch_.data(), Reason::source_here);
 }
 
-// Whether the frame's source counts as being on this link too, so that the link does not need the frame. Somebody there
-// may only claim to be the source. So if the source is present on the link that brought the frame, and was so earlier,
-// the claim must be as old as one to a route. Targeted frames go there all the same: two routers with two paths between
-// them still do not pass such a frame round, because they remember it.
+// Whether the link has the frame's source itself, and so does not need the frame. A forger there may claim to be the
+// source. If the source was first present on the link that brought the frame, the claim counts only after
+// `consistent_for`, and never for targeted frames or with learn=first. Such frames go round no loop of routers, because
+// each router remembers them.
 bool Engine::Impl::is_origin(Slot slot, const Passage& p) const noexcept {
-    if (!is_present(slot, p)) return false;
-    if (!is_present(p.slot, p)) return true;
+    const Route* const there = present_route(slot, p);
+    if (there == nullptr) return false;
+    const Route* const here = present_route(p.slot, p);
+    if (here == nullptr) return true;
     if (p.is_directed) return false;
-    const std::int64_t since = routes_.find(slot, p.source)->since_ns;
-    if (routes_.find(p.slot, p.source)->since_ns >= since) return true;
+    if (here->since_ns >= there->since_ns) return true;
     if (links[slot]->policy.learns_first) return false;
-    return p.now.time_since_epoch().count() - since >= consistent_for.count();
+    return p.now.time_since_epoch().count() - there->since_ns >= consistent_for.count();
 }
 
-// One frame may be forged. A source that is present was heard repeatedly and recently.
-bool Engine::Impl::is_present(Slot slot, const Passage& p) const noexcept {
+// The route to the frame's source on a link where the source is present; null on other links. One frame may be forged,
+// so a source that is present was heard repeatedly and recently.
+const Route* Engine::Impl::present_route(Slot slot, const Passage& p) const noexcept {
     const Route* const route = routes_.find(slot, p.source);
-    return route != nullptr && route->heard_ns - route->since_ns >= repeated_after.count() &&
-           p.now.time_since_epoch().count() - route->heard_ns < present_for.count();
+    const bool is_present = route != nullptr && route->heard_ns - route->since_ns >= repeated_after.count() &&
+                            p.now.time_since_epoch().count() - route->heard_ns < present_for.count();
+    return is_present ? route : nullptr;
 }
 
 void Engine::Impl::apply_filters(const Passage& p) noexcept {

@@ -152,7 +152,7 @@ private:
     [[nodiscard]] bool is_consistent(const Passage& p, Slot first) noexcept;
     void note_conflict(const Passage& p, Slot first) noexcept;
     [[nodiscard]] bool is_origin(Slot slot, const Passage& p) const noexcept;
-    [[nodiscard]] bool is_present(Slot slot, const Passage& p) const noexcept;
+    [[nodiscard]] const Route* present_route(Slot slot, const Passage& p) const noexcept;
     // Whether an earlier copy of the frame may be held against this one.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
     void count_beats(const Passage& p) noexcept;

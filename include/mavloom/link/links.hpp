@@ -182,6 +182,9 @@ public:
     // The amount read per turn is bounded, so that one flooded socket cannot starve the others. Under heavy load a turn
     // starts at least 0.2 ms after the previous one, unless an endpoint has low_latency.
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
+    // From now on a turn reads as much as it can from each socket, even if that takes long: for a caller that ends, and
+    // takes what has arrived.
+    void read_all() noexcept;
 
     std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override;
     // Queue a frame for one link, and for every active link of an endpoint.

@@ -67,7 +67,8 @@ public:
     [[nodiscard]] const ReadCounters& counters() const noexcept { return counters_; }
     // At the end: whether all bytes were damaged, and were more than one cut-off record. Such a file is no recording.
     [[nodiscard]] bool found_no_record() const noexcept {
-        return counters_.lost_bytes.value() > max_record_length && counters_.lost_bytes.value() == position();
+        return counters_.records.value() == 0 && counters_.unknown_flags.value() == 0 &&
+               counters_.lost_bytes.value() > max_record_length;
     }
     // The error for such a file.
     [[nodiscard]] SetupError no_record_error() const;

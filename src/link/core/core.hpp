@@ -143,6 +143,7 @@ public:
     // Scratch memory for calls that read or write a socket.
     net::ReceiveBatch receive_batch;
     net::SendBatch send_batch;
+    bool reads_all = false;  // see Links::read_all
     // Large enough that one read takes everything that a fast sender writes during a turn. Small enough for the L2
     // cache.
     static constexpr std::size_t stream_buffer_bytes = 128 * 1024;

@@ -12,22 +12,29 @@
 namespace mavloom::link::detail {
 
 // Counts datagrams or bytes. The limit falls at once and grows by `least` a turn, because a sender may mix cheap and
-// costly datagrams. Reading less than `worth_measuring` bytes never takes long enough to look at the clock.
+// costly datagrams. What the kernel takes to send the frames at the end of the turn is not measured.
 class ReadBudget {
 public:
-    static constexpr std::size_t worth_measuring = 16 * 1024;
-
     ReadBudget(std::size_t least, std::size_t most) noexcept : least_(least), most_(most), limit_(most) {}
 
     // How much to read in this turn.
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
-    // Call it after `count` of them were handled, in `took`; zero if that was not measured.
+    // Calls `work`, which handles `count` of them, in all `bytes` bytes. A few bytes at full limit are not worth a look at
+    // the clock.
+    void spend(std::size_t count, std::size_t bytes, auto&& work) {
+        if (bytes < worth_measuring && limit_ == most_) return work();
+        const MonoTime begin = mono_now();
+        work();
+        note(count, mono_now() - begin);
+    }
+    // `count` of them were handled in `took`.
     void note(std::size_t count, Nanoseconds took) noexcept {
-        const auto fits = took <= Nanoseconds{} ? most_ : count * turn_share / static_cast<std::size_t>(took.count());
+        const auto fits = count * turn_share / static_cast<std::size_t>(std::max(took.count(), Nanoseconds::rep{1}));
         limit_ = std::clamp(std::min(fits, limit_ + least_), least_, most_);
     }
 
 private:
+    static constexpr std::size_t worth_measuring = 4096;
     static constexpr std::size_t turn_share = 1'000'000;  // ns of a turn, for each socket
 
     std::size_t least_, most_, limit_;

@@ -135,14 +135,12 @@ void UdpPort::on_timer(MonoTime) {
 
 void UdpPort::receive() {
     net::ReceiveBatch& batch = core_.receive_batch;
-    const auto count = socket_.receive(batch, budget_.limit());
+    const auto most = core_.reads_all ? net::ReceiveBatch::slots : budget_.limit();
+    const auto count = socket_.receive(batch, most);
     // would_block, or an ICMP error. on_io also receives that error as `failed`.
     if (!count) return;
-    if (*count == budget_.limit()) core_.note_more_waits();
-    const bool is_measured = batch.bytes() >= ReadBudget::worth_measuring;
-    const MonoTime begin = is_measured ? mono_now() : MonoTime{};
-    receive(batch);
-    budget_.note(*count, is_measured ? mono_now() - begin : Nanoseconds{});
+    if (*count == most) core_.note_more_waits();
+    budget_.spend(*count, batch.bytes(), [&] { receive(batch); });
 }
 
 void UdpPort::receive(const net::ReceiveBatch& batch) {

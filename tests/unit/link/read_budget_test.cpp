@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 namespace mavloom::link::detail {
 namespace {
 
@@ -23,10 +25,15 @@ TEST(ReadBudget, GrowsSlowly) {
     EXPECT_EQ(budget.limit(), 4096U);
     budget.note(4096, microseconds{1});
     EXPECT_EQ(budget.limit(), 8192U);
-    budget.note(100, {});
-    EXPECT_EQ(budget.limit(), 12288U);
     for (int turn = 0; turn < 40; ++turn) budget.note(100, {});
     EXPECT_EQ(budget.limit(), 131072U);
+}
+
+TEST(ReadBudget, MeasuresSmallReadsWhileTheLimitIsReduced) {
+    ReadBudget budget{1, 64};
+    budget.note(64, milliseconds{100});
+    budget.spend(1, 21, [] { std::this_thread::sleep_for(milliseconds{3}); });
+    EXPECT_EQ(budget.limit(), 1U);
 }
 
 }  // namespace
