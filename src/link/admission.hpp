@@ -40,7 +40,7 @@ public:
     explicit Admission(std::size_t burst) noexcept : burst_(static_cast<double>(burst)), tokens_(burst_) {}
 
     // Returns whether this sender may become a peer now. If it does, or is turned away after more work than this, call
-    // `note_entry`. If it proves to be no peer, call `note_stranger`.
+    // `note_entry`.
     [[nodiscard]] Answer ask(const net::Address& sender, MonoTime now) {
         refill(now);
         if (tokens_ >= 1) return Answer::admitted;
@@ -49,18 +49,15 @@ public:
     }
     // Returns whether the sender also sent 0.5 to 10 s ago.
     [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
-        Seen& seen = place_of(sender);
-        const Seen fresh = seen_now(sender, now);
-        const std::chrono::milliseconds age{fresh.at_ms - seen.at_ms};  // modulo 2^32, 50 days
-        if (seen.tag == fresh.tag && age <= remembered_for) return age >= repeats_after;
-        seen = fresh;
+        if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
+        const std::uint64_t hash = sender.hash();
+        Seen& seen = seen_[hash % remembered];
+        const auto tag = static_cast<std::uint32_t>(hash >> 32) | 1u;
+        const auto now_ms = static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1});
+        const std::chrono::milliseconds age{now_ms - seen.at_ms};  // modulo 2^32, 50 days
+        if (seen.tag == tag && age <= remembered_for) return age >= repeats_after;
+        seen = {tag, now_ms};
         return false;
-    }
-    // An admitted sender proved to be no peer. That used up a place too. During a flood, it must wait again, so that
-    // one such sender cannot use up what others need.
-    void note_stranger(const net::Address& sender, MonoTime now) {
-        if (tokens_ < 1) place_of(sender) = seen_now(sender, now);
-        note_entry();
     }
     void note_entry() noexcept { --(tokens_ >= 1 ? tokens_ : repeater_tokens_); }
 
@@ -69,15 +66,6 @@ private:
         std::uint32_t tag = 0;
         std::uint32_t at_ms = 0;
     };
-
-    [[nodiscard]] Seen& place_of(const net::Address& sender) {
-        if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
-        return seen_[sender.hash() % remembered];
-    }
-    [[nodiscard]] static Seen seen_now(const net::Address& sender, MonoTime now) noexcept {
-        return {static_cast<std::uint32_t>(std::uint64_t{sender.hash()} >> 32) | 1u,
-                static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1})};
-    }
 
     void refill(MonoTime now) noexcept {
         const double passed = std::chrono::duration<double>(now - refilled_).count();

@@ -53,7 +53,6 @@ UdpPeer* UdpPeers::newcomer(UdpPort& port, const net::Datagram& datagram) {
     }
     if (!may_enter(*datagram.from)) return nullptr;
     if (!is_from_a_peer(datagram)) {
-        admission_.note_stranger(*datagram.from, core_.now());
         endpoint_.counters.stray_bytes.add(datagram.bytes.size());
         return nullptr;
     }
