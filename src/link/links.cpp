@@ -112,7 +112,7 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     return {};
 }
 
-void Links::let_repeat() noexcept { may_repeat_ = true; }
+void Links::set_apart() noexcept { may_repeat_ = core_->key_states.endpoints_are_apart = true; }
 
 bool Links::may_repeat(const endpoint::Endpoint& endpoint) const noexcept {
     return may_repeat_ && endpoint.options.name.empty();

@@ -110,8 +110,7 @@ private:
             return;
         }
         last_heard = core_.now();
-        budget_.spend(*count, *count,
-                      [&] { parser_.feed(room.first(*count), core_.now(), sink(wall_now())); });
+        budget_.spend(*count, *count, [&] { parser_.feed(room.first(*count), core_.now(), sink(wall_now())); });
         counters.implausible_unknown.set(parser_.counters().implausible_unknown.value());
         if (parser_.deadline()) core_.tickers.keep(*this);
     }

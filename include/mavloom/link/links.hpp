@@ -148,9 +148,9 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // Allows several endpoints without name= to have the same address from now on. The caller distinguishes them by
-    // their ids.
-    void let_repeat() noexcept;
+    // From now on, endpoints are used like those of separate programs. Several endpoints without name= may have the same
+    // address: the caller distinguishes them by their ids. One may hear what another has signed.
+    void set_apart() noexcept;
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);

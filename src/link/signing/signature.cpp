@@ -50,13 +50,21 @@ SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
     signs_under_ = states_.judge_of(key);
     if (auto begun = KeyStates::begin_signing(*times); !begun) return begun;
     signs_under_->own.sign_as(link_id);
+    signs_as_ = link_id;
     signer_.emplace(key, link_id, times->state.last_signed);
     return {};
 }
 
+// Whether the frame is one that this process signed, and that somebody has sent back.
+bool Signature::is_own(const wire::FrameView& frame) const noexcept {
+    if (!frame.is_signed()) return false;
+    if (states_.endpoints_are_apart && signs_as_ != frame.signature()[0]) return false;
+    return judge_->own.has(frame);
+}
+
 bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
     using enum wire::Verifier::Verdict;
-    if (frame.is_signed() && judge_->own.has(frame)) return false;
+    if (is_own(frame)) return false;
     if (!own_) return judge_->verifier.verify(frame, now) == good;
     if (own_->verify(frame, now) != good) return false;
     const auto stream = wire::Verifier::stream_of(frame);

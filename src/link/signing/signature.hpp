@@ -56,6 +56,7 @@ private:
     [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
     void judge(const OpenKey& with, bool in_group);
     [[nodiscard]] SetupResult<void> sign_with(OpenKey with, std::uint8_t link_id);
+    [[nodiscard]] bool is_own(const wire::FrameView& frame) const noexcept;
     [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
 
     KeyStates& states_;
@@ -64,6 +65,7 @@ private:
     std::shared_ptr<KeyJudge> signs_under_;  // of the key of sign=; null without it
     std::optional<wire::Verifier> own_;      // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
+    std::optional<std::uint8_t> signs_as_;  // the link id
     // Start of the frame that `accepts_early` has already verified.
     const std::uint8_t* accepted_ = nullptr;
     std::array<std::uint8_t, wire::max_frame_length> buffer_{};

@@ -97,6 +97,8 @@ public:
     [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
+    // Whether the endpoints are used like separate programs, so that one may hear what another has signed.
+    bool endpoints_are_apart = false;
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 
