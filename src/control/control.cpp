@@ -126,7 +126,8 @@ private:
         sessions_.push_back(session);
         session->read();
     }
-    // Disconnects the clients that have been idle longest, if there are too many. Returns false if the rest await answers.
+    // Disconnects the clients that have been idle longest, if there are too many. Returns false if all others await
+    // answers.
     bool make_room() {
         std::erase_if(sessions_, [](const auto& session) { return session.expired(); });
         for (const auto most = most_now(); sessions_.size() >= most;)

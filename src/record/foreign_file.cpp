@@ -65,7 +65,7 @@ constexpr bool is_text(std::uint8_t byte) noexcept {
     return (byte >= 0x20 && byte < 0x7f) || byte == '\t' || byte == '\n' || byte == '\r';
 }
 
-// Text has no signature. A record always contains other bytes, and 4096 bytes of text are more than damage of a tlog.
+// Text has no signature. A record begins with a zero byte, so text holds none. 4096 bytes of it are more than damage.
 std::optional<ForeignFormat> text_format(ByteView first_bytes) noexcept {
     if (first_bytes.empty() || !std::ranges::all_of(first_bytes, is_text)) return std::nullopt;
     if (first_bytes[0] == '{' || first_bytes[0] == '[') return ForeignFormat{"JSON", "read it with Python's json"};

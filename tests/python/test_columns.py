@@ -291,7 +291,6 @@ def test_a_part_of_the_time_and_of_the_fields(flight):
 @pytest.mark.parametrize("far", [np.datetime64("3000-01-01"), np.datetime64("1600", "Y"),
                                  np.datetime64("2262-01", "s")])
 def test_times_that_numpy_cannot_hold_in_ns(far, flight):
-    assert int(far.astype("datetime64[Y]").astype(int)) not in range(-292, 292)
     with pytest.raises(mavloom.UsageError, match="is out of range, the years 1678 to 2261"):
         mavloom.columns(flight, "ATTITUDE", end=far)
     assert len(mavloom.columns(flight, "ATTITUDE", end=np.datetime64("2261-12-31"))) > 0

@@ -148,8 +148,8 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, endpoints are used like those of separate programs. Several endpoints without name= may have the same
-    // address: the caller distinguishes them by their ids. One may hear what another has signed.
+    // From now on, endpoints are used like those of separate programs. Several endpoints without name= may have the
+    // same address: the caller distinguishes them by their ids. One may hear what another has signed.
     void set_apart() noexcept;
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.

@@ -65,7 +65,7 @@ def result_name(result: int) -> str:
     return entry_name(enums.MAV_RESULT, result) or f"result {result}"
 
 
-def command(peer: Peer, number: int, params: tuple[float, ...], answer_s: float | None = None,
+def command(peer: Peer, number: int, params: tuple[float, ...], timeout: float | None = None,
             tries: int = TRIES) -> Protocol[Message]:
     """Sends a command until it is acknowledged. Returns the acknowledgement.
 
@@ -74,19 +74,20 @@ def command(peer: Peer, number: int, params: tuple[float, ...], answer_s: float 
     """
     if len(params) > 7:
         raise UsageError(f"a command has at most 7 parameters, not {len(params)}")
-    wait = ANSWER_S if answer_s is None else answer_s
-    if not 0 < checked_number("timeout", wait) <= LONGEST_ANSWER_S:
-        raise UsageError(f"timeout: {wait} is out of range, more than 0 to {LONGEST_ANSWER_S} s")
+    timeout = ANSWER_S if timeout is None else timeout
+    if not 0 < checked_number("timeout", timeout) <= LONGEST_ANSWER_S:
+        raise UsageError(f"timeout: {timeout} is out of range, more than 0 to {LONGEST_ANSWER_S} s")
     if not isinstance(tries, int) or not 1 <= tries <= MOST_TRIES:
         raise UsageError(f"tries: {tries!r} is out of range, 1 to {MOST_TRIES}")
-    return (yield from exclusive(peer, name_of(number), tries * wait, acknowledged(peer, number, params, wait, tries)))
+    protocol = acknowledged(peer, number, params, timeout, tries)
+    return (yield from exclusive(peer, name_of(number), tries * timeout, protocol))
 
 
-def acknowledged(peer: Peer, number: int, params: tuple[float, ...], wait: float, tries: int) -> Protocol[Message]:
+def acknowledged(peer: Peer, number: int, params: tuple[float, ...], timeout: float, tries: int) -> Protocol[Message]:
     fields = {f"param{place}": value for place, value in enumerate(params, 1)}
     for confirmation in range(tries):
         peer.send("COMMAND_LONG", command=number, confirmation=confirmation, **fields)
-        answer = yield from acknowledgement(peer, number, wait)
+        answer = yield from acknowledgement(peer, number, timeout)
         if answer is None:
             continue
         if answer["result"] != ACCEPTED:
@@ -95,13 +96,13 @@ def acknowledged(peer: Peer, number: int, params: tuple[float, ...], wait: float
     raise TimeoutError(f"{peer}: no answer to {name_of(number)} after {tries} tries")
 
 
-def acknowledgement(peer: Peer, number: int, wait: float) -> Generator[float, Message | None, Message | None]:
+def acknowledgement(peer: Peer, number: int, timeout: float) -> Generator[float, Message | None, Message | None]:
     """Waits for the final answer to a command; None if there is none, so the command may be repeated.
 
     A command in progress must not be repeated, because the vehicle would begin again: if it falls silent, raises
     TimeoutError.
     """
-    deadline, in_progress = time.monotonic() + wait, False
+    deadline, in_progress = time.monotonic() + timeout, False
     while (answer := (yield from wait_until(deadline))) is not None:
         if answer.name != "COMMAND_ACK" or answer["command"] != number or not peer.is_for_us(answer):
             continue

@@ -127,7 +127,7 @@ def mavlink_connection(device: str | os.PathLike[str], baud: int = 115200, sourc
 
     `udpin:` and `udpbcast:` forget a program that was silent for `udp_timeout` seconds; 0: never.
 
-    These have no meaning here and are accepted: use_native, zero_time_base, robust_parsing of live connections.
+    These have no meaning here and are accepted: use_native, zero_time_base, robust_parsing without notimestamps.
     """
     global mavfile_global
     source_system, source_component = _check(source_system, source_component, opts)

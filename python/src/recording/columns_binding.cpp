@@ -63,7 +63,7 @@ nb::tuple arrays_of(const Definitions& definitions, Table& table) {
     return nb::make_tuple(times, systems, components, fields);
 }
 
-// As fields_in. Raises for a name that the message has not.
+// Like fields_in, but raises for a name that is no field of the message.
 std::vector<std::size_t> places_of(const dialect::Dialect& dialect, const dialect::Message& message,
                                    const FieldNames& fields) {
     for (const auto& name : fields.value_or(std::vector<std::string>{}))

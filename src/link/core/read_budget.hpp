@@ -12,15 +12,14 @@
 namespace mavloom::link::detail {
 
 // Counts datagrams or bytes. The limit falls at once and grows by `least` a turn, because a sender may mix cheap and
-// costly datagrams. What the kernel takes to send the frames at the end of the turn is not measured.
+// costly datagrams. The time to send the frames at the end of the turn is not measured.
 class ReadBudget {
 public:
     ReadBudget(std::size_t least, std::size_t most) noexcept : least_(least), most_(most), limit_(most) {}
 
     // How much to read in this turn.
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
-    // Calls `work`, which handles `count` of them, in all `bytes` bytes. A few bytes at full limit are not worth a look at
-    // the clock.
+    // Calls `work`, which handles `count` of them, in all `bytes` bytes. At full limit, it does not time a few bytes.
     void spend(std::size_t count, std::size_t bytes, auto&& work) {
         if (bytes < worth_measuring && limit_ == most_) return work();
         const MonoTime begin = mono_now();

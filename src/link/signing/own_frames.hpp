@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Recognises the frames that this process signed itself when somebody sends them back, who need not have the key.
 //
-// Each of 1,024 buckets remembers its newest 64 signatures of a key, about 65,000 in all. For older ones, a frame with
-// one of our link ids is ours if its time is not newer than what its bucket forgot. Another program that uses the same key
-// and the same link id is therefore heard, unless its clock is behind by more than these signatures span.
+// Each of 1,024 buckets remembers its newest 64 signatures of a key, about 65,000 in all. For older ones, a frame
+// with one of our link ids is ours if its time is not newer than what its bucket forgot. Another program that uses
+// the same key and the same link id is therefore heard, unless its clock is behind by more than these signatures
+// span.
 //
 // Private to module link; single owner thread; allocates only in `sign_as`.
 #pragma once
