@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Inputs that clients must repeat, each with the time of its last arrival (FlightContext::input_time()). Private to
-// flight;
-// single owner; plain values.
+// flight; single owner; plain values.
 #pragma once
 
 #include <optional>

@@ -109,7 +109,7 @@ public:
     [[nodiscard]] link::Links& links() noexcept { return *links_; }
     [[nodiscard]] const route::Engine& engine() const noexcept;
     [[nodiscard]] const observe::TrafficTable& traffic() const noexcept;
-    // Valid until the next `add`, `remove`, `become` or `finish`.
+    // Valid until the next `add`, `remove`, `apply` or `finish`.
     [[nodiscard]] std::vector<const record::Recorder*> recorders() const;
     [[nodiscard]] std::uint64_t heartbeats_sent() const noexcept;
     // Frames sent unsigned on a link with `sign=`, because they arrived on a link without `verify=`.
