@@ -27,7 +27,7 @@ def make(dialect: Dialect, name: str) -> EnumClass:
 
 
 def entry_name(kind: EnumClass, number: int) -> str | None:
-    """The name of an entry; None if the enum has no such number."""
+    """Returns the name of an entry; None if the enum has no such number."""
     return next((name for name, member in kind.__members__.items() if member == number), None)
 
 

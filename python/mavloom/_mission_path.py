@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The path of a mission: which of its items the vehicle flies to, and in which order."""
+"""Finds the path of a mission: the items that the vehicle flies to, in their order."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ def has_place(w: Any) -> bool:
 
 
 def path(items: Sequence[Any]) -> list[int]:
-    """The numbers of the items with a place, from the first item to a landing, the end, or an item that comes again.
+    """Returns the numbers of the items with a place, from the first item to a landing, the end, or a repeated item.
 
     As in pymavlink, a jump adds its target twice.
     """

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hashes for tables whose keys a sender can choose. The hash depends on a secret of the process, so that a sender
-// cannot choose keys that collide. One multiplication per hash. Hashes differ from run to run: never store them.
+// A hash for tables whose keys a sender can choose. It depends on a random secret, so that a sender cannot choose keys
+// that collide. One multiplication per hash. Hashes differ from run to run: never store them.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ private:
     std::uint64_t a_, b_;
 };
 
-// The secret of this process.
+// The hash of this process. Its secret is read once, at the start.
 inline const SecretHash secret_hash = SecretHash::random();
 
 }  // namespace mavloom

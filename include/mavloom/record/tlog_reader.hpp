@@ -70,7 +70,7 @@ public:
         return counters_.records.value() == 0 && counters_.unknown_flags.value() == 0 &&
                counters_.lost_bytes.value() > max_record_length;
     }
-    // The error for such a file.
+    // The error to report if `found_no_record()`.
     [[nodiscard]] SetupError no_record_error() const;
 
 private:
