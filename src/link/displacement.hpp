@@ -25,12 +25,13 @@ public:
 
     explicit Displacement(std::uint32_t seed = std::random_device{}()) : random_(seed) {}
 
-    // Returns null if no peer has to leave now. `Peer` has `first_heard`. Allocates.
+    // Returns null if no peer has to leave now. The link ids tell in which order the peers came (times do not: all that
+    // come in one turn have the same). Allocates.
     template <class Peer>
     [[nodiscard]] Peer* choose(std::vector<Peer*> peers, MonoTime now) {
         if (peers.size() < fewest_peers || !take_turn(now)) return nullptr;
         const auto middle = peers.begin() + static_cast<std::ptrdiff_t>(peers.size() / 2);
-        std::ranges::nth_element(peers, middle, {}, &Peer::first_heard);
+        std::ranges::nth_element(peers, middle, {}, &Peer::id);
         const auto younger = static_cast<std::size_t>(peers.end() - middle);
         return middle[static_cast<std::ptrdiff_t>(random_() % younger)];
     }

@@ -11,20 +11,20 @@ namespace {
 using namespace std::chrono_literals;
 
 struct Talker {
-    MonoTime first_heard{};
+    int id = 0;
 };
 
 constexpr MonoTime long_ago{std::chrono::hours{1000}};
 
-// Peers of which each came a second after the one before.
+// Peers in the order in which they came. `all` lists them from the last to the first.
 class Crowd {
 public:
     explicit Crowd(std::size_t size) : peers_(size) {
-        for (std::size_t i = 0; i < size; ++i) peers_[i].first_heard = long_ago + static_cast<int>(i) * 1s;
+        for (std::size_t i = 0; i < size; ++i) peers_[i].id = static_cast<int>(i);
     }
     [[nodiscard]] std::vector<Talker*> all() {
         std::vector<Talker*> list;
-        for (Talker& peer : peers_) list.push_back(&peer);
+        for (Talker& peer : peers_) list.insert(list.begin(), &peer);
         return list;
     }
     [[nodiscard]] std::size_t place_of(const Talker* peer) const {
@@ -79,7 +79,7 @@ TEST(Displacement, FourLeaveAtOnceThenOneEachTwoSeconds) {
 // 256 talkers came before the vehicle. A peer that had to leave tries again.
 TEST(Displacement, ALateVehicleHasAPlaceMostOfTheTime) {
     std::vector<std::unique_ptr<Talker>> inside;
-    for (int i = 0; i < 256; ++i) inside.push_back(std::make_unique<Talker>(Talker{long_ago + i * 10ms}));
+    for (int i = 0; i < 256; ++i) inside.push_back(std::make_unique<Talker>(Talker{i}));
     auto outside = std::make_unique<Talker>();
     const Talker* const vehicle = outside.get();
     Displacement sut(1);
@@ -91,7 +91,7 @@ TEST(Displacement, ALateVehicleHasAPlaceMostOfTheTime) {
         if (Talker* const leaves = sut.choose(all, now); leaves != nullptr) {
             auto& place = *std::ranges::find(inside, leaves, &std::unique_ptr<Talker>::get);
             std::swap(place, outside);
-            place->first_heard = now;
+            place->id = 257 + second;
         }
         seconds_inside += outside.get() != vehicle ? 1 : 0;
     }
