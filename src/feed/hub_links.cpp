@@ -15,7 +15,7 @@ bool listens(endpoint::Scheme scheme) noexcept {
 
 }  // namespace
 
-HubLinks::HubLinks(Sources sources) : sources_(std::move(sources)) { links().set_apart(); }
+HubLinks::HubLinks(Sources sources) : sources_(std::move(sources)) { links().make_independent(); }
 
 void HubLinks::turn(MonoTime deadline) {
     for (const auto& [endpoint, served] : served_)

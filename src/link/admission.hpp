@@ -2,10 +2,9 @@
 // Limits how many unknown senders a UDP endpoint accepts as peers, so that a flood of invented addresses costs little.
 // Private to module link; single owner thread.
 //
-// The first senders enter at once, later ones at a steady rate. During a flood, a sender that is turned away may still
-// enter by repetition: when it sends again 0.5 to 10 s later, as everybody who speaks MAVLink does. Invented addresses
-// mostly do not repeat; if many do, these enter at a steady rate too. Asking allocates nothing, except for the memory
-// of such senders when the first one is turned away.
+// The first senders enter at once, later ones at a steady rate. A sender that is turned away during a flood enters when
+// it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many addresses
+// repeat, they enter at a steady rate too. `ask` allocates once: a table of senders, when the first one is turned away.
 // docs/design/security.md
 #pragma once
 
@@ -39,8 +38,8 @@ public:
     // `burst`: how many may enter at once.
     explicit Admission(std::size_t burst) noexcept : burst_(static_cast<double>(burst)), tokens_(burst_) {}
 
-    // Returns whether this sender may become a peer now. If it does, or is turned away after more work than this, call
-    // `note_entry`.
+    // Returns whether this sender may become a peer now. If the answer is `admitted`, call `note_entry` once the sender
+    // has cost more work, even if it is turned away after all.
     [[nodiscard]] Answer ask(const net::Address& sender, MonoTime now) {
         refill(now);
         if (tokens_ >= 1) return Answer::admitted;

@@ -60,10 +60,12 @@ static SetupResult<std::unique_ptr<OpenEndpoint>> open(Opening opening) {
         case endpoint::Scheme::udpbcast: return open_udpbcast(std::move(opening));
         case endpoint::Scheme::udpmcast: return open_udpmcast(std::move(opening));
         case endpoint::Scheme::tcpin: return open_tcpin(std::move(opening));
+        case endpoint::Scheme::tcpout: return open_tcpout(std::move(opening));
         case endpoint::Scheme::serial: return open_serial(std::move(opening));
         case endpoint::Scheme::shm: return open_shm(std::move(opening));
-        default: return open_tcpout(std::move(opening));
+        case endpoint::Scheme::tlog: break;  // check_supported() has refused it
     }
+    return setup_error(SetupCode::usage, "a recording is no link");
 }
 
 // Several endpoints may request port 0; each gets its own port.
@@ -112,7 +114,7 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     return {};
 }
 
-void Links::set_apart() noexcept { may_repeat_ = core_->key_states.endpoints_are_apart = true; }
+void Links::make_independent() noexcept { may_repeat_ = core_->key_states.endpoints_are_independent = true; }
 
 bool Links::may_repeat(const endpoint::Endpoint& endpoint) const noexcept {
     return may_repeat_ && endpoint.options.name.empty();

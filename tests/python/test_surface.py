@@ -2,6 +2,7 @@
 """The package as interpreters, notebooks and editors show it, and misuse that its objects refuse."""
 import inspect
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import pytest
 
 import mavloom
 from mavloom import mavutil, mavwp
+from places import ROOT
 from tlogs import frames_of
 from vehicles import DEADLINE_S, Vehicle, until
 
@@ -31,6 +33,19 @@ def vehicle(peer, link):
 
 
 # ---- signatures, lists of names, texts
+
+def test_link_stats_has_every_counter_of_a_link_and_of_an_endpoint():
+    """The page's lists are compared with a router's reports by test_route_guide.py."""
+    page = (ROOT / "docs/guide/route.md").read_text()
+    counters = set()
+    for kind in ("endpoint", "gone"):
+        counters |= set(re.findall(r"`(\w+)`", re.search(rf"^\| `{kind}` \|(.*)\|$", page, re.M)[1]))
+    other_names = {"repeated": "duplicate", "frames_not_sent": "not_sent"}
+
+    assert len(counters) >= 30
+    assert {other_names.get(name, name) for name in counters} - set(dir(mavloom.LinkStats)) == \
+        {"endpoint", "scheme", "rcvbuf", "queued"}
+
 
 def public_callables():
     for name in mavloom.__all__:

@@ -18,7 +18,8 @@ struct LinkCounters {
     // With verify=: frames that are unsigned or whose signature is invalid.
     Counter bad_signature;
     Counter queue_bytes, queue_age;  // whole frames dropped from the send queue
-    // Loss on the link itself, from gaps in the sequence numbers received.
+    // Loss on the link itself, from the sequence numbers received. Reports of a router show `duplicate` as `repeated`,
+    // because there `duplicate` is a verdict of the engine.
     Counter lost, late, duplicate, resync;
     // Frames whose loss is not computed, because the tracker has no room for a further sender.
     Counter untracked;

@@ -106,9 +106,9 @@ public:
     // Queues a whole frame for these links. Returns the number of links that queued it. Links that are gone or down are
     // skipped.
     virtual std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
-    // Queues a frame whose sender was not verified. It leaves after the frames of `send` that are queued for the link,
-    // and uses none of their room. It is not signed, even if an endpoint has `sign=`. Returns how many links queued it
-    // unsigned although their endpoint has `sign=`.
+    // Queues a frame whose sender was not verified. The link sends it when no frames of `send` are queued, and it uses
+    // none of their room. It is never signed. Returns how many of the links that queued it belong to an endpoint with
+    // `sign=`.
     virtual std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) = 0;
     // For endpoint::RoutingOptions::by_owner: updates the loss counters of the link on which the current frame arrived.
     // Returns a reference that is valid until the next call.
@@ -136,8 +136,9 @@ public:
     // Numbers new links from `last` + 1 instead of 1. Call it before the first endpoint is added.
     void count_from(LinkId last) noexcept;
 
-    // In a group, a faster link may deliver newer signed frames first. A signed frame is still accepted up to this long
-    // after that. A caller that detects duplicates by their bytes must remember frames for longer than this.
+    // In a group, a fast link may deliver a sender's newer signed frames before a slow link delivers older ones. The
+    // older ones are still accepted for this time. A caller that detects duplicates by their bytes must remember frames
+    // for longer than this.
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the
@@ -148,9 +149,10 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, endpoints are used like those of separate programs. Several endpoints without name= may have the
-    // same address: the caller distinguishes them by their ids. One may hear what another has signed.
-    void set_apart() noexcept;
+    // From now on, endpoints are independent of each other, as if each belonged to a program of its own. Several of
+    // them may have the same address (the caller distinguishes them by id), and one accepts frames that another signed.
+    void make_independent() noexcept;
+    // Returns whether another endpoint with the same address may be added.
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
@@ -193,7 +195,7 @@ public:
     std::size_t send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) override;
     const wire::SequenceTracker::Update& count_loss(const RxFrame& rx) override;
     [[nodiscard]] MonoTime now() const noexcept override;
-    // True while a queued frame has not been handed to the kernel.
+    // True while frames are queued that the kernel has not accepted yet.
     [[nodiscard]] bool pending() const;
     // Bytes queued for an endpoint's links. A source that reads a file can pause instead of overflowing a queue.
     [[nodiscard]] std::size_t queued_bytes(EndpointId endpoint) const;

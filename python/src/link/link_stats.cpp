@@ -119,6 +119,8 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("resync", of_links<&L::resync>(), "Sequence jumps that are too large to be loss, such as a reboot.")
         .def_prop_ro("kernel_drop", of_endpoint<&E::kernel_drop>(),
                      "Datagrams that the kernel dropped because the receive buffer was full.")
+        .def_prop_ro("untracked", of_links<&L::untracked>(),
+                     "Frames whose loss is not computed, because too many sources send.")
         .def_prop_ro("crc_error", of_links<&L::crc_error>(),
                      "Frames with a wrong checksum: damaged, or encoded with another definition.")
         .def_prop_ro("crc_error_ids", &crc_error_ids, nb::sig("def crc_error_ids(self) -> dict[int, int]"),
@@ -134,15 +136,29 @@ void bind_link_stats(nb::module_& module) {
         .def_prop_ro("junk_bytes", of_links<&L::junk_bytes>())
         .def_prop_ro("unknown_ids", of_links<&L::unknown_ids>())
         .def_prop_ro("unknown_flags", of_links<&L::unknown_flags>())
+        .def_prop_ro("implausible_unknown", of_links<&L::implausible_unknown>(),
+                     "What looked like a frame without definition, and was not accepted as one.")
         .def_prop_ro("bad_signature", of_links<&L::bad_signature>())
         .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>())
+        .def_prop_ro("bad_source", of_endpoint<&E::bad_source>(),
+                     "Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the link's own.")
         .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>())
+        .def_prop_ro("peers_refused", of_endpoint<&E::peers_refused>(), "New peers that were turned away.")
+        .def_prop_ro("peers_limited", of_endpoint<&E::peers_limited>(),
+                     "New peers that were turned away although they sent repeatedly, because too many did.")
+        .def_prop_ro("peers_evicted", of_endpoint<&E::peers_evicted>(), "Idle peers that were evicted for new ones.")
+        .def_prop_ro("peers_displaced", of_endpoint<&E::peers_displaced>(),
+                     "Peers that talked, and were evicted for new ones.")
         .def_prop_ro("queue_bytes", of_links<&L::queue_bytes>(),
                      "Outgoing frames that were dropped because the queue was full.")
         .def_prop_ro("queue_age", of_links<&L::queue_age>(),
                      "Outgoing frames that were dropped because they were too old.")
         .def_prop_ro("not_sent", of_links<&L::frames_not_sent>(), "Outgoing frames that the kernel rejected.")
         .def_prop_ro("refused", of_links<&L::refused>(), "Frames sent to a port on which no program listens.")
+        .def_prop_ro("unconfirmed", of_links<&L::unconfirmed>(),
+                     "Frames not sent to a UDP peer that was heard once only: its address may be forged.")
+        .def_prop_ro("send_errors", of_endpoint<&E::send_errors>(),
+                     "Datagrams that the kernel rejected, or that met a closed port.")
         .def_prop_ro("reconnects", of_endpoint<&E::reconnects>())
         .def("__repr__", &counters_repr);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Recognises the frames that this process signed itself when somebody sends them back, who need not have the key.
+// Recognises frames that this process signed and that somebody sends back to it. Without this check, a sender that does
+// not have the key would pass as one that has it.
 //
-// Each of 1,024 buckets remembers its newest 64 signatures of a key, about 65,000 in all. For older ones, a frame
-// with one of our link ids is ours if its time is not newer than what its bucket forgot. Another program that uses
-// the same key and the same link id is therefore heard, unless its clock is behind by more than these signatures
-// span.
+// The class remembers about 65,000 signatures of a key: each of 1,024 buckets has its newest 64. A frame with one of our
+// link ids is ours if its bucket has its signature, or if its time is not newer than the newest that the bucket has
+// dropped. So another program with the same key and link id is heard, unless its clock is far behind ours.
 //
 // Private to module link; single owner thread; allocates only in `sign_as`.
 #pragma once
@@ -26,7 +26,7 @@ public:
         ids_.set(link_id);
         if (buckets_.empty()) buckets_.resize(bucket_count);
     }
-    // Earlier runs signed frames up to this time.
+    // Earlier runs of the program signed frames up to this time: up to then, all frames with our link ids count as ours.
     void forget_until(wire::SigningTime time) noexcept { earlier_ = std::max(earlier_, time.ticks); }
 
     // `frame` is signed, with a link id given to `sign_as`.

@@ -58,7 +58,7 @@ SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
 // Whether the frame is one that this process signed, and that somebody has sent back.
 bool Signature::is_own(const wire::FrameView& frame) const noexcept {
     if (!frame.is_signed()) return false;
-    if (states_.endpoints_are_apart && signs_as_ != frame.signature()[0]) return false;
+    if (states_.endpoints_are_independent && signs_as_ != frame.signature()[0]) return false;
     return judge_->own.has(frame);
 }
 

@@ -98,7 +98,7 @@ public:
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     // Whether the endpoints are used like separate programs, so that one may hear what another has signed.
-    bool endpoints_are_apart = false;
+    bool endpoints_are_independent = false;
     void add(const Signature& signature) { signatures_.push_back(&signature); }
     void remove(const Signature& signature) noexcept { std::erase(signatures_, &signature); }
 
