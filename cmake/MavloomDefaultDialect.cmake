@@ -17,7 +17,7 @@ file(GLOB generator_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tools/diale
 add_executable(mavloom_dialectgen ${generator_sources})
 add_executable(mavloom::dialectgen ALIAS mavloom_dialectgen)
 set_target_properties(mavloom_dialectgen PROPERTIES EXPORT_NAME dialectgen)
-target_compile_options(mavloom_dialectgen PRIVATE ${mavloom_occasional})
+target_compile_options(mavloom_dialectgen PRIVATE ${mavloom_cold_flags})
 target_link_libraries(mavloom_dialectgen PRIVATE mavloom_dialect_core $<BUILD_INTERFACE:mavloom_warnings>)
 
 set(generated "${PROJECT_BINARY_DIR}/generated")

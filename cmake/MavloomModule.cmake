@@ -15,7 +15,7 @@ endfunction()
 
 # For code that runs once or beside the work. Higher optimisation would add half to its compile time and speed up
 # nothing that counts.
-set(mavloom_occasional $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
+set(mavloom_cold_flags $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1>)
 
 # -Wrestrict: GCC 12 is wrong about std::string (GCC bug 105329). In a unity build, names of one file shadow those of
 # another, and anonymous namespaces seem to lie in a header; the presets `dev` and `tidy` compile each file alone.
@@ -29,13 +29,13 @@ target_compile_options(mavloom_warnings INTERFACE -Wall -Wextra -Wpedantic -Wcon
                        $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual>
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${MAVLOOM_WERROR}>:-Werror>)
 
-# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [OCCASIONAL <source>...])
+# mavloom_module(<name> [DEPENDS <module>...] [LINK <target>...] [PRIVATE_LINK <target>...] [COLD <source>...])
 #
 # One library per module: `mavloom_<name>`, alias `mavloom::<name>`, from src/<name>/*.cpp and include/mavloom/<name>/.
-# A module without sources is an interface library. OCCASIONAL: sources (names without .cpp) to compile with
-# mavloom_occasional.
+# A module without sources is an interface library. COLD: sources (names without .cpp) to compile with
+# mavloom_cold_flags.
 function(mavloom_module name)
-  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;OCCASIONAL" ${ARGN})
+  cmake_parse_arguments(arg "" "" "DEPENDS;LINK;PRIVATE_LINK;COLD" ${ARGN})
   set(target mavloom_${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${name}/*.cpp")
   set(scope PUBLIC)
@@ -43,8 +43,8 @@ function(mavloom_module name)
     set(scope INTERFACE)
     add_library(${target} INTERFACE)
   else()
-    list(TRANSFORM arg_OCCASIONAL REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/${name}/\\1.cpp")
-    list(REMOVE_ITEM sources ${arg_OCCASIONAL} "")  # "", for it must be given something
+    list(TRANSFORM arg_COLD REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/${name}/\\1.cpp")
+    list(REMOVE_ITEM sources ${arg_COLD} "")  # "", for it must be given something
     add_library(${target} ${sources})
     target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:mavloom_warnings> ${arg_PRIVATE_LINK})
@@ -59,15 +59,15 @@ function(mavloom_module name)
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}/include" FILES ${headers})
   list(TRANSFORM arg_DEPENDS PREPEND mavloom::)
   target_link_libraries(${target} ${scope} ${arg_DEPENDS} ${arg_LINK})
-  if(arg_OCCASIONAL)
-    add_library(${target}_occasional OBJECT ${arg_OCCASIONAL})
-    set_target_properties(${target}_occasional PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_compile_features(${target}_occasional PRIVATE cxx_std_20)
-    target_compile_options(${target}_occasional PRIVATE ${mavloom_occasional})
-    target_include_directories(${target}_occasional PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
-    target_link_libraries(${target}_occasional PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
-    mavloom_precompile(${target}_occasional ${target}_occasional)
-    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_occasional>)
+  if(arg_COLD)
+    add_library(${target}_cold OBJECT ${arg_COLD})
+    set_target_properties(${target}_cold PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_features(${target}_cold PRIVATE cxx_std_20)
+    target_compile_options(${target}_cold PRIVATE ${mavloom_cold_flags})
+    target_include_directories(${target}_cold PRIVATE "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/src")
+    target_link_libraries(${target}_cold PRIVATE mavloom_warnings ${arg_DEPENDS} ${arg_LINK} ${arg_PRIVATE_LINK})
+    mavloom_precompile(${target}_cold ${target}_cold)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_cold>)
   endif()
   if(MAVLOOM_INSTALL)
     install(TARGETS ${target} EXPORT mavloomTargets COMPONENT mavloom_development

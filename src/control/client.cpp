@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The client side of control.hpp: finds a router's control socket and sends it a request.
+// The client side of control.hpp: finds a program's control socket and sends it a request.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,10 +55,10 @@ SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::str
     if (error)
         return setup_error(SetupCode::not_found, fmt::format("no router or simulator called '{}' runs here ({}: {})",
                                                              name, path->string(), error.message()));
-    // The client shuts down its sending side, so the router closes the connection after the answer.
+    // The client shuts down its sending side, so the program closes the connection after the answer.
     std::string input, output = std::string(request) + "\n";
     bool done = false;
-    // Read even if the write failed: a router that turns a client away may still send the reason.
+    // Read even if the write failed: a program that turns a client away may still send the reason.
     asio::async_write(socket, asio::buffer(output), [&](error_code e, std::size_t) {
         socket.shutdown(Local::socket::shutdown_send, e);
         asio::async_read(socket, asio::dynamic_buffer(input), [&](error_code, std::size_t) { done = true; });

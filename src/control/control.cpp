@@ -51,9 +51,9 @@ std::string in_the_way(const std::filesystem::path& socket, const struct stat& s
     return fmt::format("a {} is in the place of the socket {}; remove it", what, socket.string());
 }
 
-// Ensures that only one router serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock
-// however the router ends. With mode 0600, other users cannot open the file and hold the lock. A router that gets the
-// lock may remove a socket left behind, because the router that created it is gone.
+// Ensures that only one program serves a name: locks NAME.ctl.lock, beside the socket. The kernel releases the lock
+// however the program ends. With mode 0600, other users cannot open the file and hold the lock. A program that gets the
+// lock may remove a socket left behind, because the program that created it is gone.
 class NameLock {
 public:
     NameLock() = default;
@@ -138,9 +138,9 @@ private:
         std::shared_ptr<Session> idlest;
         for (const auto& weak : sessions_)
             if (auto session = weak.lock();
-                idlest == nullptr || session->patience().since() < idlest->patience().since())
+                idlest == nullptr || session->idle_time().since() < idlest->idle_time().since())
                 idlest = std::move(session);
-        if (idlest->patience().is_busy()) return false;
+        if (idlest->idle_time().is_busy()) return false;
         idlest->hang_up();
         std::erase_if(sessions_, [&](const auto& session) { return session.lock() == idlest; });
         return true;
@@ -277,7 +277,7 @@ private:
     std::uint16_t metrics_port_ = 0;
     NameLock name_;  // destroyed after the socket is removed
     std::filesystem::path socket_;
-    // Identifies our own socket. Another program may have removed it, and another router created a new one.
+    // Identifies our own socket. Another program may have removed it, and another program created a new one.
     ino_t inode_ = 0;
     std::function<void(std::string_view)> on_notice_;
     bool reported_ = false;  // that the socket is gone and cannot be created

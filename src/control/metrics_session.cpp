@@ -43,7 +43,7 @@ void MetricsSession::hang_up() {
 }
 
 void MetricsSession::read() {
-    patience_.wait_for_client();
+    idle_time_.wait_for_client();
     hang_up_later();
     asio::async_read_until(socket_, input_, "\r\n\r\n", [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->handle();
@@ -63,7 +63,7 @@ void MetricsSession::hang_up_later() {
 }
 
 void MetricsSession::handle() {
-    // The time that the router takes does not count against the client.
+    // The time that the program takes does not count against the client.
     deadline_.expires_at(asio::steady_timer::time_point::max());
     http::request_parser<http::empty_body> parser;
     error_code error;
@@ -101,14 +101,14 @@ void MetricsSession::answer(const Request& request) {
         return write(request, "405 Method Not Allowed\r\nAllow: GET, HEAD", text_of("GET and HEAD only\n"));
     if (std::string_view(request.target).substr(0, request.target.find('?')) != "/metrics")
         return write(request, "404 Not Found", text_of("metrics are at /metrics\n"));
-    patience_.wait_for_served();
+    idle_time_.wait_for_served();
     reports_.get(socket_.get_executor(), [self = shared_from_this(), request](const MetricsReports::Text& text) {
         self->write(request, "200 OK", text);
     });
 }
 
 void MetricsSession::write(const Request& request, std::string_view status, MetricsReports::Text body) {
-    patience_.wait_for_client();
+    idle_time_.wait_for_client();
     head_ = fmt::format(
         "HTTP/{}.{} {}\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\nContent-Length: {}\r\n"
         "Connection: {}\r\n\r\n",

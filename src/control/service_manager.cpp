@@ -80,7 +80,7 @@ void ServiceManager::feed(MonoTime now) noexcept {
     send("WATCHDOG=1");
 }
 
-// Never blocks: a manager that does not read must not stall the router.
+// Never blocks: a manager that does not read must not stall the program.
 void ServiceManager::send(std::string_view message) const noexcept {
     if (fd_ >= 0) (void)::send(fd_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }

@@ -24,7 +24,7 @@ void ControlSession::hang_up() {
 }
 
 void ControlSession::read() {
-    patience_.wait_for_client();
+    idle_time_.wait_for_client();
     asio::async_read_until(socket_, input_, '\n', [self = shared_from_this()](error_code error, std::size_t) {
         if (!error) self->ask();
     });
@@ -34,7 +34,7 @@ void ControlSession::ask() {
     std::string line;
     std::istream stream(&input_);
     std::getline(stream, line);
-    patience_.wait_for_served();
+    idle_time_.wait_for_served();
     ask_served(
         served_, socket_.get_executor(), [line](Served& served) { return served.answer(line); },
         [self = shared_from_this()](Report report) {
@@ -45,7 +45,7 @@ void ControlSession::ask() {
 
 // Formats the next piece only when the client has taken the last one.
 void ControlSession::write() {
-    patience_.wait_for_client();
+    idle_time_.wait_for_client();
     output_ = report_.next_text();
     if (output_.empty()) {
         report_ = {};

@@ -24,7 +24,7 @@ using Tcp = asio::ip::tcp;
 using boost::system::error_code;
 
 // Records since when a session waits for its client, so that the acceptor can disconnect the longest idle client.
-class Patience {
+class IdleTime {
 public:
     // The session now waits for its client: for a request, or for the client to read the answer.
     void wait_for_client() noexcept { since_ = std::chrono::steady_clock::now(); }
@@ -49,7 +49,7 @@ public:
 
     void read();
     void hang_up();
-    [[nodiscard]] const Patience& patience() const noexcept { return patience_; }
+    [[nodiscard]] const IdleTime& idle_time() const noexcept { return idle_time_; }
     // Sends the client an error (too many clients), if the socket accepts the text at once.
     static void turn_away(Local::socket& socket);
 
@@ -59,7 +59,7 @@ private:
 
     Local::socket socket_;
     Served& served_;
-    Patience patience_;
+    IdleTime idle_time_;
     asio::streambuf input_{longest_request};
     Report report_;       // the answer that is being sent
     std::string output_;  // a piece of it
@@ -73,7 +73,7 @@ public:
 
     void read();
     void hang_up();
-    [[nodiscard]] const Patience& patience() const noexcept { return patience_; }
+    [[nodiscard]] const IdleTime& idle_time() const noexcept { return idle_time_; }
     static void turn_away(Tcp::socket& socket);
 
 private:
@@ -88,7 +88,7 @@ private:
     Tcp::socket socket_;
     asio::steady_timer deadline_;
     MetricsReports& reports_;
-    Patience patience_;
+    IdleTime idle_time_;
     asio::streambuf input_{longest_http_header};
     std::string head_;
     MetricsReports::Text body_;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/feed/vehicle.hpp"
 #include "mavloom/ring/frames.hpp"
 
@@ -107,7 +107,7 @@ void Channel::end_recording(const std::shared_ptr<record::Recorder>& recorder) {
     if (std::erase(recorders_, recorder) != 0) recorder->end();
 }
 
-void Channel::hold_for(const Consumer* reader, std::function<void()> room_made) {
+void Channel::hold_for(const ChannelReader* reader, std::function<void()> room_made) {
     const std::lock_guard lock(mutex_);
     holder_ = reader;
     room_made_ = std::move(room_made);
@@ -125,7 +125,7 @@ void Channel::look_for_room() {
     if (room_made_) room_made_();
 }
 
-void Channel::end_hold(const Consumer* reader) {
+void Channel::end_hold(const ChannelReader* reader) {
     if (holder_ != reader) return;
     holder_ = nullptr;
     look_for_room();
@@ -162,9 +162,9 @@ Source Channel::target() const {
     return target_;
 }
 
-// ---- Consumer
+// ---- ChannelReader
 
-Consumer::Consumer(std::shared_ptr<Channel> channel, Filter filter)
+ChannelReader::ChannelReader(std::shared_ptr<Channel> channel, Filter filter)
     : channel_(std::move(channel)), filter_(std::move(filter)) {
     const std::lock_guard lock(channel_->mutex_);
     at_ = channel_->ring_.newest();
@@ -172,7 +172,7 @@ Consumer::Consumer(std::shared_ptr<Channel> channel, Filter filter)
     channel_->consumers_.push_back(this);
 }
 
-Consumer::~Consumer() {
+ChannelReader::~ChannelReader() {
     {
         const std::lock_guard lock(channel_->mutex_);
         std::erase(channel_->consumers_, this);
@@ -181,7 +181,7 @@ Consumer::~Consumer() {
     if (event_fd_ >= 0) ::close(event_fd_);
 }
 
-bool Consumer::take(FrameBatch& batch, std::size_t most) {
+bool ChannelReader::take(FrameBatch& batch, std::size_t most) {
     const std::lock_guard lock(channel_->mutex_);
     if (closed()) return false;
     FrameRing::Head head;
@@ -204,13 +204,13 @@ bool Consumer::take(FrameBatch& batch, std::size_t most) {
     return true;
 }
 
-void Consumer::wait(MonoTime deadline) {
+void ChannelReader::wait(MonoTime deadline) {
     std::unique_lock lock(channel_->mutex_);
     channel_->changed_.wait_until(lock, end_of_slice(deadline),
                                   [&] { return closed() || channel_->ring_.newest().frame != seen_; });
 }
 
-void Consumer::signal() noexcept {
+void ChannelReader::signal() noexcept {
     armed_ = false;
     if (event_fd_ < 0) return;
     const std::uint64_t one = 1;
@@ -218,29 +218,29 @@ void Consumer::signal() noexcept {
     [[maybe_unused]] const auto written = ::write(event_fd_, &one, sizeof one);
 }
 
-SetupResult<int> Consumer::event_fd() {
+SetupResult<int> ChannelReader::event_fd() {
     const std::lock_guard lock(channel_->mutex_);
     if (event_fd_ < 0) event_fd_ = ::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
     if (event_fd_ < 0) return system_error("eventfd", errno);
     return event_fd_;
 }
 
-std::uint64_t Consumer::missed() const {
+std::uint64_t ChannelReader::missed() const {
     const std::lock_guard lock(channel_->mutex_);
     return missed_ + channel_->ring_.overwritten(at_);
 }
 
-std::uint64_t Consumer::newest() const {
+std::uint64_t ChannelReader::newest() const {
     const std::lock_guard lock(channel_->mutex_);
     return channel_->ring_.newest().frame;
 }
 
-std::uint64_t Consumer::seen() const {
+std::uint64_t ChannelReader::seen() const {
     const std::lock_guard lock(channel_->mutex_);
     return seen_;
 }
 
-void Consumer::close() {
+void ChannelReader::close() {
     const std::lock_guard lock(channel_->mutex_);
     closed_ = true;
     channel_->end_hold(this);

@@ -106,7 +106,7 @@ std::invoke_result_t<Work> Hub::on_loop(Work work) {
 }
 
 SetupResult<Hub::Opened> Hub::open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
-                                   const Consumer& reader) {
+                                   const ChannelReader& reader) {
     auto opened = on_loop([&] { return links_->open(endpoint, channel, reader); });
     if (!opened || !endpoint.options.required) return opened;
     if (auto reached = wait_for_far_side(*opened); !reached) {

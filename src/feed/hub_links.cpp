@@ -18,10 +18,10 @@ bool listens(endpoint::Scheme scheme) noexcept {
 HubLinks::HubLinks(Sources sources) : sources_(std::move(sources)) { links().make_independent(); }
 
 void HubLinks::turn(MonoTime deadline) {
-    for (const auto& [endpoint, served] : served_)
-        if (served.is_lossless) sources_.hold_ring(endpoint, !served.channel->has_room());
+    for (const auto& [endpoint, entry] : open_)
+        if (entry.is_lossless) sources_.hold_ring(endpoint, !entry.channel->has_room());
     sources_.turn(*this, std::min(deadline, look_due_), {0, Channel::frames_a_turn, ring_frames_a_turn});
-    for (const auto& [endpoint, served] : served_) served.channel->publish();
+    for (const auto& [endpoint, entry] : open_) entry.channel->publish();
     look_after_recorders();
 }
 
@@ -29,64 +29,64 @@ void HubLinks::look_after_recorders() {
     const auto now = mono_now();
     if (now < look_due_) return;
     look_due_ = now + look_interval;
-    for (const auto& [endpoint, served] : served_) served.channel->look_after_recorders();
+    for (const auto& [endpoint, entry] : open_) entry.channel->look_after_recorders();
 }
 
 void HubLinks::close_channels() {
-    for (const auto& [endpoint, served] : served_) served.channel->close();
+    for (const auto& [endpoint, entry] : open_) entry.channel->close();
 }
 
 // ---- what arrives
 
-HubLinks::Served* HubLinks::served_by(link::EndpointId endpoint) noexcept {
-    const auto found = served_.find(endpoint);
-    return found == served_.end() ? nullptr : &found->second;
+HubLinks::OpenLink* HubLinks::find(link::EndpointId endpoint) noexcept {
+    const auto found = open_.find(endpoint);
+    return found == open_.end() ? nullptr : &found->second;
 }
 
 void HubLinks::on_frame(const link::RxFrame& rx) {
-    if (auto* served = served_by(rx.endpoint)) served->channel->on_frame(rx, links().now());
+    if (auto* entry = find(rx.endpoint)) entry->channel->on_frame(rx, links().now());
     else pass_answer(rx);
 }
 
 void HubLinks::on_link_up(LinkId link, link::EndpointId endpoint, std::string_view name) {
-    auto* served = served_by(endpoint);
-    if (served == nullptr) return;
-    if (served->is_ring) served->channel->name_link(link, name);
-    else served->channel->on_link_up(link, name);
+    auto* entry = find(endpoint);
+    if (entry == nullptr) return;
+    if (entry->is_ring) entry->channel->name_link(link, name);
+    else entry->channel->on_link_up(link, name);
 }
 
 void HubLinks::on_link_down(LinkId link, link::EndpointId endpoint, std::string_view) {
-    auto* served = served_by(endpoint);
-    if (served == nullptr) return;
-    if (!served->is_ring) return served->channel->on_link_down(link, links().sources(link));
-    const auto name = served->channel->names().find(link);
-    served->channel->forget_link(link, sources_.ring_losses(endpoint, name));
+    auto* entry = find(endpoint);
+    if (entry == nullptr) return;
+    if (!entry->is_ring) return entry->channel->on_link_down(link, links().sources(link));
+    const auto name = entry->channel->names().find(link);
+    entry->channel->forget_link(link, sources_.ring_losses(endpoint, name));
 }
 
 void HubLinks::on_bad_checksum(LinkId, link::EndpointId endpoint, MessageId id) {
-    if (auto* served = served_by(endpoint)) served->channel->on_bad_checksum(id);
+    if (auto* entry = find(endpoint)) entry->channel->on_bad_checksum(id);
 }
 
 // Does not route: all peers of the endpoint that fills the ring get each answer.
 void HubLinks::pass_answer(const link::RxFrame& rx) {
     const auto filled = filled_from_.find(rx.endpoint);
     if (filled == filled_from_.end()) return;
-    auto& served = served_.at(filled->second);
-    const auto to = served.is_ring ? open_way_out(filled->second).value_or(filled->second) : filled->second;
-    if (links().send(to, rx.frame) == 0) ++served.unheard_answers;
+    auto& entry = open_.at(filled->second);
+    const auto to = entry.is_ring ? open_inlet_of(filled->second).value_or(filled->second) : filled->second;
+    if (links().send(to, rx.frame) == 0) ++entry.unheard_answers;
 }
 
 // ---- opening
 
 SetupResult<Hub::Opened> HubLinks::open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
-                                        const Consumer& reader) {
+                                        const ChannelReader& reader) {
     const bool is_ring = endpoint.scheme == endpoint::Scheme::shm;
     const auto* own = &channel->dialect();
     const auto added = is_ring ? sources_.add_ring(endpoint, own) : links().add(endpoint, own);
     if (!added) return tl::unexpected(added.error());
     const bool is_lossless = is_ring && endpoint.options.lossless.value_or(false);
     if (is_lossless) channel->hold_for(&reader, [this] { wake(); });
-    served_.emplace(*added, Served{.channel = channel, .is_ring = is_ring, .is_lossless = is_lossless});
+    open_.emplace(*added, OpenLink{.channel = channel, .is_ring = is_ring, .is_lossless = is_lossless});
     turn(MonoTime{});
     Hub::Opened opened{*added, 0, endpoint.label(), is_ring};
     for (const auto& info : links().endpoints()) {
@@ -112,28 +112,28 @@ std::optional<SetupResult<void>> HubLinks::far_side(const Hub::Opened& opened) {
 }
 
 SetupResult<link::EndpointId> HubLinks::inlet(link::EndpointId ring) {
-    auto opened = open_way_out(ring);
+    auto opened = open_inlet_of(ring);
     turn(MonoTime{});
     return opened;
 }
 
-SetupResult<link::EndpointId> HubLinks::open_way_out(link::EndpointId ring) {
+SetupResult<link::EndpointId> HubLinks::open_inlet_of(link::EndpointId ring) {
     const auto opened = sources_.inlet(ring);
-    if (!opened || served_.contains(*opened)) return opened;
-    auto& served = served_.at(ring);
-    served.inlet = *opened;
-    served_.emplace(*opened, Served{.channel = served.channel});
+    if (!opened || open_.contains(*opened)) return opened;
+    auto& entry = open_.at(ring);
+    entry.inlet = *opened;
+    open_.emplace(*opened, OpenLink{.channel = entry.channel});
     return opened;
 }
 
 SetupResult<void> HubLinks::serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode) {
-    auto& served = served_.at(endpoint);
-    if (served.served_inlet) return setup_error(SetupCode::usage, "this link already serves a ring's inlet");
+    auto& entry = open_.at(endpoint);
+    if (entry.served_inlet) return setup_error(SetupCode::usage, "this link already serves a ring's inlet");
     const auto path = link::Links::inlet_path(ring);
     if (!path) return tl::unexpected(path.error());
     const auto opened = links().add_inlet(ring, *path, mode);
     if (!opened) return tl::unexpected(opened.error());
-    served.served_inlet = *opened;
+    entry.served_inlet = *opened;
     filled_from_.emplace(*opened, endpoint);
     return {};
 }
@@ -141,42 +141,44 @@ SetupResult<void> HubLinks::serve_inlet(link::EndpointId endpoint, const std::st
 // ---- closing
 
 // Returns the endpoint that carries sent frames: for a ring its inlet, else the endpoint itself.
-link::EndpointId HubLinks::way_out(link::EndpointId endpoint) { return served_.at(endpoint).inlet.value_or(endpoint); }
+link::EndpointId HubLinks::sends_through(link::EndpointId endpoint) {
+    return open_.at(endpoint).inlet.value_or(endpoint);
+}
 
 bool HubLinks::is_flushed(link::EndpointId endpoint) {
-    return links().queued_bytes(way_out(endpoint)) == 0 || served_.at(endpoint).channel->peers() == 0;
+    return links().queued_bytes(sends_through(endpoint)) == 0 || open_.at(endpoint).channel->peers() == 0;
 }
 
 void HubLinks::remove(link::EndpointId endpoint) {
-    auto served = std::move(served_.at(endpoint));
-    served_.erase(endpoint);
-    if (served.inlet) served_.erase(*served.inlet);
-    if (served.served_inlet) {
-        filled_from_.erase(*served.served_inlet);
-        links().remove(*served.served_inlet);
+    auto entry = std::move(open_.at(endpoint));
+    open_.erase(endpoint);
+    if (entry.inlet) open_.erase(*entry.inlet);
+    if (entry.served_inlet) {
+        filled_from_.erase(*entry.served_inlet);
+        links().remove(*entry.served_inlet);
     }
-    if (served.is_ring) sources_.remove_ring(endpoint);
+    if (entry.is_ring) sources_.remove_ring(endpoint);
     else links().remove(endpoint);
-    served.channel->close();
+    entry.channel->close();
 }
 
 // ---- counters
 
 EndpointStats HubLinks::stats(link::EndpointId endpoint) {
     links().refresh_kernel_drops();
-    const auto& served = served_.at(endpoint);
+    const auto& entry = open_.at(endpoint);
     EndpointStats stats;
-    add_live_counters(way_out(endpoint), stats);
-    if (served.is_ring) {
+    add_live_counters(sends_through(endpoint), stats);
+    if (entry.is_ring) {
         stats.links.add(sources_.ring_counters(endpoint));
         sources_.add_ring_to(endpoint, stats.ring);
     }
-    stats.losses = served.channel->losses();
+    stats.losses = entry.channel->losses();
     for (const auto& loss : sources_.losses(endpoint))
-        add_to(stats.losses, served.channel->names().find(loss.link), loss.stats);
-    stats.crc_errors = served.channel->crc_errors();
-    if (served.served_inlet) stats.answers = frames_in(*served.served_inlet);
-    stats.unheard_answers = served.unheard_answers;
+        add_to(stats.losses, entry.channel->names().find(loss.link), loss.stats);
+    stats.crc_errors = entry.channel->crc_errors();
+    if (entry.served_inlet) stats.answers = frames_in(*entry.served_inlet);
+    stats.unheard_answers = entry.unheard_answers;
     return stats;
 }
 

@@ -27,7 +27,7 @@ public:
 
     // See Hub, which calls these on the loop thread.
     [[nodiscard]] SetupResult<Hub::Opened> open(const endpoint::Endpoint& endpoint,
-                                                const std::shared_ptr<Channel>& channel, const Consumer& reader);
+                                                const std::shared_ptr<Channel>& channel, const ChannelReader& reader);
     void remove(link::EndpointId endpoint);
     [[nodiscard]] SetupResult<link::EndpointId> inlet(link::EndpointId ring);
     [[nodiscard]] SetupResult<void> serve_inlet(link::EndpointId endpoint, const std::string& ring, unsigned mode);
@@ -41,7 +41,7 @@ public:
     [[nodiscard]] bool is_flushed(link::EndpointId endpoint);
 
 private:
-    struct Served {
+    struct OpenLink {
         std::shared_ptr<Channel> channel;
         bool is_ring = false, is_lossless = false;
         // For a ring that is read: the endpoint that carries frames to its router.
@@ -59,17 +59,17 @@ private:
     void look_after_recorders();
     [[nodiscard]] link::Links& links() noexcept { return sources_.links(); }
     // Null for an endpoint without a channel, such as a served inlet.
-    [[nodiscard]] Served* served_by(link::EndpointId endpoint) noexcept;
+    [[nodiscard]] OpenLink* find(link::EndpointId endpoint) noexcept;
     [[nodiscard]] bool is_up(link::EndpointId endpoint) const;
-    [[nodiscard]] SetupResult<link::EndpointId> open_way_out(link::EndpointId ring);
-    [[nodiscard]] link::EndpointId way_out(link::EndpointId endpoint);
+    [[nodiscard]] SetupResult<link::EndpointId> open_inlet_of(link::EndpointId ring);
+    [[nodiscard]] link::EndpointId sends_through(link::EndpointId endpoint);
     void pass_answer(const link::RxFrame& rx);
     void add_live_counters(link::EndpointId endpoint, EndpointStats& stats);
     [[nodiscard]] std::uint64_t frames_in(link::EndpointId endpoint);
 
-    // sources_ refers to dialects that the channels in served_ own, so served_ is destroyed after it.
-    std::unordered_map<link::EndpointId, Served> served_;
-    // Maps each served inlet to the endpoint that fills its ring.
+    // sources_ refers to dialects that the channels in open_ own, so open_ is destroyed after it.
+    std::unordered_map<link::EndpointId, OpenLink> open_;
+    // Maps each entry inlet to the endpoint that fills its ring.
     std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
     MonoTime look_due_{};  // when to look after the recorders

@@ -3,15 +3,17 @@
 // Private to module link; single owner thread.
 //
 // The first senders enter at once, later ones at a steady rate. A sender that is turned away during a flood enters when
-// it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many addresses
-// repeat, they enter at a steady rate too. `ask` allocates once: a table of senders, when the first one is turned away.
+// it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many of them
+// repeat, they enter at a steady rate too. `ask` allocates once: a table of senders, when the first is turned away.
 // docs/design/security.md
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <tuple>
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/net/address.hpp"
@@ -29,6 +31,9 @@ public:
     static constexpr double repeaters_per_second = 100, most_repeaters_at_once = 100;
     static constexpr std::chrono::milliseconds repeats_after{500};
     static constexpr std::chrono::seconds remembered_for{10};
+    // No newer address replaces an address that sent less than this ago. So a flood does not make the endpoint forget a
+    // program before its next heartbeat.
+    static constexpr std::chrono::milliseconds kept_for{1500};
     static constexpr std::size_t remembered = 1u << 16;
 
     // Twice as many as may stay enter at once, but at least 64.
@@ -48,23 +53,31 @@ public:
     }
     // Returns whether the sender also sent 0.5 to 10 s ago.
     [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
-        if (seen_ == nullptr) seen_ = std::make_unique<Seen[]>(remembered);
-        const std::uint64_t hash = sender.hash();
-        Seen& seen = seen_[hash % remembered];
+        if (seen_ == nullptr) seen_ = std::make_unique<Bucket[]>(remembered / std::tuple_size_v<Bucket>);
+        const std::uint64_t hash = secret_hash(sender.hash());  // twice: spreads successive ports evenly
+        Bucket& bucket = seen_[hash % (remembered / bucket.size())];
         const auto tag = static_cast<std::uint32_t>(hash >> 32) | 1u;
         const auto now_ms = static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1});
-        const std::chrono::milliseconds age{now_ms - seen.at_ms};  // modulo 2^32, 50 days
-        if (seen.tag == tag && age <= remembered_for) return age >= repeats_after;
-        seen = {tag, now_ms};
+        const auto age_of = [&](const Seen& seen) { return seen.tag == 0 ? longest_age : seen.age(now_ms); };
+        const auto found = std::ranges::find(bucket, tag, &Seen::tag);
+        if (found != bucket.end() && age_of(*found) <= remembered_for) return age_of(*found) >= repeats_after;
+        Seen& oldest = found != bucket.end() ? *found : *std::ranges::max_element(bucket, {}, age_of);
+        if (age_of(oldest) >= kept_for) oldest = {tag, now_ms};
         return false;
     }
     void note_entry() noexcept { --(tokens_ >= 1 ? tokens_ : repeater_tokens_); }
 
 private:
     struct Seen {
-        std::uint32_t tag = 0;
+        std::uint32_t tag = 0;  // 0: free
         std::uint32_t at_ms = 0;
+
+        [[nodiscard]] std::chrono::milliseconds age(std::uint32_t now_ms) const noexcept {
+            return std::chrono::milliseconds{now_ms - at_ms};  // modulo 2^32, 50 days
+        }
     };
+    using Bucket = std::array<Seen, 8>;  // a cache line
+    static constexpr auto longest_age = std::chrono::milliseconds::max();
 
     void refill(MonoTime now) noexcept {
         const double passed = std::chrono::duration<double>(now - refilled_).count();
@@ -78,7 +91,7 @@ private:
     double burst_, tokens_;
     double repeater_tokens_ = most_repeaters_at_once;
     MonoTime refilled_{};
-    std::unique_ptr<Seen[]> seen_;
+    std::unique_ptr<Bucket[]> seen_;  // by hash of the address
 };
 
 }  // namespace mavloom::link::detail

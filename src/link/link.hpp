@@ -14,7 +14,7 @@
 namespace mavloom::link::detail {
 
 class Signature;
-struct Language;
+struct LinkDialect;
 
 struct Link {
     Link(EndpointId owner, const net::BlockQueue::Limits& limits) : endpoint(owner), queue(limits) {}
@@ -39,12 +39,12 @@ struct Link {
         return true;
     }
 
-    LinkId id;  // Core::add_link sets this and `language`
-    const Language* language = nullptr;
+    LinkId id;  // Core::add_link sets this and `dialect`
+    const LinkDialect* dialect = nullptr;
     EndpointId endpoint;
     std::string name;
     bool up = false;
-    bool told_up = false;
+    bool reported_up = false;
     // True if the outlet was notified that the queue is not empty.
     bool queued = false;
     // True if the far side reads outgoing frames from the ring. They are then counted, never queued.

@@ -103,11 +103,11 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     std::vector<std::string> notices;
     auto signature = Signature::load(endpoint.options, signs_as, core_->key_states, notices);
     if (!signature) return tl::unexpected(std::move(signature.error()).within(endpoint.label()));
-    for (auto& text : notices) core_->news.notice(id, std::move(text));
-    if (dialect != nullptr) core_->languages.set(id, *dialect);
+    for (auto& text : notices) core_->events.notice(id, std::move(text));
+    if (dialect != nullptr) core_->dialects.set(id, *dialect);
     auto opened = open({*core_, endpoint, id, std::move(*signature)});
     if (!opened) {
-        core_->languages.forget(id);
+        core_->dialects.forget(id);
         return tl::unexpected(std::move(opened).error());
     }
     core_->endpoints.add(std::move(*opened));
@@ -139,7 +139,7 @@ const SetupError* Links::failure(EndpointId endpoint) const noexcept {
 
 void Links::remove(EndpointId endpoint) {
     core_->endpoints.remove(endpoint);
-    core_->languages.forget(endpoint);
+    core_->dialects.forget(endpoint);
     core_->coalescing.allow(!core_->endpoints.any_low_latency());
 }
 
@@ -161,21 +161,21 @@ std::size_t Links::turn(LinkHandler& handler, MonoTime deadline) { return core_-
 void Links::read_all() noexcept { core_->reads_all = true; }
 
 std::size_t Links::send(std::span<const LinkId> links, const wire::FrameView& frame) {
-    Departure departure(frame);
+    OutgoingFrame outgoing(frame);
     std::size_t taken = 0;
     for (const LinkId id : links) {
         Link* const link = core_->links.find(id);
-        if (link != nullptr && link->up && Core::send(*link, departure, core_->now())) ++taken;
+        if (link != nullptr && link->up && Core::send(*link, outgoing, core_->now())) ++taken;
     }
     return taken;
 }
 
 std::size_t Links::send_unverified(std::span<const LinkId> links, const wire::FrameView& frame) {
-    Departure departure(frame);
+    OutgoingFrame outgoing(frame);
     std::size_t not_signed = 0;
     for (const LinkId id : links) {
         Link* const link = core_->links.find(id);
-        if (link != nullptr && link->up && Core::send_unverified(*link, departure, core_->now()) &&
+        if (link != nullptr && link->up && Core::send_unverified(*link, outgoing, core_->now()) &&
             link->signature != nullptr && link->signature->signs())
             ++not_signed;
     }

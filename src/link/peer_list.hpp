@@ -45,7 +45,7 @@ public:
         peer->signature = endpoint_.signature.get();
         core_.add_link(*peer);
         Peer& added = *peers_.emplace_back(std::move(peer));
-        core_.news.set_up(added);
+        core_.events.set_up(added);
         return added;
     }
     // Notifies the handler, adds the peer's counters to the endpoint's sums, and destroys it at the end of the turn.
@@ -80,9 +80,9 @@ public:
 
     // Queues the frame for all peers that are up. Returns how many took it.
     std::size_t send(const wire::FrameView& frame) {
-        Departure departure(frame);
+        OutgoingFrame outgoing(frame);
         std::size_t taken = 0;
-        for (const auto& peer : peers_) taken += peer->up && Core::send(*peer, departure, core_.now()) ? 1 : 0;
+        for (const auto& peer : peers_) taken += peer->up && Core::send(*peer, outgoing, core_.now()) ? 1 : 0;
         return taken;
     }
     [[nodiscard]] std::size_t queued_bytes() const noexcept {

@@ -37,12 +37,12 @@ public:
         later();
     }
     void report(std::string_view what, std::string_view then) {
-        if (std::exchange(told_, true)) return;
-        core_.news.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
+        if (std::exchange(reported_, true)) return;
+        core_.events.notice(endpoint_.info.id, fmt::format("{}: {}; {}", endpoint_.info.endpoint.label(), what, then));
     }
-    [[nodiscard]] bool failing() const noexcept { return told_; }
+    [[nodiscard]] bool is_failing() const noexcept { return reported_; }
     // Ends the series: the next failure is reported again.
-    void settle() noexcept { told_ = false; }
+    void settle() noexcept { reported_ = false; }
     void reset() noexcept { delay_ = first; }
 
     void later() { after(std::exchange(delay_, std::min(delay_ * 2, longest))); }
@@ -69,7 +69,7 @@ private:
     net::TimerHandler& handler_;
     net::TimerId timer_;
     Nanoseconds delay_ = first;
-    bool told_ = false;
+    bool reported_ = false;
 };
 
 }  // namespace mavloom::link::detail

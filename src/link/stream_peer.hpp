@@ -61,7 +61,7 @@ public:
 
 protected:
     StreamPeer(Core& core, EndpointId endpoint_id, const net::BlockQueue::Limits& limits)
-        : Link(endpoint_id, limits), core_(core), parser_(core.languages.of(endpoint_id).table) {}
+        : Link(endpoint_id, limits), core_(core), parser_(core.dialects.of(endpoint_id).table) {}
 
     // Called when the stream has ended, or reading or writing has failed permanently.
     virtual void on_end(net::IoError error) = 0;

@@ -66,7 +66,7 @@ SetupResult<void> RingSource::open() {
 }
 
 std::size_t RingSource::play(link::LinkHandler& handler, std::size_t most) {
-    if (no_inlet_ && !std::exchange(told_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
+    if (no_inlet_ && !std::exchange(reported_no_inlet_, true)) handler.on_notice(id_, no_inlet_->text);
     if (held_) return 0;
     look_for_names();
     std::size_t played = 0, empty_records = 0;

@@ -120,24 +120,24 @@ void RingTap::take_new_ring(std::vector<std::string>& notices) {
         writer_ = std::move(*anew);
         notices.push_back(fmt::format("ring {} was removed; it is created again", name_));
         note_aside(notices);
-    } else if (!told_ring_) {
+    } else if (!reported_ring_) {
         notices.push_back(
             fmt::format("ring {} was removed: {}; trying again every second, and counting its frames as dropped", name_,
                         anew.error().text));
     }
-    told_ring_ = !anew;
+    reported_ring_ = !anew;
     work_beside([old = std::move(old)] {});  // releasing the memory takes time too
 }
 
 void RingTap::recreate_page(const link::Links& links, std::vector<std::string>& notices) {
     auto anew = RingPage::create(name_, options_.mode);
     if (!anew) {
-        if (!std::exchange(told_page_, true))
+        if (!std::exchange(reported_page_, true))
             notices.push_back(fmt::format("no counter page for ring {}: {}", name_, anew.error().text));
         page_.reset();
         return;
     }
-    told_page_ = false;
+    reported_page_ = false;
     page_.emplace(std::move(*anew));
     note_page_aside(notices);
     for (const auto& link : links.links()) page_->name_link(link.id, link.name);

@@ -106,12 +106,12 @@ std::vector<std::string> Forwarder::look_after() {
         traffic_.forget_links_unless([&](LinkId link) { return links_.counters(link) != nullptr; });
     std::vector<std::string> warnings;
     const auto ids = engine_.duplicate_ids();
-    for (const auto& id : ids.subspan(std::exchange(duplicate_ids_told_, ids.size())))
+    for (const auto& id : ids.subspan(std::exchange(duplicate_ids_reported_, ids.size())))
         warnings.push_back(
             fmt::format("{}/{} is heard on {} and on {}: two senders with one id, or redundant links that need group=",
                         id.source.system.value, id.source.component.value, name_of(id.first), name_of(id.second)));
     const auto conflicts = engine_.route_conflicts();
-    for (const auto& conflict : conflicts.subspan(std::exchange(route_conflicts_told_, conflicts.size())))
+    for (const auto& conflict : conflicts.subspan(std::exchange(route_conflicts_reported_, conflicts.size())))
         warnings.push_back(
             fmt::format("system {} is alive on {} and was learned on {} too: redundant links that need "
                         "group=, components on several links, or a sender that claims to be it, which "

@@ -76,7 +76,7 @@ private:
     Explainer explainer_;
     std::vector<route::Explanation> why_;
     Counter not_signed_;
-    std::size_t duplicate_ids_told_ = 0, route_conflicts_told_ = 0;
+    std::size_t duplicate_ids_reported_ = 0, route_conflicts_reported_ = 0;
     bool a_link_went_ = false;  // `traffic_` may hold rows of a link that is gone
 };
 

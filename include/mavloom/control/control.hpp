@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Lets other programs query and change a running router, over a Unix socket and optionally over HTTP.
+// Lets other programs query and change a running router or simulator, over a Unix socket and optionally over HTTP.
 //
 // The Unix stream socket takes one JSON request per line and answers with JSON lines (docs/guide/route.md). The HTTP
 // address, if there is one, serves metrics to Prometheus.
 //
-// Both run on one thread of their own, the control thread. It posts each request to the router's thread, which copies
+// Both run on one thread of their own, the control thread. It posts each request to the program's thread, which copies
 // its counters in pieces, each between two turns of its loop. The control thread then formats the answer in pieces, at
 // a low priority. It sends each piece after the client has taken the previous one. Up to 64 clients of each kind can be
 // connected. A further client replaces the one that has been idle longest.
@@ -39,7 +39,7 @@ struct ControlOptions {
 
 class Control {
 public:
-    // Replaces a socket that a dead router left behind. A socket that another router serves is an error (`in_use`).
+    // Replaces a socket that a dead program left behind. A socket that another program serves is an error (`in_use`).
     // `served` must outlive the object. A request is answered only while the loop of `served` runs turns.
     [[nodiscard]] static SetupResult<std::unique_ptr<Control>> create(Served& served, const ControlOptions& options);
     ~Control();
@@ -55,8 +55,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Sends one request to the router `name` and returns the lines of its answer, without the final status line. Errors:
-// `not_found` if no such router runs; `unreachable` if it does not answer within `limit` or reports an error.
+// Sends one request to the program `name` and returns the lines of its answer, without the final status line. Errors:
+// `not_found` if no such program runs; `unreachable` if it does not answer within `limit` or reports an error.
 [[nodiscard]] SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::string_view request,
                                                                std::chrono::milliseconds limit);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Channel: passes the frames of one endpoint from the loop thread to any number of readers. Consumer: one reader. The
-// loop thread never waits for a reader. It writes frames into a bounded buffer, which overwrites the oldest frames.
+// Channel: passes the frames of one endpoint from the loop thread to any number of readers. ChannelReader: one reader.
+// The loop thread never waits for a reader. It writes frames into a bounded buffer, which overwrites the oldest frames.
 // Each reader counts the frames that it missed. Any thread may call both, except for the functions under "loop thread".
 // Each reader keeps its channel alive through a shared pointer.
 #pragma once
@@ -30,7 +30,7 @@
 
 namespace mavloom::feed {
 
-class Consumer;
+class ChannelReader;
 
 // The loss of each source on each link. The key holds the name of the link.
 using Losses = std::map<std::tuple<std::string, Source>, wire::SequenceStats>;
@@ -90,20 +90,20 @@ public:
     static constexpr std::size_t frames_a_turn = 128;
     // Protects the frames that `reader` has not read yet. In return, the caller must push frames only while `has_room`
     // is true. The protection ends when the reader is closed or destroyed. `room_made` is called with the mutex held.
-    void hold_for(const Consumer* reader, std::function<void()> room_made);
+    void hold_for(const ChannelReader* reader, std::function<void()> room_made);
     // Whether `frames_a_turn` frames fit without overwriting protected frames. If not, `room_made` is called as soon as
     // they fit.
     [[nodiscard]] bool has_room();
 
 private:
-    friend class Consumer;
+    friend class ChannelReader;
 
     // These limits bound the memory that forged sources and ids can use.
     static constexpr std::size_t most_losses = 4096, most_bad_ids = 1024;
 
     // Call these with mutex_ held.
     void look_for_room();
-    void end_hold(const Consumer* reader);
+    void end_hold(const ChannelReader* reader);
 
     const std::shared_ptr<const dialect::Dialect> dialect_;
     const std::shared_ptr<LinkNames> names_;
@@ -119,23 +119,23 @@ private:
     Source target_;
     std::map<MessageId, std::uint64_t> bad_ids_;
     Losses losses_;
-    std::vector<Consumer*> consumers_;
+    std::vector<ChannelReader*> consumers_;
     std::vector<std::shared_ptr<record::Recorder>> recorders_;
-    const Consumer* holder_ = nullptr;
+    const ChannelReader* holder_ = nullptr;
     std::function<void()> room_made_;
     bool full_ = false;
     bool news_ = false;
 };
 
-// One reader of a channel, with its own position. Any thread may call it. If several threads read from one Consumer,
-// each frame goes to only one of them.
-class Consumer {
+// One reader of a channel, with its own position. Any thread may call it. If several threads share a reader, each frame
+// goes to only one of them.
+class ChannelReader {
 public:
     // The reader starts at the next frame that arrives.
-    Consumer(std::shared_ptr<Channel> channel, Filter filter);
-    ~Consumer();
-    Consumer(const Consumer&) = delete;
-    Consumer& operator=(const Consumer&) = delete;
+    ChannelReader(std::shared_ptr<Channel> channel, Filter filter);
+    ~ChannelReader();
+    ChannelReader(const ChannelReader&) = delete;
+    ChannelReader& operator=(const ChannelReader&) = delete;
 
     // Adds matching frames to the batch until it holds `most`. Returns false if the reader or its channel is closed. If
     // a call adds none, use `wait` or the descriptor of `event_fd` to learn when to call again. One call examines a

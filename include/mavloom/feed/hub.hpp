@@ -56,7 +56,7 @@ public:
     // without waiting is open. With `required=true`, waits up to 5 s for the far side and fails if it is absent. A
     // lossless ring pauses while `reader` has no room (Channel::hold_for).
     [[nodiscard]] SetupResult<Opened> open(const endpoint::Endpoint& endpoint, const std::shared_ptr<Channel>& channel,
-                                           const Consumer& reader);
+                                           const ChannelReader& reader);
 
     // The calls below take the id of an endpoint that is open.
 

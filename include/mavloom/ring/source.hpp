@@ -157,7 +157,7 @@ private:
 
     std::optional<link::EndpointId> inlet_;
     std::optional<SetupError> no_inlet_;
-    bool told_no_inlet_ = false;
+    bool reported_no_inlet_ = false;
     link::LinkCounters counters_;
     std::uint64_t overwritten_ = 0, bad_records_ = 0, other_kinds_ = 0, copies_ = 0, echo_ = 0;
 };

@@ -140,8 +140,9 @@ void bind_link_stats(nb::module_& module) {
                      "What looked like a frame without definition, and was not accepted as one.")
         .def_prop_ro("bad_signature", of_links<&L::bad_signature>())
         .def_prop_ro("wrong_peer", of_endpoint<&E::wrong_peer>())
-        .def_prop_ro("bad_source", of_endpoint<&E::bad_source>(),
-                     "Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the link's own.")
+        .def_prop_ro(
+            "bad_source", of_endpoint<&E::bad_source>(),
+            "Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the link's own.")
         .def_prop_ro("stray_bytes", of_endpoint<&E::stray_bytes>())
         .def_prop_ro("peers_refused", of_endpoint<&E::peers_refused>(), "New peers that were turned away.")
         .def_prop_ro("peers_limited", of_endpoint<&E::peers_limited>(),

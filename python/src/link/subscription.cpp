@@ -9,7 +9,7 @@
 #include "errors.hpp"
 #include "gil.hpp"
 #include "iteration.hpp"
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/ring/frames.hpp"
 #include "message/filter.hpp"
 #include "strings.hpp"
@@ -21,7 +21,7 @@ static constexpr std::size_t batch_frames = 256;
 Subscription::Subscription(const LinkFeed& feed, feed::Filter filter)
     : origin_(feed.origin),
       ring_name_(feed.ring_name),
-      consumer_(std::make_unique<feed::Consumer>(feed.channel, std::move(filter))) {}
+      consumer_(std::make_unique<feed::ChannelReader>(feed.channel, std::move(filter))) {}
 
 Subscription::~Subscription() {
     if (!fork_.is_here()) static_cast<void>(consumer_.release());

@@ -13,7 +13,7 @@
 #include "gil.hpp"
 #include "iteration.hpp"
 #include "mavloom/feed/frame_batch.hpp"
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/record/tlog_reader.hpp"
 #include "message/filter.hpp"
 #include "message/message.hpp"

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t most_copied_bytes = 1 << 20;  // in one batch, plus one record
 
-RingSource::State state_of(shm::ReadError error) noexcept {
-    using State = RingSource::State;
+SharedRingReader::State state_of(shm::ReadError error) noexcept {
+    using State = SharedRingReader::State;
     switch (error) {
         case shm::ReadError::empty: return State::nothing;
         case shm::ReadError::no_writer: return State::no_writer;
@@ -74,17 +74,17 @@ bool Lease::keep() {
     return finished;
 }
 
-// ---- RingSource
+// ---- SharedRingReader
 
-RingSource::State RingSource::fetch(std::size_t most, MonoTime deadline) {
+SharedRingReader::State SharedRingReader::fetch(std::size_t most, MonoTime deadline) {
     const bool waits = deadline != MonoTime{};
     const MonoTime end = waits ? feed::end_of_slice(deadline) : MonoTime{};
-    const auto lock = waits ? turns_.take_until(end) : turns_.try_take();
+    const auto lock = waits ? mutex_.take_until(end) : mutex_.try_take();
     return lock.owns_lock() ? fill(most, end) : State::nothing;
 }
 
-RingSource::State RingSource::take(std::size_t most, Portion& out) {
-    const auto lock = turns_.try_take();
+SharedRingReader::State SharedRingReader::take(std::size_t most, Portion& out) {
+    const auto lock = mutex_.try_take();
     if (!lock.owns_lock() || !pending_.lease) return State::nothing;
     if (const auto here = lossless_ ? feed::this_thread() : 0; here != 0)
         taker_ = pending_.first == 0 || taker_ == here ? here : 0;
@@ -93,7 +93,7 @@ RingSource::State RingSource::take(std::size_t most, Portion& out) {
     return State::found;
 }
 
-RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
+SharedRingReader::State SharedRingReader::fill(std::size_t most, MonoTime deadline) {
     if (is_closed()) return State::closed;
     if (pending_.lease) return State::found;
     if (lossless_ && !release_current()) {
@@ -105,11 +105,11 @@ RingSource::State RingSource::fill(std::size_t most, MonoTime deadline) {
     return state;
 }
 
-shm::ReadResult<shm::RingRecord> RingSource::next(MonoTime deadline) {
+shm::ReadResult<shm::RingRecord> SharedRingReader::next(MonoTime deadline) {
     return deadline == MonoTime{} ? reader_.poll() : reader_.read(deadline);
 }
 
-RingSource::State RingSource::view(std::size_t most, MonoTime deadline) {
+SharedRingReader::State SharedRingReader::view(std::size_t most, MonoTime deadline) {
     if (scratch_.size() < most) scratch_.resize(most);
     auto count = reader_.try_read_batch({scratch_.data(), most});
     if (!count && count.error() == shm::ReadError::empty) {
@@ -125,7 +125,7 @@ RingSource::State RingSource::view(std::size_t most, MonoTime deadline) {
     return State::found;
 }
 
-RingSource::State RingSource::copy(std::size_t most, MonoTime deadline) {
+SharedRingReader::State SharedRingReader::copy(std::size_t most, MonoTime deadline) {
     std::vector<shm::RingRecord> records;
     std::vector<std::uint64_t> copies;
     while (records.size() < most && copies.size() * sizeof copies[0] < most_copied_bytes) {
@@ -140,15 +140,15 @@ RingSource::State RingSource::copy(std::size_t most, MonoTime deadline) {
     return State::found;
 }
 
-bool RingSource::release_current() {
+bool SharedRingReader::release_current() {
     const auto lease = current_.lock();
     if (lease && !(taker_ == feed::this_thread() ? lease->release() : lease->keep())) return false;
     current_.reset();
     return true;
 }
 
-bool RingSource::release(Lease& lease) {
-    const auto lock = turns_.take();
+bool SharedRingReader::release(Lease& lease) {
+    const auto lock = mutex_.take();
     if (!lease.release()) return false;
     if (current_.lock().get() != &lease) return true;
     current_.reset();
@@ -156,12 +156,12 @@ bool RingSource::release(Lease& lease) {
     return true;
 }
 
-bool RingSource::close() {
-    const auto lock = turns_.take();
+bool SharedRingReader::close() {
+    const auto lock = mutex_.take();
     return close_locked();
 }
 
-bool RingSource::close_locked() {
+bool SharedRingReader::close_locked() {
     if (is_closed()) return true;
     if (const auto lease = current_.lock(); lease && !lease->release()) return false;
     closed_.store(true, std::memory_order_relaxed);
@@ -171,18 +171,18 @@ bool RingSource::close_locked() {
     return true;
 }
 
-void RingSource::abandon() {
+void SharedRingReader::abandon() {
     abandoned_.store(true);
     on_last_look_ended();
 }
 
-void RingSource::on_last_look_ended() {
+void SharedRingReader::on_last_look_ended() {
     if (abandoned_.load() && fork_.is_here()) static_cast<void>(close());
 }
 
 // ---- for loops
 
-SetupResult<int> RingSource::event_fd() {
+SetupResult<int> SharedRingReader::event_fd() {
     const std::lock_guard lock(making_alarm_);
     if (!alarm_) {
         auto made = feed::RingAlarm::make(reader_.wake_word(), [this] { return nap(); });
@@ -192,17 +192,17 @@ SetupResult<int> RingSource::event_fd() {
     return alarm_->fd();
 }
 
-feed::RingAlarm* RingSource::alarm() {
+feed::RingAlarm* SharedRingReader::alarm() {
     const std::lock_guard lock(making_alarm_);
     return alarm_.get();
 }
 
-void RingSource::arm() {
+void SharedRingReader::arm() {
     if (auto* const alarm = this->alarm()) alarm->arm();
 }
 
-Nanoseconds RingSource::nap() {
-    return turns_.peek([this](bool nobody_reads) -> Nanoseconds {
+Nanoseconds SharedRingReader::nap() {
+    return mutex_.peek([this](bool nobody_reads) -> Nanoseconds {
         constexpr auto until_next_look = std::chrono::milliseconds{1};
         if (!nobody_reads) return until_next_look;
         if (is_closed() || pending_.lease) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RingSource: a ring's reader that several Python objects share. Lease: the records that it returned. Neither calls
-// Python, except to release the GIL. Any thread.
+// SharedRingReader: a ring's reader that several Python objects share. Lease: the records that it returned. Neither
+// calls Python, except to release the GIL. Any thread.
 #pragma once
 
 #include <atomic>
@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "mavloom/feed/ring_alarm.hpp"
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/shm/ring_reader.hpp"
 #include "ring/looks.hpp"
 #include "waiting.hpp"
 
 namespace mavloom::python {
 
-class RingSource;
+class SharedRingReader;
 
 // Records that were read together: copies, or views into the ring (lossless). Views end or become copies:
 // - The next read of the thread that took the views ends them. It fails while they are in use.
@@ -26,7 +26,7 @@ class RingSource;
 //   thread may be about to use them again.
 class Lease {
 public:
-    Lease(std::shared_ptr<RingSource> source, std::vector<shm::RingRecord> records)
+    Lease(std::shared_ptr<SharedRingReader> source, std::vector<shm::RingRecord> records)
         : source_(std::move(source)), records_(std::move(records)) {}
     Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
         : records_(std::move(records)), copies_(std::move(copies)) {}
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
     [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr || kept_.load() == Kept::copies; }
     // The ring's source, which keeps the ring mapped; null for records that were copied when they were read.
-    [[nodiscard]] const std::shared_ptr<RingSource>& source() const noexcept { return source_; }
+    [[nodiscard]] const std::shared_ptr<SharedRingReader>& source() const noexcept { return source_; }
 
     // Call `look` before using the bytes.
     // - `counted`: call `look_away` afterwards.
@@ -54,7 +54,7 @@ public:
 private:
     enum class Kept : std::uint8_t { nothing, soon, copies };
 
-    const std::shared_ptr<RingSource> source_;
+    const std::shared_ptr<SharedRingReader> source_;
     const std::vector<shm::RingRecord> records_;
     std::vector<std::uint64_t> copies_;
     std::vector<shm::RingRecord> kept_records_;  // records_, with the data in copies_
@@ -70,9 +70,9 @@ struct Portion {
     std::size_t first = 0;
 };
 
-class RingSource : public std::enable_shared_from_this<RingSource> {
+class SharedRingReader : public std::enable_shared_from_this<SharedRingReader> {
 public:
-    RingSource(shm::RingReader reader, bool lossless) : lossless_(lossless), reader_(std::move(reader)) {}
+    SharedRingReader(shm::RingReader reader, bool lossless) : lossless_(lossless), reader_(std::move(reader)) {}
 
     enum class State : std::uint8_t {
         found,
@@ -87,13 +87,13 @@ public:
     };
     // Reading takes two steps, because a signal handler may run between them: `fetch` makes records pending, and
     // `take`, by any thread, takes them. `fetch` reads up to `most` records, unless some are pending already. It waits
-    // until `deadline`, but at most for one slice (feed/turns.hpp); with MonoTime{} it does not wait. To wait, call it
-    // without the GIL. `nothing`: call again; it may have been another thread's turn. `used_elsewhere`: another thread
+    // until `deadline`, but at most for one slice (SlicedMutex); with MonoTime{} it does not wait. To wait, call it
+    // without the GIL. `nothing`: call again; another thread may have had the reader. `used_elsewhere`: another thread
     // is using the records that were read last.
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
     // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
     [[nodiscard]] State take(std::size_t most, Portion& out);
-    void yield_turn() const { turns_.yield_turn(); }
+    void let_others() const { mutex_.let_others(); }
 
     // For event loops: returns a descriptor, created at the first call. After `arm` it becomes readable when there may
     // be something to fetch, or when nothing ever will be.
@@ -120,7 +120,7 @@ public:
     [[nodiscard]] bool is_removed() const noexcept { return reader_.is_retired() || !reader_.is_named(); }
 
 private:
-    // Call these with turns_ held.
+    // Call these with mutex_ held.
     [[nodiscard]] State fill(std::size_t most, MonoTime deadline);
     [[nodiscard]] State view(std::size_t most, MonoTime deadline);
     [[nodiscard]] State copy(std::size_t most, MonoTime deadline);
@@ -134,10 +134,10 @@ private:
 
     const BeforeFork fork_;
     const bool lossless_;
-    feed::Turns turns_;
+    feed::SlicedMutex mutex_;
     std::atomic<bool> closed_{false}, abandoned_{false};
     std::atomic<std::uint64_t> missed_{0};
-    // Guarded by turns_, except for const members of reader_:
+    // Guarded by mutex_, except for const members of reader_:
     shm::RingReader reader_;
     Portion pending_;                       // fetched, but not taken yet
     std::weak_ptr<Lease> current_;          // the lease that a lossless reader holds

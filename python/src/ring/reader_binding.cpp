@@ -137,7 +137,7 @@ PyType_Slot record_slots[] = {
 
 class Batch {
 public:
-    Batch(Portion taken, std::shared_ptr<RingSource> source)
+    Batch(Portion taken, std::shared_ptr<SharedRingReader> source)
         : lease_(std::move(taken.lease)), first_(taken.first), source_(std::move(source)) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return records().size(); }
@@ -193,7 +193,7 @@ private:
     const BeforeFork fork_;
     std::shared_ptr<Lease> lease_;
     std::size_t first_;
-    std::shared_ptr<RingSource> source_;
+    std::shared_ptr<SharedRingReader> source_;
 };
 
 // ---- class RingReader
@@ -208,7 +208,7 @@ shm::ReaderOptions options_of(bool lossless, const std::string& start, bool fore
 }
 
 class PyRingReader {
-    using State = RingSource::State;
+    using State = SharedRingReader::State;
 
 public:
     PyRingReader(const std::string& name, bool lossless, const std::string& start, bool foreign) {
@@ -216,7 +216,7 @@ public:
             const WithoutGil outside;
             return shm::RingReader::open(name, options);
         }();
-        source_ = std::make_shared<RingSource>(value_or_raise(std::move(opened)), lossless);
+        source_ = std::make_shared<SharedRingReader>(value_or_raise(std::move(opened)), lossless);
     }
     ~PyRingReader() {
         if (source_) source_->abandon();
@@ -280,12 +280,12 @@ public:
         }
     }
 
-    [[nodiscard]] const RingSource& open() const {
+    [[nodiscard]] const SharedRingReader& open() const {
         fork_.check();
         if (source_->is_closed()) check(State::closed);
         return *source_;
     }
-    [[nodiscard]] const RingSource& source() const noexcept { return *source_; }
+    [[nodiscard]] const SharedRingReader& source() const noexcept { return *source_; }
 
 private:
     [[nodiscard]] State take(std::size_t most, MonoTime deadline, Portion& taken) {
@@ -301,7 +301,7 @@ private:
             if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
             if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
-            source_->yield_turn();
+            source_->let_others();
             if (is_used) std::this_thread::sleep_for(look_again);
             state = source_->fetch(most, deadline);
         }
@@ -335,7 +335,7 @@ private:
     }
 
     const BeforeFork fork_;
-    std::shared_ptr<RingSource> source_;
+    std::shared_ptr<SharedRingReader> source_;
 };
 
 class Batches {

@@ -89,14 +89,14 @@ bool PyRingWriter::write(const nb::object& data, const shm::RecordInfo& info) {
         if (written) return true;
         if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
         if (!waits()) return false;
-        turns_.yield_turn();
+        mutex_.let_others();
         check_signals();
         check();
     }
 }
 
 shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::RecordInfo& info) {
-    if (const auto lock = turns_.try_take(); lock.owns_lock() && !claim_) {
+    if (const auto lock = mutex_.try_take(); lock.owns_lock() && !claim_) {
         const auto written = put_locked(data, info, MonoTime{});
         if (written || written.error() != shm::WriteError::full || !waits()) return written;
     }
@@ -112,8 +112,8 @@ shm::WriteResult<void> PyRingWriter::put(ByteView data, const shm::RecordInfo& i
     return put_locked(data, info, deadline);
 }
 
-feed::Turns::Lock PyRingWriter::turn(MonoTime deadline) {
-    auto lock = turns_.take_until(deadline);
+feed::SlicedMutex::Lock PyRingWriter::turn(MonoTime deadline) {
+    auto lock = mutex_.take_until(deadline);
     if (lock.owns_lock() && !claim_ended_.wait_until(lock, feed::end_of_slice(deadline), [&] { return !claim_; }))
         lock.unlock();
     return lock;
@@ -153,13 +153,13 @@ std::shared_ptr<Claimed> PyRingWriter::claim(std::size_t length) {
         auto claimed = claim_or_wait(length);
         if (claimed) return std::move(*claimed);
         if (claimed.error() != shm::WriteError::full) raise(claimed.error(), length);
-        turns_.yield_turn();
+        mutex_.let_others();
         check_signals();
     }
 }
 
 shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_or_wait(std::size_t length) {
-    if (const auto lock = turns_.try_take(); lock.owns_lock() && !claim_) {
+    if (const auto lock = mutex_.try_take(); lock.owns_lock() && !claim_) {
         auto claimed = claim_locked(length, MonoTime{});
         if (claimed || claimed.error() != shm::WriteError::full) return claimed;
     }
@@ -183,9 +183,9 @@ shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_locked(std::size_
 bool PyRingWriter::commit(Claimed& claimed, const shm::RecordInfo& info, std::size_t length) {
     fork_.check();
     const Committed committed = [&] {
-        if (const auto lock = turns_.try_take(); lock.owns_lock()) return commit_locked(claimed, info, length);
+        if (const auto lock = mutex_.try_take(); lock.owns_lock()) return commit_locked(claimed, info, length);
         const WithoutGil outside;
-        const auto lock = turns_.take();
+        const auto lock = mutex_.take();
         return commit_locked(claimed, info, length);
     }();
     if (committed == Committed::over) raise_over();
@@ -216,7 +216,7 @@ void PyRingWriter::give_up(Claimed& claimed) noexcept {
 // thread that needs the GIL.
 void PyRingWriter::on_last_look_ended(Claimed& claimed) noexcept {
     if (!claimed.given_up.load() || !fork_.is_here() || !claimed.looks.finish()) return;
-    const auto lock = turns_.take();
+    const auto lock = mutex_.take();
     if (claim_.get() == &claimed) end_claim();
 }
 
@@ -231,7 +231,7 @@ void PyRingWriter::close(bool remove) {
     bool comes_late = false, is_filled = false;
     auto closed = [&]() -> SetupResult<void> {
         const WithoutGil outside;
-        const auto lock = turns_.take();
+        const auto lock = mutex_.take();
         is_filled = claim_ && !claim_->looks.finish();
         if (is_filled) return {};
         end_claim();
@@ -258,7 +258,7 @@ SetupResult<void> PyRingWriter::close_locked(bool remove) {
 
 void PyRingWriter::close_at_exit() noexcept {
     if (!fork_.is_here()) return;
-    const auto lock = turns_.take_until(MonoTime::max());
+    const auto lock = mutex_.take_until(MonoTime::max());
     if (!lock.owns_lock() || (claim_ && !claim_->looks.finish())) return;
     writer_.reset();
 }
@@ -272,14 +272,14 @@ void PyRingWriter::note_counters() {
 bool PyRingWriter::is_removed() {
     check_open();
     const WithoutGil outside;
-    const auto lock = turns_.take();
+    const auto lock = mutex_.take();
     return !writer_ || writer_->is_removed();
 }
 
 std::uint64_t PyRingWriter::records() {
     fork_.check();
     const WithoutGil outside;
-    const auto lock = turns_.take();
+    const auto lock = mutex_.take();
     note_counters();
     return records_;
 }
@@ -287,7 +287,7 @@ std::uint64_t PyRingWriter::records() {
 std::uint64_t PyRingWriter::dropped() {
     fork_.check();
     const WithoutGil outside;
-    const auto lock = turns_.take();
+    const auto lock = mutex_.take();
     note_counters();
     return dropped_;
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "integer.hpp"
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 #include "mavloom/shm/ring_writer.hpp"
 #include "ring/looks.hpp"
 #include "waiting.hpp"
@@ -87,7 +87,7 @@ private:
     void check_open() const;
     // Waits until no claim is open and returns the lock. The lock is not owned if `deadline` or one slice has passed
     // first.
-    [[nodiscard]] feed::Turns::Lock turn(MonoTime deadline);
+    [[nodiscard]] feed::SlicedMutex::Lock turn(MonoTime deadline);
     // Waits until no other thread has a claim open.
     void let_claim_end();
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);
@@ -106,11 +106,11 @@ private:
     const shm::WhenFull when_full_;
     std::size_t longest_ = 0;
     bool created_ = false;
-    feed::Turns turns_;
+    feed::SlicedMutex mutex_;
     std::condition_variable_any claim_ended_;
-    std::atomic<std::uint64_t> claimer_{0};  // thread with the open claim; set with turns_ held
+    std::atomic<std::uint64_t> claimer_{0};  // thread with the open claim; set with mutex_ held
     std::atomic<bool> closed_{false};
-    // Guarded by turns_:
+    // Guarded by mutex_:
     std::optional<shm::RingWriter> writer_;  // empty once closed
     std::shared_ptr<Claimed> claim_;         // the open claim
     bool removed_ = false;                   // this writer closed and removed the ring

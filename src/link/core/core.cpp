@@ -11,16 +11,16 @@ static constexpr std::chrono::milliseconds expire_interval{100};
 
 Core::Core(const dialect::Dialect& usual, std::unique_ptr<net::EventLoop> loop, net::ReceiveBatch batch)
     : loop_(std::move(loop)),
-      languages(usual),
+      dialects(usual),
       look_ups([wake = loop_->wake_handle()] { net::EventLoop::wake(*wake); }),
       receive_batch(std::move(batch)),
       stream_buffer(stream_buffer_bytes) {}
 
 std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
-    assert(news.handler() == nullptr && "turn must not be called inside a callback");
+    assert(events.handler() == nullptr && "turn must not be called inside a callback");
     now_ = mono_now();
     coalescing.count(turn_began_, now_, std::exchange(frames_this_turn_, 0), std::exchange(more_waits_, false));
-    news.begin_turn(handler, links);
+    events.begin_turn(handler, links);
     outlets.flush();
     if (const auto until = coalescing.rest_until(); until && deadline > now_)
         net::EventLoop::sleep_until(std::min(*until, deadline));
@@ -34,7 +34,7 @@ std::size_t Core::turn(LinkHandler& handler, MonoTime deadline) {
     if (now_ >= key_states.due()) save_signing_times();
     outlets.flush();
     graveyard.clear();
-    news.end_turn();
+    events.end_turn();
     return frames_this_turn_;
 }
 
@@ -46,7 +46,7 @@ MonoTime Core::wait_limit(MonoTime deadline) const {
 void Core::save_signing_times() {
     std::vector<std::string> notices;
     key_states.save(now_, notices);
-    for (auto& text : notices) news.notice({}, std::move(text));
+    for (auto& text : notices) events.notice({}, std::move(text));
 }
 
 void Core::run_tickers() {
@@ -56,13 +56,13 @@ void Core::run_tickers() {
 }
 
 void Core::add_link(Link& link) {
-    link.language = &languages.of(link.endpoint);
+    link.dialect = &dialects.of(link.endpoint);
     link.tracker.limit_by(source_budget);
     links.add(link);
 }
 
 void Core::remove_link(Link& link, std::string_view why) {
-    news.set_down(link, why);
+    events.set_down(link, why);
     links.remove(link.id);
 }
 
@@ -78,24 +78,24 @@ void Core::on_frame(Link& link, const wire::ParseEvent& event, WallTime time) {
         counters.unknown_ids.add();
     const auto* const update = owner_counts_loss_ ? &wire::no_loss : &count_loss(link, event.frame, event.info);
     ++frames_this_turn_;
-    news.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
+    events.handler()->on_frame({event.frame, event.info, link.id, link.endpoint, time, update});
 }
 
 void Core::on_bad_bytes(Link& link, const wire::ParseEvent& event) {
     using Kind = wire::ParseEvent::Kind;
     if (event.kind == Kind::bad_checksum) {
         link.counters.crc_error.add();
-        if (news.handler() != nullptr) news.handler()->on_bad_checksum(link.id, link.endpoint, event.frame.id());
+        if (events.handler() != nullptr) events.handler()->on_bad_checksum(link.id, link.endpoint, event.frame.id());
     }
     if (event.kind == Kind::junk) link.counters.junk_bytes.add(event.bytes);
     if (event.kind == Kind::unknown_flags) link.counters.unknown_flags.add();
 }
 
 wire::FrameView Core::signed_for(Link& link, const wire::FrameView& frame) {
-    return link.signature == nullptr ? frame : link.signature->sign(frame, link.language->table, wall_now());
+    return link.signature == nullptr ? frame : link.signature->sign(frame, link.dialect->table, wall_now());
 }
 
-bool Core::queue(Link& link, net::BlockQueue& lane, Departure& departure, const wire::FrameView& frame, MonoTime now) {
+bool Core::queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame, MonoTime now) {
     if (link.finds_in_ring) {
         link.counters.frames_out.add();
         link.counters.bytes_out.add(frame.size());
@@ -105,8 +105,8 @@ bool Core::queue(Link& link, net::BlockQueue& lane, Departure& departure, const 
         link.counters.unconfirmed.add();
         return false;
     }
-    const Language& language = *link.language;
-    const auto pushed = lane.push(frame.bytes(), departure.block_class(language), departure.key(language), now);
+    const LinkDialect& dialect = *link.dialect;
+    const auto pushed = lane.push(frame.bytes(), outgoing.block_class(dialect), outgoing.key(dialect), now);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);
     if (pushed.queued && !std::exchange(link.queued, true)) link.schedule();

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "link/core/coalescing.hpp"
-#include "link/core/language.hpp"
+#include "link/core/link_dialect.hpp"
+#include "link/core/link_events.hpp"
 #include "link/core/link_table.hpp"
 #include "link/core/look_ups.hpp"
-#include "link/core/news.hpp"
 #include "link/core/outlets.hpp"
 #include "link/core/tickers.hpp"
 #include "link/open_endpoint.hpp"
@@ -26,32 +26,32 @@
 namespace mavloom::link::detail {
 
 // A frame that is sent to one or more links. Computes the frame's class and key again only for a link with another
-// language.
-class Departure {
+// dialect.
+class OutgoingFrame {
 public:
-    explicit Departure(wire::FrameView frame) noexcept : frame_(frame) {}
+    explicit OutgoingFrame(wire::FrameView frame) noexcept : frame_(frame) {}
     [[nodiscard]] const wire::FrameView& frame() const noexcept { return frame_; }
-    [[nodiscard]] std::uint8_t block_class(const Language& language) noexcept {
-        learn(language);
+    [[nodiscard]] std::uint8_t block_class(const LinkDialect& dialect) noexcept {
+        use(dialect);
         return block_class_;
     }
-    [[nodiscard]] std::uint64_t key(const Language& language) noexcept {
-        learn(language);
+    [[nodiscard]] std::uint64_t key(const LinkDialect& dialect) noexcept {
+        use(dialect);
         return key_;
     }
 
 private:
-    void learn(const Language& language) noexcept {
-        if (&language == language_) [[likely]]
+    void use(const LinkDialect& dialect) noexcept {
+        if (&dialect == dialect_) [[likely]]
             return;
-        language_ = &language;
-        const MessageClasses::Rule rule = language.classes.of(frame_.id());
+        dialect_ = &dialect;
+        const MessageClasses::Rule rule = dialect.classes.of(frame_.id());
         block_class_ = rule.block_class;
         key_ = MessageClasses::key(frame_, rule);
     }
 
     wire::FrameView frame_;
-    const Language* language_ = nullptr;
+    const LinkDialect* dialect_ = nullptr;
     std::uint64_t key_ = 0;
     std::uint8_t block_class_ = 0;
 };
@@ -74,7 +74,7 @@ public:
     // Notes that a read of this turn left input unread.
     void note_more_waits() noexcept { more_waits_ = true; }
 
-    // `add_link` makes `link.name` unique, and assigns its id and language.
+    // `add_link` makes `link.name` unique, and assigns its id and dialect.
     void add_link(Link& link);
     void remove_link(Link& link, std::string_view why);
     // Destroys the link at the end of the turn, because the link may still be running a callback.
@@ -99,21 +99,21 @@ public:
     }
 
     // Signs the frame if the endpoint has sign=, and queues it in the first lane. Returns true if it was queued.
-    static bool send(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, link.queue.lane(net::Lane::first), departure, signed_for(link, departure.frame()), now);
+    static bool send(Link& link, OutgoingFrame& outgoing, MonoTime now) {
+        return queue(link, link.queue.lane(net::Lane::first), outgoing, signed_for(link, outgoing.frame()), now);
     }
     bool send(Link& link, const wire::FrameView& frame) const {
-        Departure departure(frame);
-        return send(link, departure, now_);
+        OutgoingFrame outgoing(frame);
+        return send(link, outgoing, now_);
     }
     // Queues the frame unchanged, in the second lane.
-    static bool send_unverified(Link& link, Departure& departure, MonoTime now) {
-        return queue(link, link.queue.lane(net::Lane::second), departure, departure.frame(), now);
+    static bool send_unverified(Link& link, OutgoingFrame& outgoing, MonoTime now) {
+        return queue(link, link.queue.lane(net::Lane::second), outgoing, outgoing.frame(), now);
     }
 
 private:
     [[nodiscard]] static wire::FrameView signed_for(Link& link, const wire::FrameView& frame);
-    static bool queue(Link& link, net::BlockQueue& lane, Departure& departure, const wire::FrameView& frame,
+    static bool queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame,
                       MonoTime now);
     void on_frame(Link& link, const wire::ParseEvent& event, WallTime time);
     void on_bad_bytes(Link& link, const wire::ParseEvent& event);
@@ -131,10 +131,10 @@ private:
 public:
     // The parts, for the endpoints to use.
     wire::SourceBudget source_budget{16'384};  // of all links together: 4 MiB
-    Languages languages;
+    LinkDialects dialects;
     LookUps look_ups;
     LinkTable links;
-    News news;
+    LinkEvents events;
     Outlets outlets;
     Tickers tickers;
     Coalescing coalescing;

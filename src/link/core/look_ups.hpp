@@ -14,7 +14,7 @@
 
 namespace mavloom::link::detail {
 
-class Asker;
+class NameUser;
 
 class LookUps {
 public:
@@ -28,19 +28,19 @@ public:
     void deliver();
 
 private:
-    friend class Asker;
+    friend class NameUser;
     net::Resolver resolver_;
     bool may_wait_ = true;
-    std::vector<std::pair<std::uint64_t, Asker*>> questions_;  // by ticket
+    std::vector<std::pair<std::uint64_t, NameUser*>> questions_;  // by ticket
 };
 
 // An endpoint that looks up host names.
-class Asker {
+class NameUser {
 public:
-    explicit Asker(LookUps& look_ups) : look_ups_(look_ups) {}
-    Asker(const Asker&) = delete;
-    Asker& operator=(const Asker&) = delete;
-    virtual ~Asker();
+    explicit NameUser(LookUps& look_ups) : look_ups_(look_ups) {}
+    NameUser(const NameUser&) = delete;
+    NameUser& operator=(const NameUser&) = delete;
+    virtual ~NameUser();
     virtual void on_resolved(net::Resolver::Answer&& answer) = 0;
 
     // Passes the answer to `on_resolved`: at once for a numeric host, in a later turn for a name.

@@ -59,7 +59,7 @@ public:
     explicit Inlet(Opening& opening)
         : OpenEndpoint(opening),
           core_(opening.core),
-          stranger_(opening.core.languages.of(opening.id).table),
+          stranger_(opening.core.dialects.of(opening.id).table),
           senders_(core_, *this) {}
     ~Inlet() override;
 
@@ -88,7 +88,7 @@ private:
     std::filesystem::path path_;
     unsigned mode_ = 0;
     Place place_;
-    bool told_ = false;  // that the socket cannot be recreated
+    bool reported_ = false;  // that the socket cannot be recreated
     wire::DatagramParser stranger_;
     PeerList<Sender> senders_;
     std::unordered_map<std::string, Sender*, HashText, std::equal_to<>> by_address_;
@@ -148,10 +148,10 @@ Inlet::~Inlet() {
 void Inlet::look_at_place() {
     if (place_ == Place::of(path_)) return;
     const auto anew = bind();
-    if (anew) core_.news.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
-    else if (!told_)
-        core_.news.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
-    told_ = !anew;
+    if (anew) core_.events.notice(info.id, fmt::format("inlet {} was removed; it is created again", path_.string()));
+    else if (!reported_)
+        core_.events.notice(info.id, fmt::format("inlet {} was removed: {}", path_.string(), anew.error().text));
+    reported_ = !anew;
 }
 
 void Inlet::on_io(net::IoEvents) {
@@ -198,7 +198,7 @@ Sender* Inlet::newcomer(const net::LocalDatagram& datagram) {
         counters.peers_refused.add();
         return nullptr;
     }
-    auto sender = std::make_unique<Sender>(info.id, core_.languages.of(info.id).table, datagram.from);
+    auto sender = std::make_unique<Sender>(info.id, core_.dialects.of(info.id).table, datagram.from);
     sender->name = fmt::format("{}#{}", info.label(), name_of(datagram.from));
     sender->last_heard = core_.now();
     by_address_.emplace(sender->address, sender.get());

@@ -73,7 +73,7 @@ private:
     net::WatchId watch_;
     Retry retry_;
     MonoTime up_since_{};
-    bool full_ = false, has_sent_ = false, was_up_ = false, told_no_way_ = false;
+    bool full_ = false, has_sent_ = false, was_up_ = false, reported_no_inlet_ = false;
 };
 
 SetupResult<void> InletSender::connect() {
@@ -89,11 +89,11 @@ SetupResult<void> InletSender::connect() {
     retry_.settle();
     retry_.reset();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
-    if (std::exchange(told_no_way_, false))
-        core_.news.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
+    if (std::exchange(reported_no_inlet_, false))
+        core_.events.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
     // The same name that the ring's router gives this link.
     peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());
-    core_.news.set_up(peer_);
+    core_.events.set_up(peer_);
     if (!peer_.queue.empty()) core_.outlets.schedule(*this);
     return {};
 }
@@ -108,11 +108,11 @@ void InletSender::connect_or_retry() {
     auto done = connect();
     if (done) return;
     const bool is_absent = done.error().code == SetupCode::not_found && !was_up_;
-    if (!is_absent || (!told_no_way_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
-    if (!std::exchange(told_no_way_, true))
-        core_.news.notice(info.id, fmt::format("{}: no program serves the inlet of this ring; frames sent to it are "
-                                               "dropped until one does",
-                                               info.endpoint.label()));
+    if (!is_absent || (!reported_no_inlet_ && !ring_exists(info.endpoint.path))) return retry_.fail(done.error());
+    if (!std::exchange(reported_no_inlet_, true))
+        core_.events.notice(info.id, fmt::format("{}: no program serves the inlet of this ring; frames sent to it are "
+                                                 "dropped until one does",
+                                                 info.endpoint.label()));
     retry_.fail_silently(done.error());
 }
 
@@ -121,7 +121,7 @@ void InletSender::connect_or_retry() {
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
-    core_.news.set_down(peer_, "the router is gone");
+    core_.events.set_down(peer_, "the router is gone");
     const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
     if (!worked || !connect()) retry_.later();
 }

@@ -108,7 +108,7 @@ SetupResult<void> Serial::open_as(const std::string& name) {
         good_frames_ = 0;
         retry_.after(auto_window);
     } else {
-        core_.news.set_up(peer_);
+        core_.events.set_up(peer_);
     }
     return {};
 }
@@ -120,17 +120,17 @@ void Serial::report_settings() {
     // The deviation of the baud rate that a receiver of ten-bit characters tolerates.
     constexpr std::uint32_t tolerance_percent = 3;
     if (apart > std::uint64_t{baud()} * tolerance_percent / 100)
-        core_.news.notice(
+        core_.events.notice(
             info.id, fmt::format("{}: requested {} baud, but the driver set {}", info.endpoint.label(), baud(), got));
     if (options.low_latency && !peer_.stream().low_latency())
-        core_.news.notice(info.id, fmt::format("{}: its driver does not support low_latency", info.endpoint.label()));
+        core_.events.notice(info.id, fmt::format("{}: its driver does not support low_latency", info.endpoint.label()));
     if (was_up_ && peer_.stream())
-        core_.news.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
+        core_.events.notice(info.id, fmt::format("{}: is back as {}", info.endpoint.label(), device_.id_link()));
 }
 
 void Serial::on_gone(std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting;
-    core_.news.set_down(peer_, why);
+    core_.events.set_down(peer_, why);
     if (lasted) retry_.reset();
     retry_.later();
     watch_folders(true);
@@ -140,13 +140,13 @@ void Serial::on_gone(std::string_view why) {
 void Serial::count_good_frame() {
     ++good_frames_;
     if (!std::exchange(searching_, false)) return;
-    core_.news.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
+    core_.events.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
     retry_.after(auto_confirm);
-    core_.news.set_up(peer_);
+    core_.events.set_up(peer_);
 }
 
 void Serial::search_on() {
-    core_.news.set_down(peer_, "no more good frames at this baud rate");
+    core_.events.set_down(peer_, "no more good frames at this baud rate");
     searching_ = true;
     good_frames_ = 0;
     auto_index_ = (auto_index_ + 1) % auto_bauds.size();

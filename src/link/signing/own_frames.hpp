@@ -2,8 +2,8 @@
 // Recognises frames that this process signed and that somebody sends back to it. Without this check, a sender that does
 // not have the key would pass as one that has it.
 //
-// The class remembers about 65,000 signatures of a key: each of 1,024 buckets has its newest 64. A frame with one of our
-// link ids is ours if its bucket has its signature, or if its time is not newer than the newest that the bucket has
+// The class remembers about 65,000 signatures of a key: each of 1,024 buckets has its newest 64. A frame with one of
+// our link ids is ours if its bucket has its signature, or if its time is not newer than the newest that the bucket has
 // dropped. So another program with the same key and link id is heard, unless its clock is far behind ours.
 //
 // Private to module link; single owner thread; allocates only in `sign_as`.
@@ -26,7 +26,7 @@ public:
         ids_.set(link_id);
         if (buckets_.empty()) buckets_.resize(bucket_count);
     }
-    // Earlier runs of the program signed frames up to this time: up to then, all frames with our link ids count as ours.
+    // Earlier runs of the program signed frames up to this time. So all frames up to then with our link ids are ours.
     void forget_until(wire::SigningTime time) noexcept { earlier_ = std::max(earlier_, time.ticks); }
 
     // `frame` is signed, with a link id given to `sign_as`.

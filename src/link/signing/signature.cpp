@@ -18,7 +18,7 @@ SetupResult<std::unique_ptr<Signature>> Signature::load(const endpoint::Endpoint
         auto opened = signature->open(options.verify_key_file, notices);
         if (!opened) return tl::unexpected(std::move(opened).error());
         signature->verify_with_.emplace(std::move(*opened));
-        signature->judge(*signature->verify_with_, !options.group.empty());
+        signature->verify_with(*signature->verify_with_, !options.group.empty());
     }
     if (!options.sign_key_file.empty()) {
         auto opened = signature->open(options.sign_key_file, notices);
@@ -38,18 +38,18 @@ SetupResult<Signature::OpenKey> Signature::open(const std::string& path, std::ve
 // Endpoints with the same key share one verifier, so a frame that one of them accepted is a replay at the others. In
 // a group the same frame arrives over several links, sometimes late. There each endpoint has its own verifier, and
 // the shared state only rejects frames that are too late.
-void Signature::judge(const OpenKey& with, bool in_group) {
-    judge_ = states_.judge_of(with.key);
+void Signature::verify_with(const OpenKey& with, bool in_group) {
+    verifying_key_ = states_.shared_key(with.key);
     if (!in_group) return;
     own_.emplace(with.key);
-    for (const auto& stream : judge_->verifier.streams()) own_->restore(stream);
+    for (const auto& stream : verifying_key_->verifier.streams()) own_->restore(stream);
 }
 
 SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
     const auto& [path, key, times] = sign_with_.emplace(std::move(with));
-    signs_under_ = states_.judge_of(key);
+    signing_key_ = states_.shared_key(key);
     if (auto begun = KeyStates::begin_signing(*times); !begun) return begun;
-    signs_under_->own.sign_as(link_id);
+    signing_key_->own.sign_as(link_id);
     signs_as_ = link_id;
     signer_.emplace(key, link_id, times->state.last_signed);
     return {};
@@ -59,19 +59,19 @@ SetupResult<void> Signature::sign_with(OpenKey with, std::uint8_t link_id) {
 bool Signature::is_own(const wire::FrameView& frame) const noexcept {
     if (!frame.is_signed()) return false;
     if (states_.endpoints_are_independent && signs_as_ != frame.signature()[0]) return false;
-    return judge_->own.has(frame);
+    return verifying_key_->own.has(frame);
 }
 
 bool Signature::takes(const wire::FrameView& frame, wire::SigningTime now) {
     using enum wire::Verifier::Verdict;
     if (is_own(frame)) return false;
-    if (!own_) return judge_->verifier.verify(frame, now) == good;
+    if (!own_) return verifying_key_->verifier.verify(frame, now) == good;
     if (own_->verify(frame, now) != good) return false;
     const auto stream = wire::Verifier::stream_of(frame);
-    const auto newest = judge_->verifier.last(stream.key);
-    judge_->verifier.restore(stream);
-    const bool has_no_place = judge_->verifier.last(stream.key) == wire::SigningTime{};
-    return !has_no_place && !judge_->late.is_too_late(stream.key, stream.last, newest, mono_now());
+    const auto newest = verifying_key_->verifier.last(stream.key);
+    verifying_key_->verifier.restore(stream);
+    const bool has_no_place = verifying_key_->verifier.last(stream.key) == wire::SigningTime{};
+    return !has_no_place && !verifying_key_->late.is_too_late(stream.key, stream.last, newest, mono_now());
 }
 
 Signature::~Signature() {
@@ -92,7 +92,8 @@ bool Signature::has_other_keys() const {
 
 // The file's state may belong to another key by now: an endpoint opened later may have loaded a new key from it.
 void Signature::keep_times() const {
-    if (judge_ && verify_with_->is_current() && verify_with_->times->state.merge_heard(judge_->verifier.streams()))
+    if (verifying_key_ && verify_with_->is_current() &&
+        verify_with_->times->state.merge_heard(verifying_key_->verifier.streams()))
         verify_with_->times->changed = true;
     if (signer_ && signer_->last() > sign_with_->times->state.last_signed) {
         sign_with_->times->state.last_signed = signer_->last();
@@ -101,7 +102,7 @@ void Signature::keep_times() const {
 }
 
 bool Signature::accepts(const wire::FrameView& frame, WallTime now) noexcept {
-    if (!judge_) return true;
+    if (!verifying_key_) return true;
     if (accepted_ == frame.bytes().data()) {
         accepted_ = nullptr;
         return true;
@@ -135,7 +136,7 @@ wire::FrameView Signature::sign(const wire::FrameView& frame, const wire::Messag
     store_le(buffer_.data() + covered, wire::crc_update(before_extra, static_cast<std::uint8_t>(extra)));
     const std::size_t size = signer_->sign(buffer_, covered + wire::checksum_length, wire::SigningTime::from(now));
     const auto signed_frame = wire::FrameView::unchecked(ByteView(buffer_).first(size));
-    signs_under_->own.note(signed_frame);
+    signing_key_->own.note(signed_frame);
     return signed_frame;
 }
 

@@ -33,7 +33,7 @@ public:
     void keep_times() const;
     // True if a key file now holds a different key from the one in use. False while one of the files cannot be read.
     [[nodiscard]] bool has_other_keys() const;
-    [[nodiscard]] bool verifies() const noexcept { return judge_ != nullptr; }
+    [[nodiscard]] bool verifies() const noexcept { return verifying_key_ != nullptr; }
     [[nodiscard]] bool signs() const noexcept { return signer_.has_value(); }
     [[nodiscard]] bool accepts(const wire::FrameView& frame, WallTime now) noexcept;
     // Like `accepts`, for a frame whose bytes the link's parser will find again. `accepts` then does not treat that
@@ -54,16 +54,16 @@ private:
         [[nodiscard]] bool is_current() const noexcept { return times->state.key == key.fingerprint(); }
     };
     [[nodiscard]] SetupResult<OpenKey> open(const std::string& path, std::vector<std::string>& notices);
-    void judge(const OpenKey& with, bool in_group);
+    void verify_with(const OpenKey& with, bool in_group);
     [[nodiscard]] SetupResult<void> sign_with(OpenKey with, std::uint8_t link_id);
     [[nodiscard]] bool is_own(const wire::FrameView& frame) const noexcept;
     [[nodiscard]] bool takes(const wire::FrameView& frame, wire::SigningTime now);
 
     KeyStates& states_;
     std::optional<OpenKey> verify_with_, sign_with_;
-    std::shared_ptr<KeyJudge> judge_;        // null without verify=
-    std::shared_ptr<KeyJudge> signs_under_;  // of the key of sign=; null without it
-    std::optional<wire::Verifier> own_;      // in a group, the endpoint's own verifier
+    std::shared_ptr<SharedKey> verifying_key_;  // null without verify=
+    std::shared_ptr<SharedKey> signing_key_;    // of the key of sign=; null without it
+    std::optional<wire::Verifier> own_;         // in a group, the endpoint's own verifier
     std::optional<wire::Signer> signer_;
     std::optional<std::uint8_t> signs_as_;  // the link id
     // Start of the frame that `accepts_early` has already verified.

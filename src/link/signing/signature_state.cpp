@@ -222,23 +222,23 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
                                       file->path().string(), ahead));
     if (const auto written = file->write(file->state); !written) notices.push_back(written.error().text);
     files_.push_back(file);
-    if (const auto known = judges_.find(key.fingerprint()); known != judges_.end())
-        if (const auto judge = known->second.lock()) judge->own.forget_until(signed_until(file->state, now));
+    if (const auto known = shared_keys_.find(key.fingerprint()); known != shared_keys_.end())
+        if (const auto shared = known->second.lock()) shared->own.forget_until(signed_until(file->state, now));
     due_ = std::min(due_, mono_now() + save_interval);
     return file;
 }
 
-std::shared_ptr<KeyJudge> KeyStates::judge_of(const wire::SigningKey& key) {
-    auto& known = judges_[key.fingerprint()];
-    auto judge = known.lock();
-    if (judge) return judge;
-    known = judge = std::make_shared<KeyJudge>(KeyJudge{wire::Verifier(key), {}, {}});
+std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
+    auto& known = shared_keys_[key.fingerprint()];
+    auto shared = known.lock();
+    if (shared) return shared;
+    known = shared = std::make_shared<SharedKey>(SharedKey{wire::Verifier(key), {}, {}});
     for (const auto& file : files_) {
         if (file->state.key != key.fingerprint()) continue;
-        for (const auto& stream : file->state.heard) judge->verifier.restore(stream);
-        judge->own.forget_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
+        for (const auto& stream : file->state.heard) shared->verifier.restore(stream);
+        shared->own.forget_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
     }
-    return judge;
+    return shared;
 }
 
 SetupResult<void> KeyStates::begin_signing(KeyFile& file) {

@@ -70,7 +70,7 @@ private:
 };
 
 // State that all endpoints with one key share, whichever file each loaded the key from.
-struct KeyJudge {
+struct SharedKey {
     wire::Verifier verifier;
     LateFrames late;
     OwnFrames own;
@@ -94,7 +94,7 @@ public:
     [[nodiscard]] std::shared_ptr<KeyFile> open(const std::filesystem::path& path, const wire::SigningKey& key,
                                                 std::vector<std::string>& notices);
     // The shared state of a key. Call it before `begin_signing`.
-    [[nodiscard]] std::shared_ptr<KeyJudge> judge_of(const wire::SigningKey& key);
+    [[nodiscard]] std::shared_ptr<SharedKey> shared_key(const wire::SigningKey& key);
     // Call it before signing the first frame with the key. An error if the key's times are used up.
     [[nodiscard]] static SetupResult<void> begin_signing(KeyFile& file);
     // Whether the endpoints are used like separate programs, so that one may hear what another has signed.
@@ -118,7 +118,7 @@ private:
     void do_job(const Job& job);
 
     std::vector<std::shared_ptr<KeyFile>> files_;
-    std::map<std::uint64_t, std::weak_ptr<KeyJudge>> judges_;  // by key fingerprint
+    std::map<std::uint64_t, std::weak_ptr<SharedKey>> shared_keys_;  // by key fingerprint
     std::vector<const Signature*> signatures_;
     MonoTime due_ = MonoTime::max();
 

@@ -41,11 +41,11 @@ private:
     net::WatchId watch_;
 };
 
-class TcpIn final : public OpenEndpoint, public Asker, public TcpOwner, public net::TimerHandler {
+class TcpIn final : public OpenEndpoint, public NameUser, public TcpOwner, public net::TimerHandler {
 public:
     explicit TcpIn(Opening& opening)
         : OpenEndpoint(opening),
-          Asker(opening.core.look_ups),
+          NameUser(opening.core.look_ups),
           core_(opening.core),
           peers_(core_, *this),
           retry_(opening.core, *this, *this) {}
@@ -76,7 +76,7 @@ private:
     Admission admission_{Admission::burst_for(0)};
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
-    bool told_full_ = false;
+    bool reported_full_ = false;
 };
 
 void Listening::on_io(net::IoEvents) { owner_.accept_from(listener_); }
@@ -92,7 +92,7 @@ SetupResult<void> TcpIn::open(const std::vector<net::Address>& addresses) {
         if (auto done = listening->start(); !done) return done;
         listeners_.push_back(std::move(listening));
     }
-    core_.news.notice(info.id, info.label() + ": listening");
+    core_.events.notice(info.id, info.label() + ": listening");
     if (const auto idle = info.endpoint.options.idle) expiry_ = core_.loop().start_timer(core_.now() + *idle, *this);
     return {};
 }
@@ -121,9 +121,9 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 void TcpIn::admit(net::TcpStream stream) {
     if (peers_.is_full() && !make_room(stream.remote())) {
         counters.peers_refused.add();
-        if (!std::exchange(told_full_, true)) {
-            core_.news.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
-                                                   info.endpoint.label(), peers_.size()));
+        if (!std::exchange(reported_full_, true)) {
+            core_.events.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
+                                                     info.endpoint.label(), peers_.size()));
         }
         return;
     }
@@ -147,9 +147,9 @@ bool TcpIn::make_room(const net::Address& newcomer) {
 void TcpIn::pause() {
     for (const auto& listening : listeners_) listening->listen(false);
     if (!pause_.valid()) pause_ = core_.loop().start_timer(core_.now() + accept_pause, *this);
-    if (!std::exchange(told_full_, true)) {
-        core_.news.notice(info.id,
-                          fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
+    if (!std::exchange(reported_full_, true)) {
+        core_.events.notice(info.id,
+                            fmt::format("{}: few file descriptors left; new clients wait", info.endpoint.label()));
     }
 }
 

@@ -15,11 +15,15 @@ namespace {
 constexpr std::chrono::seconds connect_limit{5};
 constexpr std::chrono::seconds required_limit{5};
 
-class TcpOut final : public OpenEndpoint, public Asker, public TcpOwner, public net::IoHandler, public net::TimerHandler {
+class TcpOut final : public OpenEndpoint,
+                     public NameUser,
+                     public TcpOwner,
+                     public net::IoHandler,
+                     public net::TimerHandler {
 public:
     TcpOut(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
-          Asker(opening.core.look_ups),
+          NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           peer_(core_, *this, opening.id, queue_limits(opening.endpoint.options)),
@@ -101,7 +105,7 @@ SetupResult<void> TcpOut::finish() {
     retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (const auto idle = info.endpoint.options.idle) retry_.after(*idle);
-    core_.news.set_up(peer_);
+    core_.events.set_up(peer_);
     return {};
 }
 
@@ -118,7 +122,7 @@ void TcpOut::fail(const SetupError& error) {
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting || peer.last_heard > up_since_;
-    core_.news.set_down(peer, why);
+    core_.events.set_down(peer, why);
     if (lasted) retry_.reset();
     retry_.later();
 }

@@ -32,7 +32,7 @@ public:
           endpoint_(endpoint),
           owner_(owner),
           idle_(endpoint.info.endpoint.options.idle.value_or(default_idle)),
-          stranger_(core.languages.of(endpoint.info.id).table),
+          stranger_(core.dialects.of(endpoint.info.id).table),
           admission_(Admission::burst_for(endpoint.info.endpoint.options.max_peers)),
           peers_(core, endpoint) {}
     ~UdpPeers() override;

@@ -13,15 +13,15 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpBroadcast final : public OpenEndpoint, public Asker, public UdpPeers::Owner, public net::TimerHandler {
+class UdpBroadcast final : public OpenEndpoint, public NameUser, public UdpPeers::Owner, public net::TimerHandler {
 public:
     UdpBroadcast(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
-          Asker(opening.core.look_ups),
+          NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           port_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.languages.of(opening.id).table,
+          everybody_(opening.id, queue_limits(opening.endpoint.options), opening.core.dialects.of(opening.id).table,
                      port_, net::Address{}),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {
@@ -50,9 +50,9 @@ public:
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
     void on_send_error(net::IoError error) override;
     void on_first_confirmed(const net::Address& from) override {
-        core_.news.set_down(everybody_, fmt::format("{} answers", from.text()));
+        core_.events.set_down(everybody_, fmt::format("{} answers", from.text()));
     }
-    void on_last_confirmed_gone() override { core_.news.set_up(everybody_); }
+    void on_last_confirmed_gone() override { core_.events.set_up(everybody_); }
     void on_confirmed(UdpPeer& peer) override { peers_.note_confirmed(peer); }
     void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
@@ -64,7 +64,7 @@ private:
     UdpPeer everybody_;
     UdpPeers peers_;
     Retry retry_;
-    bool told_unreachable_ = false;
+    bool reported_unreachable_ = false;
 };
 
 SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
@@ -77,7 +77,7 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     info.local_port = port_.socket().local().port();
     info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();
     everybody_.address = *to;
-    core_.news.set_up(everybody_);
+    core_.events.set_up(everybody_);
     return {};
 }
 
@@ -93,9 +93,9 @@ UdpPeer* UdpBroadcast::peer_of(UdpPort& port, const net::Datagram& datagram) {
 
 void UdpBroadcast::on_send_error(net::IoError error) {
     if (error == net::IoError::refused) return;  // a peer's port was closed
-    if (std::exchange(told_unreachable_, true)) return;
-    core_.news.notice(info.id, fmt::format("{}: no network reaches {} now; sending continues", info.endpoint.label(),
-                                           everybody_.address.text()));
+    if (std::exchange(reported_unreachable_, true)) return;
+    core_.events.notice(info.id, fmt::format("{}: no network reaches {} now; sending continues", info.endpoint.label(),
+                                             everybody_.address.text()));
 }
 
 }  // namespace

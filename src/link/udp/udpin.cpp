@@ -11,11 +11,11 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpIn final : public OpenEndpoint, public Asker, public UdpPeers::Owner, public net::TimerHandler {
+class UdpIn final : public OpenEndpoint, public NameUser, public UdpPeers::Owner, public net::TimerHandler {
 public:
     explicit UdpIn(Opening& opening)
         : OpenEndpoint(opening),
-          Asker(opening.core.look_ups),
+          NameUser(opening.core.look_ups),
           core_(opening.core),
           peers_(opening.core, *this, *this),
           retry_(opening.core, *this, *this) {}
@@ -59,11 +59,12 @@ SetupResult<void> UdpIn::open(const std::vector<net::Address>& addresses) {
         info.rcvbuf_bytes = port->socket().receive_buffer_bytes();
         ports_.push_back(std::move(port));
     }
-    core_.news.notice(info.id, fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
+    core_.events.notice(info.id,
+                        fmt::format("{}: listening (receive buffer {} bytes)", info.label(), info.rcvbuf_bytes));
     if (info.rcvbuf_bytes < options.receive_buffer_bytes)
-        core_.news.notice(info.id, fmt::format("{}: a larger receive buffer loses fewer datagrams in a burst; to "
-                                               "allow one: sysctl net.core.rmem_max={}",
-                                               info.label(), options.receive_buffer_bytes));
+        core_.events.notice(info.id, fmt::format("{}: a larger receive buffer loses fewer datagrams in a burst; to "
+                                                 "allow one: sysctl net.core.rmem_max={}",
+                                                 info.label(), options.receive_buffer_bytes));
     return {};
 }
 

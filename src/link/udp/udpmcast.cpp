@@ -24,7 +24,7 @@ public:
           idle_(opening.endpoint.options.idle.value_or(UdpPeers::default_idle)),
           hearing_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
           sending_(opening.core, *this, counters, opening.endpoint.options.mtu_bytes),
-          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.languages.of(opening.id).table,
+          group_(opening.id, queue_limits(opening.endpoint.options), opening.core.dialects.of(opening.id).table,
                  sending_, group),
           retry_(opening.core, *this, *this) {
         group_.name = opening.endpoint.label();
@@ -84,7 +84,7 @@ SetupResult<void> UdpMulticast::join() {
     info.rcvbuf_bytes = hearing_.socket().receive_buffer_bytes();
     failing_ = false;
     retry_.after(idle_);
-    core_.news.set_up(group_);
+    core_.events.set_up(group_);
     return {};
 }
 

@@ -13,11 +13,11 @@ namespace mavloom::link::detail {
 
 namespace {
 
-class UdpOut final : public OpenEndpoint, public Asker, public UdpOwner, public net::TimerHandler {
+class UdpOut final : public OpenEndpoint, public NameUser, public UdpOwner, public net::TimerHandler {
 public:
     UdpOut(Opening& opening, std::optional<net::Address> local)
         : OpenEndpoint(opening),
-          Asker(opening.core.look_ups),
+          NameUser(opening.core.look_ups),
           core_(opening.core),
           local_(local),
           idle_(opening.endpoint.options.idle.value_or(std::chrono::seconds(60))),
@@ -96,13 +96,13 @@ SetupResult<void> UdpOut::aim_at(const net::Address& address) {
     if (auto done = open_port(address); !done) return done;
     if (!peer_) {
         peer_ = std::make_unique<UdpPeer>(info.id, queue_limits(info.endpoint.options),
-                                          core_.languages.of(info.id).table, *port_, address);
+                                          core_.dialects.of(info.id).table, *port_, address);
         peer_->name = info.endpoint.label();
         peer_->signature = signature.get();
         core_.add_link(*peer_);
     }
     peer_->move_to(address);
-    core_.news.set_up(*peer_);
+    core_.events.set_up(*peer_);
     return {};
 }
 
@@ -122,7 +122,7 @@ void UdpOut::on_resolved(net::Resolver::Answer&& answer) {
 void UdpOut::on_send_error(net::IoError error) {
     if (!peer_) return;
     const bool refused = error == net::IoError::refused;
-    if (!retry_.failing())
+    if (!retry_.is_failing())
         retry_.report(
             peer_->address.text() + (refused ? " refuses (no program listens there yet)" : " cannot be reached"),
             "sending continues");
@@ -139,12 +139,12 @@ void UdpOut::on_timer(MonoTime now) {
     if (heard && now - peer_->last_heard < Retry::first) {
         retry_.settle();
         retry_.reset();
-    } else if (retry_.failing() && current_ + 1 < addresses_.size()) {
+    } else if (retry_.is_failing() && current_ + 1 < addresses_.size()) {
         ++current_;
         if (auto done = aim_at(addresses_[current_]); !done) retry_.later();
     } else if (is_name_ && !heard) {
         look_up(info.endpoint.address);
-    } else if (retry_.failing() && addresses_.size() > 1) {
+    } else if (retry_.is_failing() && addresses_.size() > 1) {
         current_ = 0;
         if (auto done = aim_at(addresses_[0]); !done) retry_.later();
     }

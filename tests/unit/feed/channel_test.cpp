@@ -28,7 +28,7 @@ struct ChannelTest : ::testing::Test {
 // ---- readers
 
 TEST_F(ChannelTest, EachReaderGetsEveryFrameInOrder) {
-    Consumer one(channel, {}), two(channel, {});
+    ChannelReader one(channel, {}), two(channel, {});
     receive_numbers(*channel, 1, 500);
     EXPECT_EQ(numbers_in(one), from_to(1, 500));
     EXPECT_EQ(numbers_in(two), from_to(1, 500));
@@ -37,7 +37,7 @@ TEST_F(ChannelTest, EachReaderGetsEveryFrameInOrder) {
 
 TEST_F(ChannelTest, AReaderBeginsWithWhatArrivesAfterIt) {
     receive_numbers(*channel, 1, 2);
-    Consumer reader(channel, {});
+    ChannelReader reader(channel, {});
     EXPECT_THAT(numbers_in(reader), IsEmpty());
     receive_numbers(*channel, 3, 3);
     EXPECT_THAT(numbers_in(reader), ElementsAre(3));
@@ -45,7 +45,7 @@ TEST_F(ChannelTest, AReaderBeginsWithWhatArrivesAfterIt) {
 }
 
 TEST_F(ChannelTest, ASlowReaderMissesTheOldestAndCostsTheOthersNothing) {
-    Consumer slow(channel, {}), fast(channel, {});
+    ChannelReader slow(channel, {}), fast(channel, {});
     std::vector<std::uint32_t> heard;
     for (std::uint32_t number = 1; number <= many; number += 100) {
         receive_numbers(*channel, number, number + 99);
@@ -61,7 +61,7 @@ TEST_F(ChannelTest, ASlowReaderMissesTheOldestAndCostsTheOthersNothing) {
 }
 
 TEST_F(ChannelTest, AFilterSelectsBySystemComponentAndId) {
-    Consumer second_system(channel, {.system = 2}), heartbeats(channel, {.ids = std::vector{MessageId{0}}}),
+    ChannelReader second_system(channel, {.system = 2}), heartbeats(channel, {.ids = std::vector{MessageId{0}}}),
         nothing(channel, {.ids = std::vector<MessageId>{}}), other_component(channel, {.component = 9});
     receive(*channel, numbered(1, 1));
     receive(*channel, numbered(2, 2));
@@ -73,7 +73,7 @@ TEST_F(ChannelTest, AFilterSelectsBySystemComponentAndId) {
 }
 
 TEST_F(ChannelTest, AFrameComesWithItsTimeLinkDefinitionAndVerdict) {
-    Consumer reader(channel, {});
+    ChannelReader reader(channel, {});
     const auto bytes = numbered(1);
     auto of_ring = received(bytes, LinkId{7}, WallTime{5ns});
     of_ring.ring_verdict = 33;
@@ -91,7 +91,7 @@ TEST_F(ChannelTest, AFrameComesWithItsTimeLinkDefinitionAndVerdict) {
 
 TEST_F(ChannelTest, WhatAVerifyingEndpointLetsPassIsGood) {
     channel = std::make_shared<Channel>(default_dialect(), std::make_shared<LinkNames>(), smallest_buffer, true);
-    Consumer reader(channel, {});
+    ChannelReader reader(channel, {});
     receive(*channel, test::heartbeat_signed_1);
     receive(*channel, test::heartbeat_v2);
     ASSERT_TRUE(reader.take(batch, 10));
@@ -102,7 +102,7 @@ TEST_F(ChannelTest, WhatAVerifyingEndpointLetsPassIsGood) {
 // So that the loop thread waits for the mutex only shortly, whatever the filter leaves out.
 TEST_F(ChannelTest, OneTakeLooksAtALimitedNumberOfFramesAndAsksForAnother) {
     channel = make_channel(1 << 20);
-    Consumer reader(channel, {.system = 2});
+    ChannelReader reader(channel, {.system = 2});
     receive_numbers(*channel, 1, many);
     receive(*channel, numbered(many + 1, 2));
     const int fd = *reader.event_fd();
@@ -119,7 +119,7 @@ TEST_F(ChannelTest, OneTakeLooksAtALimitedNumberOfFramesAndAsksForAnother) {
 // ---- waiting
 
 TEST_F(ChannelTest, TheDescriptorTellsOncePerPollThatFoundNothing) {
-    Consumer reader(channel, {.system = 2});
+    ChannelReader reader(channel, {.system = 2});
     const int fd = *reader.event_fd();
     EXPECT_EQ(read_count(fd), 1u);  // from the start, so that the first poll is made
     receive_numbers(*channel, 1, 1);
@@ -144,7 +144,8 @@ TEST_F(ChannelTest, TheDescriptorTellsOncePerPollThatFoundNothing) {
 }
 
 TEST_F(ChannelTest, ClosingTheChannelWakesEverybodyAndKeepsTheRest) {
-    auto reader = std::make_unique<Consumer>(channel, Filter{}), other = std::make_unique<Consumer>(channel, Filter{});
+    auto reader = std::make_unique<ChannelReader>(channel, Filter{}),
+         other = std::make_unique<ChannelReader>(channel, Filter{});
     const int fd = *other->event_fd();
     read_count(fd);
     std::atomic<int> ended{0};
@@ -165,7 +166,7 @@ TEST_F(ChannelTest, ClosingTheChannelWakesEverybodyAndKeepsTheRest) {
 }
 
 TEST_F(ChannelTest, ClosingOneReaderLeavesTheOthers) {
-    Consumer closing(channel, {}), staying(channel, {});
+    ChannelReader closing(channel, {}), staying(channel, {});
     const int fd = *closing.event_fd();
     read_count(fd);
     std::thread waiting([&] {
@@ -190,7 +191,7 @@ void receive_in_turns(Channel& channel, std::uint32_t last, std::uint32_t a_turn
 
 TEST_F(ChannelTest, ThreadsShareAReaderAndEachFrameGoesToOneOfThem) {
     channel = make_channel(1 << 22);
-    Consumer reader(channel, {});
+    ChannelReader reader(channel, {});
     std::array<std::vector<std::uint32_t>, 4> heard;
     std::atomic<std::uint32_t> left{many};
     std::vector<std::thread> threads;
@@ -220,7 +221,7 @@ TEST_F(ChannelTest, ThreadsShareAReaderAndEachFrameGoesToOneOfThem) {
 // hurt another, and what each of the first two gets and misses is all there was.
 TEST_F(ChannelTest, ReadersOfAllKindsShareAChannelThatReceives) {
     std::atomic<bool> done{false};
-    const auto read_all = [&](Consumer& reader, auto&& wait) {
+    const auto read_all = [&](ChannelReader& reader, auto&& wait) {
         std::uint64_t count = 0;
         for (std::uint32_t last = 0; last != many;) {
             const auto numbers = numbers_in(reader);
@@ -231,7 +232,7 @@ TEST_F(ChannelTest, ReadersOfAllKindsShareAChannelThatReceives) {
         }
         EXPECT_EQ(count + reader.missed(), many);
     };
-    Consumer waits(channel, {}), polls(channel, {});
+    ChannelReader waits(channel, {}), polls(channel, {});
     std::thread waiting([&] { read_all(waits, [&] { waits.wait(MonoTime::max()); }); });
     std::thread polling([&] {
         const int fd = *polls.event_fd();
@@ -242,7 +243,7 @@ TEST_F(ChannelTest, ReadersOfAllKindsShareAChannelThatReceives) {
     });
     std::thread coming([&] {
         while (!done) {
-            Consumer reader(channel, {.system = 1});
+            ChannelReader reader(channel, {.system = 1});
             EXPECT_TRUE(std::ranges::is_sorted(numbers_in(reader)));
         }
     });
@@ -269,7 +270,7 @@ TEST_F(ChannelTest, ClosingWhileItReceivesAndIsReadEndsEveryReader) {
         std::vector<std::thread> readers;
         for (int i = 0; i < 3; ++i)
             readers.emplace_back([&] {
-                Consumer reader(closing, {});
+                ChannelReader reader(closing, {});
                 for (FrameBatch mine; reader.take(mine, 64); mine.clear()) reader.wait(MonoTime::max());
             });
         receive_in_turns(*closing, 200, 5);
@@ -291,7 +292,7 @@ struct HeldChannelTest : ChannelTest {
     }
     std::uint32_t last = 0;
     int calls = 0;
-    std::unique_ptr<Consumer> reader = std::make_unique<Consumer>(channel, Filter{});
+    std::unique_ptr<ChannelReader> reader = std::make_unique<ChannelReader>(channel, Filter{});
     HeldChannelTest() {
         channel->hold_for(reader.get(), [this] { ++calls; });
     }
@@ -313,7 +314,7 @@ TEST_F(HeldChannelTest, ReadingMakesRoomAndTellsItOnce) {
 }
 
 TEST_F(HeldChannelTest, OtherReadersHoldNothing) {
-    Consumer other(channel, {});
+    ChannelReader other(channel, {});
     while (last < many) {
         fill();
         numbers_in(*reader);
@@ -439,7 +440,7 @@ TEST_F(ChannelTest, AMessageThatWasNeverReceivedWholeIsNamed) {
 // so they ask a few times only.
 TEST_F(ChannelTest, WhatItKnowsMayBeAskedWhileItReceives) {
     constexpr int times = 10;
-    Consumer reader(channel, {});
+    ChannelReader reader(channel, {});
     const std::vector<std::function<void()>> questions{[&] { EXPECT_LE(channel->target().system.value, 4); },
                                                        [&] { EXPECT_LE(channel->losses().size(), 1u); },
                                                        [&] { EXPECT_LE(channel->crc_errors().size(), 1u); },

@@ -77,7 +77,7 @@ inline void receive_numbers(Channel& channel, std::uint32_t first, std::uint32_t
 }
 
 // All that `reader` has now.
-inline std::vector<std::uint32_t> numbers_in(Consumer& reader) {
+inline std::vector<std::uint32_t> numbers_in(ChannelReader& reader) {
     std::vector<std::uint32_t> numbers;
     FrameBatch batch;
     for (bool more = true; more; batch.clear()) {

@@ -27,7 +27,7 @@ public:
     explicit Opened(const std::string& url, std::size_t buffer_bytes = 1 << 22)
         : hub(Hub::get().value()),
           channel(make_channel(buffer_bytes)),
-          reader(std::make_unique<Consumer>(channel, Filter{})),
+          reader(std::make_unique<ChannelReader>(channel, Filter{})),
           opened(hub->open(endpoint_of(url), channel, *reader)) {
         EXPECT_TRUE(opened) << url << ": " << (opened ? "" : opened.error().text);
     }
@@ -60,7 +60,7 @@ public:
 
     std::shared_ptr<Hub> hub;
     std::shared_ptr<Channel> channel;
-    std::unique_ptr<Consumer> reader;
+    std::unique_ptr<ChannelReader> reader;
     SetupResult<Hub::Opened> opened;
 
 private:
@@ -121,7 +121,7 @@ TEST(Hub, OneServesAllAndEndsWithTheLast) {
 TEST(Hub, WhatCannotBeOpenedSaysWhyAndLeavesTheHubAsItWas) {
     Opened taken("udpin://127.0.0.1:0");
     const auto channel = make_channel();
-    const Consumer reader(channel, {});
+    const ChannelReader reader(channel, {});
     const auto again = taken.hub->open(endpoint_of(fmt::format("udpin://127.0.0.1:{}?required=true", taken.port())),
                                        channel, reader);
     ASSERT_FALSE(again);
@@ -175,7 +175,7 @@ TEST(Hub, ClosingSendsWhatIsQueued) {
 TEST(HubLinks, AreFlushedOnceAllIsSentOrNobodyIsThere) {
     HubLinks links(std::move(*Sources::create(dialect::default_dialect())));
     const auto channel = make_channel();
-    const Consumer reader(channel, {});
+    const ChannelReader reader(channel, {});
     const auto opened = links.open(endpoint_of("tcpin://127.0.0.1:0"), channel, reader);
     ASSERT_TRUE(opened);
     EXPECT_TRUE(links.is_flushed(opened->endpoint));

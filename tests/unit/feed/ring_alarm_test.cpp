@@ -67,7 +67,7 @@ TEST_F(RingAlarmTest, ItIsReadableFromTheStartSoThatTheFirstLookIsMade) {
     EXPECT_EQ(read_count(ring.fd()), 1u);
 }
 
-TEST_F(RingAlarmTest, ItTellsOncePerArmingAndNotUnlessArmed) {
+TEST_F(RingAlarmTest, NotifiesOnceForEachArmingAndNeverUnlessArmed) {
     AlarmedRing ring(name);
     read_count(ring.fd());
     ring.write();

@@ -210,17 +210,17 @@ TEST(PeerList, ExpiresASilentPeerAtItsTimeThoughAnotherWasHeardLater) {
     EXPECT_EQ(sut.size(), 1u);
 }
 
-// The class and the key belong to a language: what supersedes itself here is unknown there.
-TEST(Departure, AsksTheLanguageOfEachLink) {
+// The class and the key depend on the dialect: a message that supersedes itself in one is unknown in the other.
+TEST(OutgoingFrame, AsksTheLanguageOfEachLink) {
     dialect::test::XmlFolder folder;
     folder.write("a.xml",
                  "<mavlink><messages><message id=\"40000\" name=\"X\"><description/>"
                  "<field type=\"uint8_t\" name=\"x\">x</field></message></messages></mavlink>");
     const auto other = *folder.load();
-    const Language usual(dialect::default_dialect()), small(other);
+    const LinkDialect usual(dialect::default_dialect()), small(other);
     const auto bytes = testing::attitude(0);
     const auto frame = testing::view(bytes);
-    Departure sut(frame);
+    OutgoingFrame sut(frame);
 
     const auto key = sut.key(usual);
     EXPECT_NE(key, 0u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Turns: a mutex for threads that hold it while they wait for data. They wait in slices, so that other threads can take
-// the mutex between two slices. Any thread may use it. `peek` is for one further thread that must never wait, such as
-// the thread of RingAlarm.
+// SlicedMutex: a mutex for threads that hold it while they wait for data. They wait in slices, so that other threads
+// can take the mutex between two slices. Any thread may use it. `peek` is for one further thread that must never wait,
+// such as the thread of RingAlarm.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace mavloom::feed {
 
-// The longest wait while holding the mutex. Between two slices, callers handle signals and other threads get their
-// turn.
+// The longest wait while holding the mutex. Between two slices, callers handle signals and other threads get
+// the mutex.
 inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
 
@@ -27,7 +27,7 @@ inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
     return number;
 }
 
-class Turns {
+class SlicedMutex {
 public:
     using Lock = std::unique_lock<std::timed_mutex>;
 
@@ -36,8 +36,8 @@ public:
         const Asking asking(asking_);
         return Lock(mutex_);
     }
-    // Never waits for another thread's turn, only for a `peek` to end. If the returned lock is not owned, another
-    // thread has its turn.
+    // Never waits for another thread, only for a `peek` to end. If the returned lock is not owned, another
+    // thread has the mutex.
     [[nodiscard]] Lock try_take() {
         for (;;) {
             const unsigned peeks = peeks_.load();
@@ -47,8 +47,8 @@ public:
             std::this_thread::yield();
         }
     }
-    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has its
-    // turn.
+    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has
+    // it.
     [[nodiscard]] Lock take_until(MonoTime deadline) {
         Lock lock = try_take();
         if (lock.owns_lock()) return lock;
@@ -57,7 +57,7 @@ public:
         return lock;
     }
     // Call between two slices, without the lock: lets threads that ask for it go first.
-    void yield_turn() const {
+    void let_others() const {
         if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     // Calls `look(is_free)` and returns its result. If the mutex was free, `peek` holds it during the call. Never

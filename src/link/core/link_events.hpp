@@ -15,7 +15,7 @@
 
 namespace mavloom::link::detail {
 
-class News {
+class LinkEvents {
 public:
     void begin_turn(LinkHandler& handler, const LinkTable& links);
     void end_turn() noexcept { handler_ = nullptr; }

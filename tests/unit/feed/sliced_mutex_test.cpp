@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mavloom/feed/turns.hpp"
+#include "mavloom/feed/sliced_mutex.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,76 +34,76 @@ namespace {
 
 using namespace testing;
 
-TEST(Turns, OneThreadAtATimeHasItsTurn) {
-    Turns turns;
+TEST(SlicedMutex, OneThreadAtATimeHasIt) {
+    SlicedMutex mutex;
     int guarded = 0;  // what the thread sanitizer watches
     std::vector<std::thread> threads;
     for (int i = 0; i < 4; ++i)
         threads.emplace_back([&] {
             for (int round = 0; round < 500; ++round) {
                 {
-                    const auto lock = turns.take();
+                    const auto lock = mutex.take();
                     ++guarded;
                 }
-                if (const auto lock = turns.try_take(); lock.owns_lock()) --guarded, ++guarded;
-                if (const auto lock = turns.take_until(mono_now() + long_enough); lock.owns_lock()) ++guarded;
+                if (const auto lock = mutex.try_take(); lock.owns_lock()) --guarded, ++guarded;
+                if (const auto lock = mutex.take_until(mono_now() + long_enough); lock.owns_lock()) ++guarded;
                 else --round;  // after a slice: again
-                turns.yield_turn();
+                mutex.let_others();
             }
         });
     for (auto& thread : threads) thread.join();
-    const auto lock = turns.take();
+    const auto lock = mutex.take();
     EXPECT_GE(guarded, 4 * 500 * 2);
 }
 
-TEST(Turns, WhoOnlyTriesIsRefusedDuringATurn) {
-    Turns turns;
-    const auto held = turns.take();
+TEST(SlicedMutex, TryTakeFailsWhileAnotherThreadHoldsIt) {
+    SlicedMutex mutex;
+    const auto held = mutex.take();
     bool refused = false, refused_after_a_slice = false;
     std::thread([&] {
-        refused = !turns.try_take().owns_lock();
-        refused_after_a_slice = !turns.take_until(MonoTime::max()).owns_lock();
+        refused = !mutex.try_take().owns_lock();
+        refused_after_a_slice = !mutex.take_until(MonoTime::max()).owns_lock();
     }).join();
     EXPECT_TRUE(refused);
     EXPECT_TRUE(refused_after_a_slice);
 }
 
 // A thread that waits slice by slice and lets others in between must not starve the others.
-TEST(Turns, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
-    Turns turns;
+TEST(SlicedMutex, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
+    SlicedMutex mutex;
     std::atomic<bool> had_turn{false};
     std::thread asking([&] {
-        const auto lock = turns.take();
+        const auto lock = mutex.take();
         had_turn = true;
     });
     EXPECT_TRUE(eventually([&] {
         for (int slice = 0; slice < 100 && !had_turn; ++slice) {
-            turns.yield_turn();
-            const auto lock = turns.take_until(MonoTime::max());
+            mutex.let_others();
+            const auto lock = mutex.take_until(MonoTime::max());
         }
         return had_turn.load();
     }));
     asking.join();
 }
 
-TEST(Turns, AGlanceNeverWaitsAndSeesWhetherTheTurnIsFree) {
-    Turns turns;
-    EXPECT_TRUE(turns.peek([](bool is_free) { return is_free; }));
-    const auto held = turns.take();
+TEST(SlicedMutex, PeekNeverWaitsAndSeesWhetherItIsFree) {
+    SlicedMutex mutex;
+    EXPECT_TRUE(mutex.peek([](bool is_free) { return is_free; }));
+    const auto held = mutex.take();
     bool free = true;
-    std::thread([&] { free = turns.peek([](bool is_free) { return is_free; }); }).join();
+    std::thread([&] { free = mutex.peek([](bool is_free) { return is_free; }); }).join();
     EXPECT_FALSE(free);
 }
 
 // Otherwise a read that does not wait would find nothing, although there are records.
-TEST(Turns, WhoTriesLosesNoTurnToAGlance) {
-    Turns turns;
+TEST(SlicedMutex, TryTakeSucceedsDuringAPeek) {
+    SlicedMutex mutex;
     constexpr int enough = 20'000;
     std::atomic<int> peeks{0};
     int guarded = 0;
     std::thread glancing([&] {
         while (peeks < enough)
-            peeks += turns.peek([&](bool is_free) {
+            peeks += mutex.peek([&](bool is_free) {
                 if (is_free) ++guarded;
                 return 1;
             });
@@ -111,7 +111,7 @@ TEST(Turns, WhoTriesLosesNoTurnToAGlance) {
     int refused = 0;
     while (peeks < enough) {
         {
-            const auto lock = turns.try_take();
+            const auto lock = mutex.try_take();
             if (lock.owns_lock()) --guarded;
             else ++refused;
         }
