@@ -138,13 +138,13 @@ void PlanService::on_item(const Client& from, const Request& request, Moment now
     Transfer* const transfer = type ? find(from, *type) : nullptr;
     if (transfer == nullptr || transfer->stage == Stage::download)
         return acknowledge(from, request.mission_type, MAV_MISSION_ERROR);
+    transfer->heard = now.real;
     if (transfer->stage == Stage::finished) {
         // The last MISSION_ACK was lost.
         const std::uint32_t id = parts_.flight.plans().of(*type).id();
         if (request.seq + 1 == transfer->end) acknowledge(from, request.mission_type, MAV_MISSION_ACCEPTED, id);
         return;
     }
-    transfer->heard = now.real;
     if (request.seq == transfer->next) return store_item(*transfer, request, now);
     // An older item is a late duplicate. PX4 ignores newer ones as well and repeats its request.
     if (request.seq > transfer->next && !parts_.firmware.is_px4())

@@ -245,6 +245,11 @@ TEST_F(PlanService, AnswersADuplicateOfTheLastItemAgain) {
 
     ASSERT_TRUE(rig.last<MissionAck>());
     EXPECT_EQ(*rig.last<MissionAck>(), *first);
+    for (int i = 0; i < 3; ++i) {  // the answers are lost again
+        rig.run(3);
+        rig.send(waypoint(1));
+        EXPECT_EQ(last_result(), MAV_MISSION_ACCEPTED);
+    }
     rig.run(5.1);
     rig.send(waypoint(1));
     EXPECT_EQ(last_result(), MAV_MISSION_ERROR) << "there is no upload any more";
