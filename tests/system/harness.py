@@ -209,13 +209,15 @@ class Running:
 
 
 def end(processes):
-    """Kills what still runs, and removes the sockets that a killed router leaves."""
+    """Kills what still runs, and removes the sockets, rings and pages that a killed program leaves."""
     for process in processes:
         process.kill()
         if process.process.returncode != -signal.SIGKILL:
             continue
         names = [process.args[process.args.index(option) + 1] for option in ("--name", "--ring")
                  if option in process.args]
-        for left in (RUN / f"{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in")):
+        sockets = (RUN / f"{name}.{suffix}" for name in names for suffix in ("ctl", "ctl.lock", "in"))
+        rings = (pathlib.Path(f"/dev/shm/mavloom.{name}{suffix}") for name in names for suffix in ("", ".stat"))
+        for left in (*sockets, *rings):
             with contextlib.suppress(OSError):
                 os.unlink(left)
