@@ -50,6 +50,21 @@ TEST(BlockQueue, KeepsOrderAndLiesInOnePiece) {
     EXPECT_EQ(queue.blocks(), 3u);
 }
 
+// For some sizes, the memory area is too small for the last block by a single byte.
+TEST(BlockQueue, GrowsForBlocksOfEverySize) {
+    for (std::size_t size = 1; size <= 300; ++size) {
+        BlockQueue queue = queue_of(40'000);
+        std::string expected;
+        for (char letter = 'a'; expected.size() + size <= 40'000;
+             letter = letter == 'z' ? 'a' : static_cast<char>(letter + 1)) {
+            const std::string block(size, letter);
+            ASSERT_TRUE(push(queue, block).queued);
+            expected += block;
+        }
+        ASSERT_EQ(content(queue), expected) << size;
+    }
+}
+
 TEST(BlockQueue, GivesAStreamNoMoreBlocksThanFitYetAlwaysTheFirst) {
     BlockQueue queue = queue_of(100);
     for (const auto* text : {"aaaa", "bbbb", "cccc"}) push(queue, text);

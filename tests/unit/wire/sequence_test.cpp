@@ -46,6 +46,15 @@ TEST(SequenceTracker, CountsAGapAcrossTheWrap) {
     EXPECT_EQ(sut.total().lost, 3u);
 }
 
+TEST(SequenceTracker, RecognisesARepeatedFrameAtEverySequenceNumber) {
+    SequenceTracker sut;
+    for (unsigned s = 0; s < 300; ++s) {
+        sut.update(TestFrame(s));
+        if (s < 5) continue;
+        EXPECT_EQ(sut.update(TestFrame(s - 5)).verdict, Verdict::duplicate) << s;
+    }
+}
+
 TEST(SequenceTracker, BeginsAnewWithTheSumsItHas) {
     SequenceTracker sut;
     sut.update(TestFrame(1));
