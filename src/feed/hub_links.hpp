@@ -69,7 +69,7 @@ private:
 
     // sources_ refers to dialects that the channels in open_ own, so open_ is destroyed after it.
     std::unordered_map<link::EndpointId, OpenLink> open_;
-    // Maps each entry inlet to the endpoint that fills its ring.
+    // Maps each served inlet to the endpoint that fills its ring.
     std::unordered_map<link::EndpointId, link::EndpointId> filled_from_;
     Sources sources_;
     MonoTime look_due_{};  // when to look after the recorders

@@ -5,7 +5,7 @@
 // The first senders enter at once, later ones at a steady rate. A sender that is turned away during a flood enters when
 // it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many of them
 // repeat, they enter at a steady rate too. `ask` allocates once: a table of senders, when the first is turned away.
-// docs/design/security.md
+// See docs/design/security.md.
 #pragma once
 
 #include <algorithm>
@@ -43,15 +43,15 @@ public:
     // `burst`: how many may enter at once.
     explicit Admission(std::size_t burst) noexcept : burst_(static_cast<double>(burst)), tokens_(burst_) {}
 
-    // Returns whether this sender may become a peer now. If the answer is `admitted`, call `note_entry` once the sender
-    // has cost more work, even if it is turned away after all.
+    // Returns whether this sender may become a peer now. After `admitted`, call `note_entry` if its datagram holds a
+    // valid frame, even if the endpoint then has no room for the peer.
     [[nodiscard]] Answer ask(const net::Address& sender, MonoTime now) {
         refill(now);
         if (tokens_ >= 1) return Answer::admitted;
         if (!has_repeated(sender, now)) return Answer::refused;
         return repeater_tokens_ >= 1 ? Answer::admitted : Answer::limited;
     }
-    // Returns whether the sender also sent 0.5 to 10 s ago.
+    // Returns whether the sender was first seen 0.5 to 10 s ago. If it was not seen in the last 10 s, remembers it.
     [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
         if (seen_ == nullptr) seen_ = std::make_unique<Bucket[]>(remembered / std::tuple_size_v<Bucket>);
         const std::uint64_t hash = secret_hash(sender.hash());  // twice: spreads successive ports evenly

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Chooses which peer leaves when all peers talk, max_peers is reached, and another sender waits. Otherwise somebody who
-// came first with many addresses keeps all others out.
+// Chooses which peer to evict when max_peers is reached, all peers talk, and another sender waits. Without this, an
+// attacker that comes first with many addresses keeps all others out.
 //
 // The older half never leaves, so peers that were there before a crowd keep their places. Of the younger half, a random
 // peer leaves. So a late vehicle among hundreds of others soon has a place, and mostly keeps it for minutes. With few
@@ -25,8 +25,8 @@ public:
 
     explicit Displacement(std::uint32_t seed = std::random_device{}()) : random_(seed) {}
 
-    // Returns null if no peer has to leave now. The link ids tell in which order the peers came (times do not: all that
-    // come in one turn have the same). Allocates.
+    // Returns null if no peer has to leave now. The link ids give the order in which the peers came. Times do not,
+    // because all peers that come in one turn have the same time. Allocates.
     template <class Peer>
     [[nodiscard]] Peer* choose(std::vector<Peer*> peers, MonoTime now) {
         if (peers.size() < fewest_peers || !take_turn(now)) return nullptr;

@@ -46,7 +46,7 @@ public:
     // heartbeat of each link is due at once and its sequence numbers restart.
     void configure(const config::RouterConfig& config);
 
-    // Adds a link that came up. `beats`: whether it gets heartbeats.
+    // Adds a link that came up. `beats`: whether the router sends heartbeats to it.
     void add(LinkId link, bool beats, MonoTime now);
     void remove(LinkId link);
 

@@ -58,6 +58,7 @@ struct RecordConfig {
     std::chrono::nanoseconds rotate_every{};
 };
 
+// Reserved for a dashboard: the value is checked, but nothing listens there yet.
 struct WebConfig {
     endpoint::HostPort listen;
 };

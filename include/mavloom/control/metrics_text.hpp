@@ -13,7 +13,7 @@ namespace mavloom::control {
 // Groups samples by metric, because the format requires all samples of one name to follow its TYPE line.
 class MetricsText {
 public:
-    // Adds mavloom_PREFIX_NAME_total for each count, an object with `name` and `value`.
+    // Adds the sample mavloom_PREFIX_NAME_total for each element of `counts`, which must have `name` and `value`.
     void add(std::string_view prefix, const auto& counts, std::string_view labels) {
         for (const auto& count : counts) add_total(prefix, count.name, labels, count.value);
     }

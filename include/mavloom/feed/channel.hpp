@@ -149,8 +149,9 @@ public:
     [[nodiscard]] SetupResult<int> event_fd();
     // Frames that were overwritten before this reader read them.
     [[nodiscard]] std::uint64_t missed() const;
-    // Return frame numbers: one past the newest frame of the channel, and one past the last frame that `take` examined.
+    // Frames of a channel are numbered. Returns the number after the channel's newest frame.
     [[nodiscard]] std::uint64_t newest() const;
+    // Returns the number after the last frame that `take` examined.
     [[nodiscard]] std::uint64_t seen() const;
     // Whether the reader or its channel is closed.
     [[nodiscard]] bool closed() const noexcept { return closed_ || channel_->closed_; }

@@ -59,7 +59,7 @@ public:
     // Waits for a frame, for about a second at most, so that the consumer can look after its file. Returns false once
     // receiving has stopped and all frames are read.
     [[nodiscard]] bool wait() noexcept { return queue_->wait(); }
-    // The name of a link, valid as long as the receiver exists. ChannelReader thread only.
+    // The name of a link, valid as long as the receiver exists. Consumer thread only.
     [[nodiscard]] std::string_view link_name(LinkId link);
 
     // After stop:

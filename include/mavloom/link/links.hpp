@@ -7,7 +7,7 @@
 // with back-off.
 //
 // One thread owns and drives the object. Any thread may call `wake()` and read counter values. The frame path does not
-// allocate, lock or log. Queues: docs/guide/queues.md. Loss: docs/guide/routing.md.
+// allocate, lock or log. Queues: docs/guide/queues.md. Counters: docs/guide/route.md.
 #pragma once
 
 #include <sys/types.h>
@@ -149,8 +149,8 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, endpoints are independent of each other, as if each belonged to a program of its own. Several of
-    // them may have the same address (the caller distinguishes them by id), and one accepts frames that another signed.
+    // From now on, treats each endpoint as if it belonged to a program of its own. So several endpoints may have the
+    // same address, and an endpoint accepts frames that another endpoint signed.
     void make_independent() noexcept;
     // Returns whether another endpoint with the same address may be added.
     [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
@@ -184,8 +184,8 @@ public:
     // The amount read per turn is bounded, so that one flooded socket cannot starve the others. Under heavy load a turn
     // starts at least 0.2 ms after the previous one, unless an endpoint has low_latency.
     std::size_t turn(LinkHandler& handler, MonoTime deadline);
-    // From now on a turn reads as much as it can from each socket, even if that takes long: for a caller that ends, and
-    // takes what has arrived.
+    // From now on, a turn reads as much as it can from each socket, even if that takes long. Call it before the last
+    // turns, to receive everything that has arrived.
     void read_all() noexcept;
 
     std::size_t send(std::span<const LinkId> links, const wire::FrameView& frame) override;
@@ -210,7 +210,8 @@ public:
 
     // The links that exist now. A link's `counters` stay valid until its on_link_down has returned.
     [[nodiscard]] std::vector<LinkInfo> links() const;
-    // The ids of the links that exist now, sorted; and those of `ids` that still exist. For a copy in pieces.
+    // For a copy in pieces. `link_ids` returns the ids of the current links, sorted. `links` returns the links with
+    // these ids, without those that are gone.
     [[nodiscard]] std::vector<LinkId> link_ids() const;
     [[nodiscard]] std::vector<LinkInfo> links(std::span<const LinkId> ids) const;
     [[nodiscard]] std::vector<EndpointInfo> endpoints() const;

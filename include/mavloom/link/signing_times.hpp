@@ -27,7 +27,7 @@ public:
     // Saves the final time.
     ~SigningTimes();
 
-    // Sign later than this.
+    // The last time that was signed with the key. The next signature must have a later time.
     [[nodiscard]] wire::SigningTime last() const noexcept;
     // Notes the last time that was signed. Call it often: it saves every 2 s, and a program that is killed then signs
     // no time again after its restart. `notices` receives errors of earlier writes.

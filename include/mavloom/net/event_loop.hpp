@@ -62,8 +62,9 @@ public:
     void change(WatchId id, bool readable, bool writable) noexcept;
     void unwatch(WatchId& id) noexcept;
 
-    // Calls `handler` once, at or after `when`. Cancelling an expired or empty timer does nothing.
+    // Calls `handler` once, at or after `when`.
     [[nodiscard]] TimerId start_timer(MonoTime when, TimerHandler& handler);
+    // Does nothing for an expired or empty timer.
     void cancel_timer(TimerId& id) noexcept;
 
     // Waits for an event, a due timer or `deadline`, whichever comes first. May occasionally return early with nothing

@@ -49,8 +49,8 @@ private:
     Address remote_;
 };
 
-// Returns whether only the descriptors are left that are kept from clients, for the program's own control socket,
-// recordings and look-ups. `any`: an open descriptor.
+// The process keeps its last descriptors for its control socket, recordings and look-ups. Returns true if only these
+// are left, so that no further client may be accepted. `any`: any open descriptor of the process.
 [[nodiscard]] bool few_descriptors_left(int any) noexcept;
 
 class TcpListener {

@@ -57,9 +57,9 @@ public:
     // Returns when to call play next: at once if frames are waiting, provided there is room. Asks the writer to wake
     // this process earlier if it commits a record.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
-    // Reads no further than the current end of the ring. Later records stay in the ring.
+    // From now on, reads no further than the current end of the ring. Later records stay in the ring.
     void end_here() noexcept;
-    // Returns whether everything up to that end was delivered.
+    // Returns whether `end_here` was called and everything up to that end was delivered.
     [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
     // Pauses reading while `held` is true, because the consumer has no room for more frames.

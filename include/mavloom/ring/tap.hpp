@@ -59,7 +59,7 @@ public:
         if (page_) page_->link_removed(link);
     }
 
-    // Call after each turn. If anything changed, the page becomes due soon.
+    // Call after each turn. If frames arrived or links changed, the page becomes due within a quarter of a second.
     void note_turn(std::size_t frames, MonoTime now) noexcept {
         ran_ = true;
         const bool is_new = std::exchange(links_changed_, false) || frames != 0;

@@ -46,8 +46,8 @@ struct LinkPolicy {
     GroupId group{};
     GroupMode group_mode = GroupMode::all;  // the first link of a group sets the mode of the group
     std::uint32_t group_order = 0;          // `primary` prefers the lowest; ties go to the lowest link id
-    // Links with the same number are peers of one endpoint, which anybody may become. In a group, unverified peers do
-    // not believe each other. 0: the only link of its endpoint.
+    // Links with the same number are peers of one endpoint. Anybody may become such a peer, so the engine does not
+    // assume that unverified ones lead to the same place, even within a group. 0: the only link of its endpoint.
     std::uint32_t endpoint = 0;
     // A tap gets every good frame from the other links, whatever its verdict. Frames from a tap go nowhere.
     bool tap = false;
@@ -84,8 +84,8 @@ enum class Verdict : std::uint8_t {
 
 struct Decision {
     Verdict verdict = Verdict::nowhere;
-    // The links to send the frame to; valid until the next call. It includes taps, except for frames that arrived on a
-    // tap or on an unknown link.
+    // The links to send the frame to; valid until the next call. Includes the taps, unless the frame arrived on a tap
+    // or on an unknown link.
     std::span<const LinkId> links{};
 };
 

@@ -18,8 +18,8 @@ namespace mavloom::router {
 
 using control::Report;
 
-// The first three reports end with the line {"ok":true}.
-//
+// `report_links`, `report_routes` and `report_stats` end with the line {"ok":true}.
+
 // One {"kind":"link",...} line for each current link.
 [[nodiscard]] Report report_links(Router& router);
 // One {"kind":"route",...} line for each system and component on each link where it was heard.

@@ -22,7 +22,7 @@ public:
 
     explicit MessageClasses(const dialect::Dialect& dialect);
 
-    // An id without definition counts as telemetry that is never superseded.
+    // Returns the rule of a message. An id without definition counts as telemetry that is never superseded.
     [[nodiscard]] Rule of(MessageId id) const noexcept { return id.value < direct_size ? direct_[id.value] : find(id); }
     // Returns source, id and instance in one word, never 0, for a replaceable message. Returns 0 for all others.
     [[nodiscard]] static std::uint64_t key(const wire::FrameView& frame, Rule rule) noexcept;

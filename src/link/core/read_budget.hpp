@@ -19,14 +19,15 @@ public:
 
     // How much to read in this turn.
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
-    // Calls `work`, which handles `count` of them, in all `bytes` bytes. At full limit, it does not time a few bytes.
+    // Calls `work`, which handles `count` datagrams or bytes, `bytes` bytes in total, and adjusts the limit to the time
+    // that it took. A few bytes at the full limit are not timed.
     void spend(std::size_t count, std::size_t bytes, auto&& work) {
         if (bytes < worth_measuring && limit_ == most_) return work();
         const MonoTime begin = mono_now();
         work();
         note(count, mono_now() - begin);
     }
-    // `count` of them were handled in `took`.
+    // Adjusts the limit: `count` datagrams or bytes were handled in `took`.
     void note(std::size_t count, Nanoseconds took) noexcept {
         const auto fits = count * turn_share / static_cast<std::size_t>(std::max(took.count(), Nanoseconds::rep{1}));
         limit_ = std::clamp(std::min(fits, limit_ + least_), least_, most_);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Separates late frames from replays among signed frames that arrive over several links of a group.
 //
-// For each sender, the class remembers the newest timestamp that the group had received at an earlier moment, between
-// `least` and `oldest` ago. A late frame is accepted if its timestamp is newer than that. If such a frame is a replay,
-// its first copy arrived after that moment. The router then still remembers the copy and recognises the replay by its
-// bytes. The router relies on the bound Links::longest_late. Under a flood of other frames the router may forget copies
+// For each sender, the class keeps a mark: the newest timestamp that the group had received at a moment between `least`
+// and `oldest` ago. A frame with a newer timestamp than the mark is accepted. If such a frame is a replay, the original
+// arrived after that moment. The router still remembers the original, and so detects the replay by its bytes: it
+// remembers frames for longer than Links::longest_late. Under a flood of other frames the router may forget frames
 // early; its counter `recent_evicted` shows that.
 //
 // Only arrival times count, because signers' clocks need not match ours. Private to module link; single owner thread;

@@ -2,9 +2,10 @@
 // Recognises frames that this process signed and that somebody sends back to it. Without this check, a sender that does
 // not have the key would pass as one that has it.
 //
-// The class remembers about 65,000 signatures of a key: each of 1,024 buckets has its newest 64. A frame with one of
-// our link ids is ours if its bucket has its signature, or if its time is not newer than the newest that the bucket has
-// dropped. So another program with the same key and link id is heard, unless its clock is far behind ours.
+// The class remembers about 65,000 signatures of a key: the newest 64 in each of 1,024 buckets. A frame with one of our
+// link ids counts as ours in two cases: its bucket holds its signature, or its time is not newer than the newest
+// signature that the bucket has dropped. So frames of another program with the same key and link id are accepted,
+// unless its clock is far behind ours.
 //
 // Private to module link; single owner thread; allocates only in `sign_as`.
 #pragma once
