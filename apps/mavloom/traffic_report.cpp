@@ -18,7 +18,7 @@ namespace {
 
 double milliseconds(Nanoseconds t) { return std::chrono::duration<double, std::milli>(t).count(); }
 
-double loss_percent(const feed::SourceLoss& loss) {
+double loss_percent(const feed::ReceivedLoss& loss) {
     const auto sent = loss.received - loss.duplicate + loss.lost;
     return sent == 0 ? 0 : 100.0 * static_cast<double>(loss.lost) / static_cast<double>(sent);
 }
@@ -59,7 +59,7 @@ auto losses_of(const feed::Totals& t) {
     };
 }
 
-void append_source(std::string& out, const feed::SourceLoss& loss, std::string_view link) {
+void append_source(std::string& out, const feed::ReceivedLoss& loss, std::string_view link) {
     fmt::format_to(std::back_inserter(out), "\n{} {}/{}: {}, {} lost ({:.2f} %), {} late, {} duplicate, {} resync\n",
                    link, loss.source.system.value, loss.source.component.value, counted(loss.received, "frame"),
                    loss.lost, loss_percent(loss), loss.late, loss.duplicate, loss.resync);
@@ -76,7 +76,7 @@ void append_row(std::string& out, const observe::TrafficRow& row, std::string_vi
 using Rows = std::vector<observe::TrafficRow>;
 
 // Returns the rows of one source. Both lists are sorted alike, so `from` moves on to the next source's rows.
-std::span<const observe::TrafficRow> rows_of(const feed::SourceLoss& loss, const Rows& rows, std::size_t& from) {
+std::span<const observe::TrafficRow> rows_of(const feed::ReceivedLoss& loss, const Rows& rows, std::size_t& from) {
     const auto key = [](const auto& x) { return std::tuple(x.link, x.source); };
     while (from < rows.size() && key(rows[from]) < key(loss)) ++from;
     const std::size_t begin = from;

@@ -22,11 +22,11 @@ namespace mavloom::python {
 [[nodiscard]] MonoTime deadline_after(std::optional<Nanoseconds> timeout);
 [[nodiscard]] inline MonoTime deadline_after(const nb::object& timeout) { return deadline_after(timeout_of(timeout)); }
 
-class BeforeFork : public feed::BeforeFork {
+class ForkGuard : public feed::ForkGuard {
 public:
     // Raises ClosedError in a forked child of the process that made the object.
     void check() const {
-        if (!is_here()) raise_closed("opened before fork: open it again in this process");
+        if (!is_own_process()) raise_closed("opened before fork: open it again in this process");
     }
 };
 

@@ -64,7 +64,7 @@ SetupResult<void> check_groups(const Config& config, std::string_view file_name)
         config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
             static constexpr std::array<std::string_view, 1> own{"group_mode"};
             const auto& o = endpoint.options;
-            if (o.group.empty() || !o.names_group_mode) return {};
+            if (o.group.empty() || !o.has_group_mode) return {};
             const auto line = detail::line_of(section, own);
             const auto [first, is_first] = chosen.try_emplace(o.group, Chosen{o.group_mode, line});
             if (is_first || first->second.mode == o.group_mode) return {};

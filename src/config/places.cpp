@@ -77,7 +77,9 @@ std::uint32_t detail::line_of(const Section& section, std::span<const std::strin
 
 SetupResult<void> detail::check_recordings(const Config& config, std::string_view file_name) {
     std::set<std::filesystem::path> paths;
-    const auto is_new = [&paths](const std::string& path) { return paths.insert(endpoint::same_file(path)).second; };
+    const auto is_new = [&paths](const std::string& path) {
+        return paths.insert(endpoint::canonical_path(path)).second;
+    };
     if (!config.record.path.empty()) (void)is_new(config.record.path);
     return each_endpoint(config, [&](const endpoint::Endpoint& endpoint, const Section& section) -> SetupResult<void> {
         static constexpr std::array<std::string_view, 2> own{"path", "url"};

@@ -44,8 +44,8 @@ SetupResult<std::vector<std::string>> answer_of(std::string_view text) {
 
 }  // namespace
 
-SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::string_view request,
-                                                 std::chrono::milliseconds limit) {
+SetupResult<std::vector<std::string>> send_request(std::string_view name, std::string_view request,
+                                                   std::chrono::milliseconds limit) {
     const auto path = control_path(name);
     if (!path) return tl::unexpected(path.error());
     asio::io_context context;

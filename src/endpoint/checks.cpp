@@ -26,7 +26,7 @@ static SetupResult<void> check_scheme(const Endpoint& endpoint, RoutingOptions r
 static SetupResult<void> refuse_routing_options(const Endpoint& endpoint) {
     const EndpointOptions& o = endpoint.options;
     const std::pair<std::string_view, bool> routed[] = {
-        {"group", !o.group.empty() || o.names_group_mode},
+        {"group", !o.group.empty() || o.has_group_mode},
         {"max_rate", !o.max_rate.empty()},
         {"max_bytes", o.max_bytes_per_s.has_value()},
         {"in_allow", !o.in_allow.empty()},

@@ -152,7 +152,7 @@ SetupResult<Split> split(std::string_view text) {
     result.query = query.value_or(std::string_view{});
     result.rest = query ? text.substr(0, text.size() - query->size() - 1) : text;
     if (names_scheme(text)) return split_url(result, text);
-    if (!is_short_form(text) && names_recording(result.rest)) {
+    if (!is_short_form(text) && is_recording_path(result.rest)) {
         result.scheme = Scheme::tlog;
         result.plain_path = true;
         return result;
@@ -233,11 +233,11 @@ std::optional<std::string_view> query_of(std::string_view endpoint) {
     const auto question = endpoint.find('?');
     if (question == std::string_view::npos) return std::nullopt;
     const bool is_path = !names_scheme(endpoint) && !is_short_form(endpoint) && !endpoint.starts_with("/dev/");
-    if (is_path && names_recording(endpoint) && !names_recording(endpoint.substr(0, question))) return std::nullopt;
+    if (is_path && is_recording_path(endpoint) && !is_recording_path(endpoint.substr(0, question))) return std::nullopt;
     return endpoint.substr(question + 1);
 }
 
-bool names_recording(std::string_view path) noexcept {
+bool is_recording_path(std::string_view path) noexcept {
     const auto end = path.find_last_not_of("0123456789");  // of .tlog.12
     if (end != std::string_view::npos && end + 1 < path.size() && path[end] == '.') path = path.substr(0, end);
     constexpr std::string_view suffix = ".tlog";
@@ -246,7 +246,7 @@ bool names_recording(std::string_view path) noexcept {
                               [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
 }
 
-std::filesystem::path same_file(const std::filesystem::path& path) {
+std::filesystem::path canonical_path(const std::filesystem::path& path) {
     std::error_code unknown;
     const auto whole = std::filesystem::absolute(path, unknown);
     const auto real = std::filesystem::weakly_canonical(whole, unknown);

@@ -63,7 +63,7 @@ SetupResult<void> set_group_mode(EndpointOptions& options, std::string_view text
     const auto mode = std::find(modes.begin(), modes.end(), text);
     if (mode == modes.end()) return usage(fmt::format("{} is not one of all, best, primary", in_quotes(text)));
     options.group_mode = static_cast<GroupMode>(mode - modes.begin());
-    options.names_group_mode = true;
+    options.has_group_mode = true;
     return {};
 }
 

@@ -99,7 +99,7 @@ void Receiver::count_loss(const link::RxFrame& rx) {
         auto it = losses_.find(key);
         if (it == losses_.end()) {
             if (losses_.size() == most_sources) return;
-            it = losses_.emplace(key, SourceLoss{rx.link, source}).first;
+            it = losses_.emplace(key, ReceivedLoss{rx.link, source}).first;
         }
         last_loss_ = &it->second;
     }
@@ -132,8 +132,8 @@ std::string_view Receiver::link_name(LinkId link) {
     return last_name_;
 }
 
-std::vector<SourceLoss> Receiver::losses() const {
-    std::vector<SourceLoss> all;
+std::vector<ReceivedLoss> Receiver::losses() const {
+    std::vector<ReceivedLoss> all;
     all.reserve(losses_.size());
     for (const auto& [key, loss] : losses_) all.push_back(loss);
     return all;

@@ -20,14 +20,14 @@ class RingAlarm::Clock {
 public:
     [[nodiscard]] static Clock& here() {
         Clock* known = current.load();
-        while (known == nullptr || !known->fork_.is_here()) {
+        while (known == nullptr || !known->fork_.is_own_process()) {
             auto made = std::make_unique<Clock>();
             if (current.compare_exchange_strong(known, made.get())) return *made.release();
         }
         return *known;
     }
     [[nodiscard]] static Clock* made() noexcept { return current.load(); }
-    [[nodiscard]] bool is_here() const noexcept { return fork_.is_here(); }
+    [[nodiscard]] bool is_own_process() const noexcept { return fork_.is_own_process(); }
 
     void add(RingAlarm& alarm) {
         const std::lock_guard lock(mutex_);
@@ -74,15 +74,15 @@ private:
             if (alarm->armed_) look_at(*alarm);
     }
     void look_at(RingAlarm& alarm) {
-        Nanoseconds nap = waiter_ ? alarm.sleep_time_() : Nanoseconds{};
-        if (is_crowded_) nap = std::min<Nanoseconds>(nap, std::chrono::milliseconds{1});
-        alarm.armed_ = nap != Nanoseconds{};
-        if (alarm.armed_) waiter_->arm(nap);
+        Nanoseconds sleep_time = waiter_ ? alarm.sleep_time_() : Nanoseconds{};
+        if (is_crowded_) sleep_time = std::min<Nanoseconds>(sleep_time, std::chrono::milliseconds{1});
+        alarm.armed_ = sleep_time != Nanoseconds{};
+        if (alarm.armed_) waiter_->arm(sleep_time);
         else alarm.signal();
     }
 
     inline static std::atomic<Clock*> current{nullptr};
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     std::mutex mutex_;
     // Guarded by mutex_:
     std::vector<RingAlarm*> alarms_;
@@ -93,10 +93,10 @@ private:
     });
 };
 
-SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWord word, SleepTime nap) {
+SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWord word, SleepTime sleep_time) {
     const int fd = ::eventfd(1, EFD_NONBLOCK | EFD_CLOEXEC);
     if (fd < 0) return system_error("eventfd", errno);
-    std::unique_ptr<RingAlarm> alarm(new RingAlarm(fd, std::move(word), std::move(nap)));
+    std::unique_ptr<RingAlarm> alarm(new RingAlarm(fd, std::move(word), std::move(sleep_time)));
     try {
         alarm->clock_.add(*alarm);
     } catch (const std::system_error& error) {
@@ -105,27 +105,27 @@ SetupResult<std::unique_ptr<RingAlarm>> RingAlarm::make(shm::RingWaiter::WakeWor
     return alarm;
 }
 
-RingAlarm::RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime nap)
-    : fd_(fd), word_(std::move(word)), sleep_time_(std::move(nap)), clock_(Clock::here()) {}
+RingAlarm::RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime sleep_time)
+    : fd_(fd), word_(std::move(word)), sleep_time_(std::move(sleep_time)), clock_(Clock::here()) {}
 
 RingAlarm::~RingAlarm() {
-    if (fork_.is_here()) clock_.remove(*this);
+    if (fork_.is_own_process()) clock_.remove(*this);
     ::close(fd_);
 }
 
 void RingAlarm::arm() {
-    if (fork_.is_here()) clock_.arm(*this);
+    if (fork_.is_own_process()) clock_.arm(*this);
 }
 
 void RingAlarm::signal() const noexcept {
-    if (!fork_.is_here()) return;  // the parent would be signalled too: both share the eventfd
+    if (!fork_.is_own_process()) return;  // the parent would be signalled too: both share the eventfd
     const std::uint64_t one = 1;
     // If the counter is full, the write fails and the descriptor is readable already.
     [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
 }
 
 void RingAlarm::stop_all() {
-    if (auto* const clock = Clock::made(); clock != nullptr && clock->is_here()) clock->stop();
+    if (auto* const clock = Clock::made(); clock != nullptr && clock->is_own_process()) clock->stop();
 }
 
 }  // namespace mavloom::feed

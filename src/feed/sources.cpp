@@ -232,7 +232,7 @@ private:
 
 // Limits turns, not time: on a busy machine, much time may pass before the first turn.
 void Sources::drain(link::LinkHandler& handler, const std::function<Room()>& room) {
-    rings_->end_here();
+    rings_->stop_at_current_end();
     links_->read_all();
     EarlyFrames early(handler, wall_now());
     int empty_turns = 0, late_turns = 0;

@@ -48,11 +48,11 @@ public:
     [[nodiscard]] Answer ask(const net::Address& sender, MonoTime now) {
         refill(now);
         if (tokens_ >= 1) return Answer::admitted;
-        if (!has_repeated(sender, now)) return Answer::refused;
+        if (!note_and_check_repeat(sender, now)) return Answer::refused;
         return repeater_tokens_ >= 1 ? Answer::admitted : Answer::limited;
     }
     // Returns whether the sender was first seen 0.5 to 10 s ago. If it was not seen in the last 10 s, remembers it.
-    [[nodiscard]] bool has_repeated(const net::Address& sender, MonoTime now) {
+    [[nodiscard]] bool note_and_check_repeat(const net::Address& sender, MonoTime now) {
         if (seen_ == nullptr) seen_ = std::make_unique<Bucket[]>(remembered / std::tuple_size_v<Bucket>);
         const std::uint64_t hash = secret_hash(sender.hash());  // twice: spreads successive ports evenly
         Bucket& bucket = seen_[hash % (remembered / bucket.size())];

@@ -46,7 +46,7 @@ struct Link {
     bool up = false;
     bool reported_up = false;
     // True if the outlet was notified that the queue is not empty.
-    bool queued = false;
+    bool is_scheduled = false;
     // True if the far side reads outgoing frames from the ring. They are then counted, never queued.
     bool finds_in_ring = false;
     Signature* signature = nullptr;

@@ -80,7 +80,7 @@ SetupResult<EndpointId> Links::add(const endpoint::Endpoint& endpoint, const dia
         return tl::unexpected(std::move(checked).error());
     const std::string label = endpoint.label();
     const bool is_named = has_address_of_its_own(endpoint);
-    if (is_named && !may_repeat(endpoint) && core_->endpoints.has(label))
+    if (is_named && !allows_same_address(endpoint) && core_->endpoints.has(label))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are named {}; give one of them another name=", label));
     const EndpointId id = core_->endpoints.next_id();
@@ -114,10 +114,10 @@ SetupResult<void> Links::open_as(EndpointId id, std::uint8_t signs_as, const end
     return {};
 }
 
-void Links::make_independent() noexcept { may_repeat_ = core_->key_states.endpoints_are_independent = true; }
+void Links::make_independent() noexcept { allows_same_address_ = core_->key_states.endpoints_are_independent = true; }
 
-bool Links::may_repeat(const endpoint::Endpoint& endpoint) const noexcept {
-    return may_repeat_ && endpoint.options.name.empty();
+bool Links::allows_same_address(const endpoint::Endpoint& endpoint) const noexcept {
+    return allows_same_address_ && endpoint.options.name.empty();
 }
 
 SetupResult<EndpointId> Links::add_inlet(const std::string& ring, const std::filesystem::path& socket, unsigned mode) {

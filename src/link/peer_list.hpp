@@ -45,7 +45,7 @@ public:
         peer->signature = endpoint_.signature.get();
         core_.add_link(*peer);
         Peer& added = *peers_.emplace_back(std::move(peer));
-        core_.events.set_up(added);
+        core_.events.mark_up(added);
         return added;
     }
     // Notifies the handler, adds the peer's counters to the endpoint's sums, and destroys it at the end of the turn.

@@ -33,7 +33,7 @@ public:
         last_heard = core_.now();
         // Nothing expired while there was no stream.
         counters.queue_age.add(queue.expire(core_.now()));
-        if (queued) schedule();
+        if (is_scheduled) schedule();
         return {};
     }
     // Closes the stream. A partly sent frame will be sent again, from its start, on the next stream.
@@ -81,7 +81,7 @@ protected:
             counters.frames_out.add(queue.consume(*written));
             room -= std::min(room, *written);
         }
-        queued = false;
+        is_scheduled = false;
         return true;
     }
     // Delivers the events that the parser still holds back.

@@ -203,7 +203,7 @@ MonoTime RingSource::due(bool has_room, MonoTime now) {
     return now + nap;
 }
 
-void RingSource::end_here() noexcept {
+void RingSource::stop_at_current_end() noexcept {
     const auto* const reader = follower_.reader();
     end_ = reader == nullptr ? 0 : reader->end_position();
     at_end_ = reader == nullptr || next_look_ != MonoTime{};

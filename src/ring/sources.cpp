@@ -19,7 +19,7 @@ SetupResult<void> RingSources::check(const endpoint::Endpoint& endpoint) {
 
 SetupResult<link::EndpointId> RingSources::add(const endpoint::Endpoint& endpoint, const dialect::Dialect* dialect) {
     const auto same = [&](const auto& ring) { return ring->endpoint().label() == endpoint.label(); };
-    if (!links_.may_repeat(endpoint) && std::ranges::any_of(rings_, same))
+    if (!links_.allows_same_address(endpoint) && std::ranges::any_of(rings_, same))
         return setup_error(SetupCode::usage,
                            fmt::format("two endpoints are named {}; give one of them another name=", endpoint.label()));
     auto ring = std::make_unique<RingSource>(endpoint, dialect == nullptr ? table_ : dialect->wire_table(), link_ids_,
@@ -80,8 +80,8 @@ std::size_t RingSources::play(link::LinkHandler& handler, const Room& room) {
     return played;
 }
 
-void RingSources::end_here() noexcept {
-    for (const auto& ring : rings_) ring->end_here();
+void RingSources::stop_at_current_end() noexcept {
+    for (const auto& ring : rings_) ring->stop_at_current_end();
 }
 
 bool RingSources::at_end() const noexcept {

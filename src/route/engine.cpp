@@ -217,7 +217,7 @@ void Engine::Impl::count_beats(const Passage& p) noexcept {
             if (is_alive(*links[slot], p.now)) p.link.beats = std::max(p.link.beats, links[slot]->beats);
         return;
     }
-    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < most_beats) return;
+    if (!is_beat || !is_on_two_members(p) || ++p.link.beats < most_heartbeats) return;
     for (const Slot slot : members) links[slot]->beats = (links[slot]->beats + 1) / 2;
 }
 
@@ -538,7 +538,7 @@ Slot Engine::Impl::choose_member(Group& group, Words candidates, MonoTime now) n
     const Slot current = group.current;
     const bool stays = current != no_slot && has(candidates, current) && is_alive(*links[current], now) &&
                        links[current]->policy.is_verified == links[best]->policy.is_verified &&
-                       links[best]->beats < links[current]->beats + better_by_beats;
+                       links[best]->beats < links[current]->beats + best_switch_margin;
     if (!stays) group.current = best;
     return group.current;
 }

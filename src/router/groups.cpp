@@ -17,7 +17,7 @@ SetupResult<Groups::Modes> Groups::modes_of(std::span<const endpoint::Endpoint> 
     Modes modes;
     for (const auto& endpoint : endpoints) {
         const auto& o = endpoint.options;
-        if (o.group.empty() || !o.names_group_mode) continue;
+        if (o.group.empty() || !o.has_group_mode) continue;
         const auto [known, is_new] = modes.try_emplace(o.group, o.group_mode);
         if (!is_new && known->second != o.group_mode) return other_mode(endpoint, known->second);
     }
@@ -26,7 +26,7 @@ SetupResult<Groups::Modes> Groups::modes_of(std::span<const endpoint::Endpoint> 
 
 endpoint::GroupMode Groups::mode_of(const endpoint::EndpointOptions& options) const {
     const auto group = modes_.find(options.group);
-    return options.names_group_mode || group == modes_.end() ? options.group_mode : group->second;
+    return options.has_group_mode || group == modes_.end() ? options.group_mode : group->second;
 }
 
 route::GroupId Groups::id_of(const std::string& name) {
@@ -37,7 +37,7 @@ route::GroupId Groups::id_of(const std::string& name) {
 }
 
 void Groups::note_mode(const endpoint::EndpointOptions& options) {
-    if (options.names_group_mode) modes_[options.group] = options.group_mode;
+    if (options.has_group_mode) modes_[options.group] = options.group_mode;
 }
 
 }  // namespace mavloom::router

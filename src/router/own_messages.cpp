@@ -32,8 +32,8 @@ bool wants_heartbeat(const endpoint::Endpoint& endpoint) noexcept {
     return endpoint.options.heartbeat.value_or(endpoint::sends_first(endpoint.scheme) && !endpoint.options.tap);
 }
 
-OwnMessages::OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Ways ways)
-    : table_(table), own_(own_source(config)), streams_hz_(config.request_streams_hz), ways_(std::move(ways)) {}
+OwnMessages::OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Callbacks callbacks)
+    : table_(table), own_(own_source(config)), streams_hz_(config.request_streams_hz), callbacks_(std::move(callbacks)) {}
 
 void OwnMessages::configure(const config::RouterConfig& config) {
     const auto own = own_source(config);
@@ -65,7 +65,7 @@ void OwnMessages::send_due(MonoTime now) {
     for (Link& link : links_) {
         if (!link.beats || now < link.due) continue;
         if (send(link, msg::Heartbeat::id, payload)) heartbeats_sent_.add();
-        const Nanoseconds pause = ways_.answered(link.id) ? interval : interval_until_answered;
+        const Nanoseconds pause = callbacks_.answered(link.id) ? interval : interval_until_answered;
         link.due = link.due + pause > now ? link.due + pause : now + pause;  // does not catch up on missed heartbeats
     }
 }
@@ -74,7 +74,7 @@ bool OwnMessages::send(Link& link, MessageId id, ByteView payload) {
     wire::FrameBuffer buffer;
     const auto frame = wire::write_frame(buffer, {.sequence = link.sequence++, .source = *own_}, *table_.find(id),
                                          payload);
-    return ways_.send(link.id, frame);
+    return callbacks_.send(link.id, frame);
 }
 
 void OwnMessages::on_heartbeat(LinkId link, const wire::FrameView& frame, MonoTime now) {

@@ -31,7 +31,7 @@ class OwnMessages {
 public:
     // Callbacks to the owner of this object. `send` returns false if the link did not take the frame. `answered`
     // returns whether any frame has arrived on the link.
-    struct Ways {
+    struct Callbacks {
         std::function<bool(LinkId, const wire::FrameView&)> send;
         std::function<bool(LinkId)> answered;
     };
@@ -40,7 +40,7 @@ public:
     static constexpr Nanoseconds interval = std::chrono::seconds{1};
 
     // `table` must outlive the object and define HEARTBEAT and REQUEST_DATA_STREAM.
-    OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Ways ways);
+    OwnMessages(const wire::MessageTable& table, const config::RouterConfig& config, Callbacks callbacks);
 
     // Applies a new configuration. Links stay, and each ArduPilot is asked again. If the router's id changed, the next
     // heartbeat of each link is due at once and its sequence numbers restart.
@@ -72,7 +72,7 @@ private:
     const wire::MessageTable& table_;
     std::optional<Source> own_;
     std::uint16_t streams_hz_ = 0;  // 0 if there are no requests
-    Ways ways_;
+    Callbacks callbacks_;
     std::vector<Link> links_;
     StreamRequests requests_;
     Counter heartbeats_sent_;

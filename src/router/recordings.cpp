@@ -24,7 +24,7 @@ SetupResult<void> refuse_fifo(const std::string& path) {
 
 SetupResult<void> Recordings::add(const endpoint::Endpoint& endpoint) {
     const auto is_same = [&](const Open& open) {
-        return endpoint::same_file(open.endpoint.path) == endpoint::same_file(endpoint.path) ||
+        return endpoint::canonical_path(open.endpoint.path) == endpoint::canonical_path(endpoint.path) ||
                open.endpoint.label() == endpoint.label();
     };
     if (std::ranges::any_of(open_, is_same))

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 constexpr auto patience = 5s;
 
 SetupResult<std::vector<std::string>> ask(std::string_view name, const Json& request) {
-    return control::ask_router(name, request.dump(-1, ' ', false, Json::error_handler_t::replace), patience);
+    return control::send_request(name, request.dump(-1, ' ', false, Json::error_handler_t::replace), patience);
 }
 
 Exit print_lines(const std::vector<std::string>& lines) {

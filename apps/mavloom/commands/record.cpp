@@ -92,8 +92,8 @@ private:
 // Accepts FILE with any name, or with options: tlog://PATH?... or PATH.tlog?rotate_every=...
 SetupResult<record::RotatingWriter> create_output(const Common& common, const std::string& text) {
     const auto query = std::string_view(text).find('?');
-    const bool has_options = query != std::string_view::npos && !endpoint::names_recording(text) &&
-                             endpoint::names_recording(std::string_view(text).substr(0, query));
+    const bool has_options = query != std::string_view::npos && !endpoint::is_recording_path(text) &&
+                             endpoint::is_recording_path(std::string_view(text).substr(0, query));
     const bool is_endpoint = text.find("://") != std::string::npos || has_options;
     endpoint::Endpoint endpoint;
     endpoint.scheme = endpoint::Scheme::tlog;

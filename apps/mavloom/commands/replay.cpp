@@ -148,7 +148,7 @@ Exit replay(const Common& common, ReplayOptions& options) {
     const auto dialect = load_dialect(common);
     if (!dialect) return fail(dialect.error());
     if (auto resolved = options.selection.resolve(*dialect); !resolved) return fail(resolved.error());
-    const bool is_endpoint = endpoint::names_recording(options.file) || options.file.find("://") != std::string::npos;
+    const bool is_endpoint = endpoint::is_recording_path(options.file) || options.file.find("://") != std::string::npos;
     auto endpoint = endpoint::parse_endpoint(is_endpoint ? options.file : "tlog://" + options.file);
     if (!endpoint) return fail(endpoint.error());
     if (endpoint->scheme != endpoint::Scheme::tlog)

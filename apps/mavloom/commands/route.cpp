@@ -78,7 +78,7 @@ SetupResult<config::Config> read_config(const RouteOptions& options, const diale
 SetupResult<void> check_recordings(std::span<const endpoint::Endpoint> endpoints) {
     std::set<std::filesystem::path> recordings;
     for (const auto& e : endpoints)
-        if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::same_file(e.path)).second)
+        if (e.scheme == endpoint::Scheme::tlog && !recordings.insert(endpoint::canonical_path(e.path)).second)
             return setup_error(SetupCode::usage,
                                fmt::format("another recording already writes to {}", in_quotes(e.path)));
     return {};

@@ -57,7 +57,7 @@ private:
 
 // Sends one request to the program `name` and returns the lines of its answer, without the final status line. Errors:
 // `not_found` if no such program runs; `unreachable` if it does not answer within `limit` or reports an error.
-[[nodiscard]] SetupResult<std::vector<std::string>> ask_router(std::string_view name, std::string_view request,
-                                                               std::chrono::milliseconds limit);
+[[nodiscard]] SetupResult<std::vector<std::string>> send_request(std::string_view name, std::string_view request,
+                                                                 std::chrono::milliseconds limit);
 
 }  // namespace mavloom::control

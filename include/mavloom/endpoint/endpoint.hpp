@@ -50,7 +50,7 @@ struct EndpointOptions {
     std::string group;
     GroupMode group_mode = GroupMode::all;
     // False: `group_mode` is the default, and another endpoint of the group may set the mode.
-    bool names_group_mode = false;
+    bool has_group_mode = false;
     std::uint32_t mtu_bytes = 1280;                // 0: one frame per datagram
     std::optional<std::chrono::nanoseconds> idle;  // default: 60 s for UDP peers, none for others
     std::uint64_t queue_bytes = 1 << 20;
@@ -106,10 +106,10 @@ struct Endpoint {
 [[nodiscard]] std::string ring_is_no_endpoint(const Endpoint& endpoint);
 
 // True if the path ends like the name of a recording: FLIGHT.tlog, FLIGHT.TLOG, or a renamed FLIGHT.tlog.1.
-[[nodiscard]] bool names_recording(std::string_view path) noexcept;
+[[nodiscard]] bool is_recording_path(std::string_view path) noexcept;
 
 // The canonical path of a file, so that two spellings of it compare equal. The file need not exist.
-[[nodiscard]] std::filesystem::path same_file(const std::filesystem::path& path);
+[[nodiscard]] std::filesystem::path canonical_path(const std::filesystem::path& path);
 
 // Parses "udpin://0.0.0.0:14550?idle=2" and the other forms of the grammar, including pymavlink's. Errors are
 // `usage`; they quote the text, say what is wrong and suggest a spelling.

@@ -11,10 +11,10 @@ namespace mavloom::feed {
 [[nodiscard]] std::uint64_t forks() noexcept;
 
 // Add a member of this type to each class whose objects a forked child must not touch.
-class BeforeFork {
+class ForkGuard {
 public:
     // Whether this process created the object.
-    [[nodiscard]] bool is_here() const noexcept { return born_ == forks(); }
+    [[nodiscard]] bool is_own_process() const noexcept { return born_ == forks(); }
 
 private:
     std::uint64_t born_ = forks();

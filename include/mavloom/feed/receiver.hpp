@@ -27,7 +27,7 @@
 namespace mavloom::feed {
 
 // Loss of one source on one link, from its sequence numbers.
-struct SourceLoss {
+struct ReceivedLoss {
     LinkId link;
     Source source;
     std::uint64_t received = 0, lost = 0, late = 0, duplicate = 0, resync = 0;
@@ -64,7 +64,7 @@ public:
 
     // After stop:
     [[nodiscard]] const Totals& totals() const noexcept { return totals_; }
-    [[nodiscard]] std::vector<SourceLoss> losses() const;  // sorted by link, then source; at most 65,536
+    [[nodiscard]] std::vector<ReceivedLoss> losses() const;  // sorted by link, then source; at most 65,536
     // The error of the first recording that failed before its end; null if none failed.
     [[nodiscard]] const SetupError* error() const noexcept { return sources_.error(); }
 
@@ -87,8 +87,8 @@ private:
     MonoTime end_ = MonoTime::max();
 
     Totals totals_;  // used by the receiving thread only, until it closes the queue
-    std::map<std::tuple<LinkId, Source>, SourceLoss> losses_;
-    SourceLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
+    std::map<std::tuple<LinkId, Source>, ReceivedLoss> losses_;
+    ReceivedLoss* last_loss_ = nullptr;  // most frames come from the same source as the one before
 
     // The receiving thread adds a name when a link comes up. The consumer caches the last name that it looked up, so it
     // rarely takes the lock.

@@ -20,7 +20,8 @@ public:
     // wait nor call functions of RingAlarm.
     using SleepTime = std::function<Nanoseconds()>;
     // Returns an alarm whose descriptor is already readable, so that the caller checks the ring once before it waits.
-    [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word, SleepTime nap);
+    [[nodiscard]] static SetupResult<std::unique_ptr<RingAlarm>> make(shm::RingWaiter::WakeWord word,
+                                                                      SleepTime sleep_time);
     // Ends the thread. Armed alarms, and those that are armed later, become readable at once.
     static void stop_all();
 
@@ -37,9 +38,9 @@ public:
 
 private:
     class Clock;
-    RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime nap);
+    RingAlarm(int fd, shm::RingWaiter::WakeWord word, SleepTime sleep_time);
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     const int fd_;
     const shm::RingWaiter::WakeWord word_;
     const SleepTime sleep_time_;

@@ -57,7 +57,7 @@ public:
         return lock;
     }
     // Call between two slices, without the lock: lets threads that ask for it go first.
-    void let_others() const {
+    void yield_to_waiters() const {
         if (asking_.load(std::memory_order_relaxed) != 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
     // Calls `look(is_free)` and returns its result. If the mutex was free, `peek` holds it during the call. Never

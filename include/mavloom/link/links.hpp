@@ -153,7 +153,7 @@ public:
     // same address, and an endpoint accepts frames that another endpoint signed.
     void make_independent() noexcept;
     // Returns whether another endpoint with the same address may be added.
-    [[nodiscard]] bool may_repeat(const endpoint::Endpoint& endpoint) const noexcept;
+    [[nodiscard]] bool allows_same_address(const endpoint::Endpoint& endpoint) const noexcept;
     // Path at which the writer of the ring `ring` creates its inlet: RUN/NAME.in. Errors: see net::run_path.
     [[nodiscard]] static SetupResult<std::filesystem::path> inlet_path(std::string_view ring);
     // The user who owns the folder of the inlets. Readers trust the rings of this user. Empty if there is no folder.
@@ -227,7 +227,7 @@ private:
 
     std::unique_ptr<detail::Core> core_;
     endpoint::RoutingOptions routing_;
-    bool may_repeat_ = false;
+    bool allows_same_address_ = false;
 };
 
 }  // namespace mavloom::link

@@ -58,8 +58,8 @@ public:
     // this process earlier if it commits a record.
     [[nodiscard]] MonoTime due(bool has_room, MonoTime now);
     // From now on, reads no further than the current end of the ring. Later records stay in the ring.
-    void end_here() noexcept;
-    // Returns whether `end_here` was called and everything up to that end was delivered.
+    void stop_at_current_end() noexcept;
+    // Returns whether `stop_at_current_end` was called and everything up to that end was delivered.
     [[nodiscard]] bool at_end() const noexcept { return at_end_ && next_found_ == found_.size(); }
 
     // Pauses reading while `held` is true, because the consumer has no room for more frames.

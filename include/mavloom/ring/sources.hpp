@@ -31,7 +31,7 @@ public:
     // Delivers the waiting frames. Returns how many.
     std::size_t play(link::LinkHandler& handler, const Room& room);
     // Reads no further than the current end of each ring. Later records stay in the rings.
-    void end_here() noexcept;
+    void stop_at_current_end() noexcept;
     // Returns whether everything up to those ends was delivered.
     [[nodiscard]] bool at_end() const noexcept;
 

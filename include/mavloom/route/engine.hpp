@@ -181,8 +181,8 @@ public:
     // The margin covers HEARTBEATs still in flight on the slower link. With few vehicles it suffices. A fleet can
     // exceed it: at 20 HEARTBEATs a second, and links whose delays differ by 0.7 s, 14 HEARTBEATs are in flight. `best`
     // may count those as lost.
-    static constexpr std::uint32_t better_by_beats = 5;
-    static constexpr std::uint32_t most_beats = 256;  // at this count, all links of the group halve their counts
+    static constexpr std::uint32_t best_switch_margin = 5;
+    static constexpr std::uint32_t most_heartbeats = 256;  // at this count, all links of the group halve their counts
     // A HEARTBEAT that arrives again on the same link within this time is a duplicated datagram and counts once.
     static constexpr Nanoseconds doubled_within = std::chrono::milliseconds{500};
 

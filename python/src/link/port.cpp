@@ -63,7 +63,7 @@ public:
         to_ = opened_.endpoint;
     }
     ~Port() {
-        if (fork_.is_here() && !WithoutGil::ended()) {
+        if (fork_.is_own_process() && !WithoutGil::ended()) {
             close();
             return;
         }
@@ -75,7 +75,7 @@ public:
     Port& operator=(const Port&) = delete;
 
     void close() {
-        if (!fork_.is_here()) return;
+        if (!fork_.is_own_process()) return;
         const WithoutGil outside;
         const std::lock_guard lock(mutex_);
         if (!hub_) return;
@@ -240,7 +240,7 @@ private:
         hub_.reset();
     }
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     const std::shared_ptr<Origin> origin_;
     Source source_;  // guarded by mutex_, once the object is made
     const wire::Version version_;

@@ -25,7 +25,7 @@ LinkRecorder::LinkRecorder(std::shared_ptr<feed::Channel> channel, const std::st
 }
 
 LinkRecorder::~LinkRecorder() {
-    if (fork_.is_here() && !WithoutGil::ended()) {
+    if (fork_.is_own_process() && !WithoutGil::ended()) {
         const WithoutGil outside;
         stop();
         return;
@@ -41,7 +41,7 @@ void LinkRecorder::stop() noexcept {
 }
 
 void LinkRecorder::close() {
-    if (!fork_.is_here()) return;
+    if (!fork_.is_own_process()) return;
     {
         const WithoutGil outside;
         const std::lock_guard lock(mutex_);

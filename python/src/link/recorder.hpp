@@ -41,7 +41,7 @@ private:
 
     void stop() noexcept;
 
-    const feed::BeforeFork fork_;
+    const feed::ForkGuard fork_;
     std::shared_ptr<feed::Channel> channel_;
     std::shared_ptr<Notices> notices_;
     std::shared_ptr<record::Recorder> recorder_;

@@ -24,7 +24,7 @@ Subscription::Subscription(const LinkFeed& feed, feed::Filter filter)
       consumer_(std::make_unique<feed::ChannelReader>(feed.channel, std::move(filter))) {}
 
 Subscription::~Subscription() {
-    if (!fork_.is_here()) static_cast<void>(consumer_.release());
+    if (!fork_.is_own_process()) static_cast<void>(consumer_.release());
 }
 
 // ---- messages
@@ -102,8 +102,8 @@ int Subscription::event_fd() {
 }
 
 std::string Subscription::shown() const {
-    return fork_.is_here() ? fmt::format("<Subscription: {} missed>", consumer_->missed())
-                           : "<Subscription, opened before a fork>";
+    return fork_.is_own_process() ? fmt::format("<Subscription: {} missed>", consumer_->missed())
+                                  : "<Subscription, opened before a fork>";
 }
 
 std::uint64_t Subscription::missed() const {
@@ -112,7 +112,7 @@ std::uint64_t Subscription::missed() const {
 }
 
 void Subscription::close() {
-    if (fork_.is_here()) consumer_->close();
+    if (fork_.is_own_process()) consumer_->close();
 }
 
 // ---- into a ring

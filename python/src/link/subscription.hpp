@@ -79,7 +79,7 @@ private:
     [[nodiscard]] nb::object message_of(const feed::FrameBatch::Item& item) const;
     [[nodiscard]] bool is_over(const Limit& limit) const;
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     const std::shared_ptr<const Origin> origin_;
     const std::string ring_name_;
     std::unique_ptr<feed::ChannelReader> consumer_;

@@ -114,7 +114,7 @@ private:
         view_.reset();
     }
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     nb::object holder_;  // keeps writer_ alive
     PyRingWriter* writer_;
     std::shared_ptr<Claimed> claimed_;

@@ -177,7 +177,7 @@ void SharedRingReader::abandon() {
 }
 
 void SharedRingReader::on_last_look_ended() {
-    if (abandoned_.load() && fork_.is_here()) static_cast<void>(close());
+    if (abandoned_.load() && fork_.is_own_process()) static_cast<void>(close());
 }
 
 // ---- for loops

@@ -93,7 +93,7 @@ public:
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
     // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
     [[nodiscard]] State take(std::size_t most, Portion& out);
-    void let_others() const { mutex_.let_others(); }
+    void yield_to_waiters() const { mutex_.yield_to_waiters(); }
 
     // For event loops: returns a descriptor, created at the first call. After `arm` it becomes readable when there may
     // be something to fetch, or when nothing ever will be.
@@ -110,7 +110,7 @@ public:
     void on_last_look_ended();
 
     // In a forked child, the ring is no longer held for the records.
-    [[nodiscard]] const BeforeFork& fork() const noexcept { return fork_; }
+    [[nodiscard]] const ForkGuard& fork() const noexcept { return fork_; }
     [[nodiscard]] bool holds() const noexcept { return reader_.holds(); }
     [[nodiscard]] bool is_lossless() const noexcept { return lossless_; }
     [[nodiscard]] bool is_closed() const noexcept { return closed_.load(std::memory_order_relaxed); }
@@ -132,7 +132,7 @@ private:
     [[nodiscard]] Nanoseconds nap();
     [[nodiscard]] feed::RingAlarm* alarm();
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     const bool lossless_;
     feed::SlicedMutex mutex_;
     std::atomic<bool> closed_{false}, abandoned_{false};

@@ -190,7 +190,7 @@ private:
         return static_cast<std::size_t>(records[1].data.data() - records[0].data.data());
     }
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     std::shared_ptr<Lease> lease_;
     std::size_t first_;
     std::shared_ptr<SharedRingReader> source_;
@@ -262,7 +262,7 @@ public:
     [[nodiscard]] nb::object poll_batch() { return batch_or_none(poll(most_in_batch)); }
 
     void close() {
-        if (!fork_.is_here()) return;
+        if (!fork_.is_own_process()) return;
         const bool closed = [&] {
             const WithoutGil outside;
             return source_->close();
@@ -301,7 +301,7 @@ private:
             if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
             if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
-            source_->let_others();
+            source_->yield_to_waiters();
             if (is_used) std::this_thread::sleep_for(look_again);
             state = source_->fetch(most, deadline);
         }
@@ -334,7 +334,7 @@ private:
         }
     }
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     std::shared_ptr<SharedRingReader> source_;
 };
 

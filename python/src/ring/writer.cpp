@@ -89,7 +89,7 @@ bool PyRingWriter::write(const nb::object& data, const shm::RecordInfo& info) {
         if (written) return true;
         if (written.error() != shm::WriteError::full) raise(written.error(), bytes.bytes().size());
         if (!waits()) return false;
-        mutex_.let_others();
+        mutex_.yield_to_waiters();
         check_signals();
         check();
     }
@@ -153,7 +153,7 @@ std::shared_ptr<Claimed> PyRingWriter::claim(std::size_t length) {
         auto claimed = claim_or_wait(length);
         if (claimed) return std::move(*claimed);
         if (claimed.error() != shm::WriteError::full) raise(claimed.error(), length);
-        mutex_.let_others();
+        mutex_.yield_to_waiters();
         check_signals();
     }
 }
@@ -215,7 +215,7 @@ void PyRingWriter::give_up(Claimed& claimed) noexcept {
 // Waiting with the GIL held is safe here: while a claim is open, the lock is held for moments only, and never by a
 // thread that needs the GIL.
 void PyRingWriter::on_last_look_ended(Claimed& claimed) noexcept {
-    if (!claimed.given_up.load() || !fork_.is_here() || !claimed.looks.finish()) return;
+    if (!claimed.given_up.load() || !fork_.is_own_process() || !claimed.looks.finish()) return;
     const auto lock = mutex_.take();
     if (claim_.get() == &claimed) end_claim();
 }
@@ -227,7 +227,7 @@ void PyRingWriter::end_claim() noexcept {
 }
 
 void PyRingWriter::close(bool remove) {
-    if (!fork_.is_here()) return;
+    if (!fork_.is_own_process()) return;
     bool comes_late = false, is_filled = false;
     auto closed = [&]() -> SetupResult<void> {
         const WithoutGil outside;
@@ -257,7 +257,7 @@ SetupResult<void> PyRingWriter::close_locked(bool remove) {
 }
 
 void PyRingWriter::close_at_exit() noexcept {
-    if (!fork_.is_here()) return;
+    if (!fork_.is_own_process()) return;
     const auto lock = mutex_.take_until(MonoTime::max());
     if (!lock.owns_lock() || (claim_ && !claim_->looks.finish())) return;
     writer_.reset();

@@ -101,7 +101,7 @@ private:
     [[nodiscard]] SetupResult<void> close_locked(bool remove);
     void note_counters();
 
-    const BeforeFork fork_;
+    const ForkGuard fork_;
     const std::string name_;
     const shm::WhenFull when_full_;
     std::size_t longest_ = 0;

@@ -62,7 +62,7 @@ void Core::add_link(Link& link) {
 }
 
 void Core::remove_link(Link& link, std::string_view why) {
-    events.set_down(link, why);
+    events.mark_down(link, why);
     links.remove(link.id);
 }
 
@@ -109,7 +109,7 @@ bool Core::queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, con
     const auto pushed = lane.push(frame.bytes(), outgoing.block_class(dialect), outgoing.key(dialect), now);
     if (pushed.dropped != 0) [[unlikely]]
         link.counters.queue_bytes.add(pushed.dropped);
-    if (pushed.queued && !std::exchange(link.queued, true)) link.schedule();
+    if (pushed.queued && !std::exchange(link.is_scheduled, true)) link.schedule();
     return pushed.queued;
 }
 

@@ -70,7 +70,7 @@ public:
     void refresh_now() { now_ = mono_now(); }
     // Number of turns so far.
     [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
-    [[nodiscard]] bool running() const noexcept { return !look_ups.may_wait(); }
+    [[nodiscard]] bool has_begun() const noexcept { return !look_ups.may_wait(); }
     // Notes that a read of this turn left input unread.
     void note_more_waits() noexcept { more_waits_ = true; }
 

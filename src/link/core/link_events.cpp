@@ -16,14 +16,14 @@ void LinkEvents::begin_turn(LinkHandler& handler, const LinkTable& links) {
     }
 }
 
-void LinkEvents::set_up(Link& link) {
+void LinkEvents::mark_up(Link& link) {
     if (std::exchange(link.up, true)) return;
     if (handler_ == nullptr) return came_up_.push_back(link.id);
     link.reported_up = true;
     handler_->on_link_up(link.id, link.endpoint, link.name);
 }
 
-void LinkEvents::set_down(Link& link, std::string_view why) {
+void LinkEvents::mark_down(Link& link, std::string_view why) {
     if (!std::exchange(link.up, false)) return;
     if (std::exchange(link.reported_up, false) && handler_ != nullptr)
         handler_->on_link_down(link.id, link.endpoint, why);

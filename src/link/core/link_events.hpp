@@ -22,8 +22,8 @@ public:
     // Null outside a turn.
     [[nodiscard]] LinkHandler* handler() const noexcept { return handler_; }
 
-    void set_up(Link& link);
-    void set_down(Link& link, std::string_view why);
+    void mark_up(Link& link);
+    void mark_down(Link& link, std::string_view why);
     void notice(EndpointId endpoint, std::string text);
 
 private:

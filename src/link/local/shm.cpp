@@ -93,7 +93,7 @@ SetupResult<void> InletSender::connect() {
         core_.events.notice(info.id, fmt::format("{}: its inlet is served now", info.endpoint.label()));
     // The same name that the ring's router gives this link.
     peer_.name = fmt::format("shm://{}#{}", info.endpoint.path, socket_.own_address());
-    core_.events.set_up(peer_);
+    core_.events.mark_up(peer_);
     if (!peer_.queue.empty()) core_.outlets.schedule(*this);
     return {};
 }
@@ -121,7 +121,7 @@ void InletSender::connect_or_retry() {
 void InletSender::lose() {
     core_.loop().unwatch(watch_);
     socket_ = {};
-    core_.events.set_down(peer_, "the router is gone");
+    core_.events.mark_down(peer_, "the router is gone");
     const bool worked = has_sent_ || core_.now() - up_since_ >= Retry::first;
     if (!worked || !connect()) retry_.later();
 }
@@ -140,7 +140,7 @@ void InletSender::flush() {
     net::SendBatch& batch = core_.send_batch;
     while (socket_ && !full_ && fill(batch))
         if (!submit(batch)) break;
-    peer_.queued = !peer_.queue.empty();
+    peer_.is_scheduled = !peer_.queue.empty();
 }
 
 bool InletSender::fill(net::SendBatch& batch) {

@@ -108,7 +108,7 @@ SetupResult<void> Serial::open_as(const std::string& name) {
         good_frames_ = 0;
         retry_.after(auto_window);
     } else {
-        core_.events.set_up(peer_);
+        core_.events.mark_up(peer_);
     }
     return {};
 }
@@ -130,7 +130,7 @@ void Serial::report_settings() {
 
 void Serial::on_gone(std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting;
-    core_.events.set_down(peer_, why);
+    core_.events.mark_down(peer_, why);
     if (lasted) retry_.reset();
     retry_.later();
     watch_folders(true);
@@ -142,11 +142,11 @@ void Serial::count_good_frame() {
     if (!std::exchange(searching_, false)) return;
     core_.events.notice(info.id, fmt::format("{}: {} baud", info.endpoint.label(), baud()));
     retry_.after(auto_confirm);
-    core_.events.set_up(peer_);
+    core_.events.mark_up(peer_);
 }
 
 void Serial::search_on() {
-    core_.events.set_down(peer_, "no more good frames at this baud rate");
+    core_.events.mark_down(peer_, "no more good frames at this baud rate");
     searching_ = true;
     good_frames_ = 0;
     auto_index_ = (auto_index_ + 1) % auto_bauds.size();
@@ -195,7 +195,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_serial(Opening opening) {
     auto opened = std::make_unique<Serial>(opening);
     auto done = opened->open();
     if (done) return opened;
-    const bool required = endpoint.options.required && !opening.core.running();
+    const bool required = endpoint.options.required && !opening.core.has_begun();
     if (done.error().code != SetupCode::not_found || required)
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());

@@ -28,7 +28,7 @@ public:
         if (buckets_.empty()) buckets_.resize(bucket_count);
     }
     // Earlier runs of the program signed frames up to this time. So all frames up to then with our link ids are ours.
-    void forget_until(wire::SigningTime time) noexcept { earlier_ = std::max(earlier_, time.ticks); }
+    void treat_as_own_until(wire::SigningTime time) noexcept { earlier_ = std::max(earlier_, time.ticks); }
 
     // `frame` is signed, with a link id given to `sign_as`.
     void note(const wire::FrameView& frame) noexcept {

@@ -140,7 +140,7 @@ std::optional<KeyState> parse_key_state(std::string_view text) {
     return state;
 }
 
-KeyFile::KeyFile(const std::filesystem::path& key) : path_(endpoint::same_file(key).string() + ".state") {}
+KeyFile::KeyFile(const std::filesystem::path& key) : path_(endpoint::canonical_path(key).string() + ".state") {}
 
 SetupResult<void> KeyFile::load() {
     const auto text = read_file(path_);
@@ -223,7 +223,7 @@ std::shared_ptr<KeyFile> KeyStates::open(const std::filesystem::path& path, cons
     if (const auto written = file->write(file->state); !written) notices.push_back(written.error().text);
     files_.push_back(file);
     if (const auto known = shared_keys_.find(key.fingerprint()); known != shared_keys_.end())
-        if (const auto shared = known->second.lock()) shared->own.forget_until(signed_until(file->state, now));
+        if (const auto shared = known->second.lock()) shared->own.treat_as_own_until(signed_until(file->state, now));
     due_ = std::min(due_, mono_now() + save_interval);
     return file;
 }
@@ -236,7 +236,7 @@ std::shared_ptr<SharedKey> KeyStates::shared_key(const wire::SigningKey& key) {
     for (const auto& file : files_) {
         if (file->state.key != key.fingerprint()) continue;
         for (const auto& stream : file->state.heard) shared->verifier.restore(stream);
-        shared->own.forget_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
+        shared->own.treat_as_own_until(signed_until(file->state, wire::SigningTime::from(wall_now())));
     }
     return shared;
 }

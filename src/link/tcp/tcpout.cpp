@@ -105,7 +105,7 @@ SetupResult<void> TcpOut::finish() {
     retry_.settle();
     if (std::exchange(was_up_, true)) counters.reconnects.add();
     if (const auto idle = info.endpoint.options.idle) retry_.after(*idle);
-    core_.events.set_up(peer_);
+    core_.events.mark_up(peer_);
     return {};
 }
 
@@ -122,7 +122,7 @@ void TcpOut::fail(const SetupError& error) {
 
 void TcpOut::on_closed(TcpPeer& peer, std::string_view why) {
     const bool lasted = core_.now() - up_since_ >= Retry::lasting || peer.last_heard > up_since_;
-    core_.events.set_down(peer, why);
+    core_.events.mark_down(peer, why);
     if (lasted) retry_.reset();
     retry_.later();
 }
@@ -175,7 +175,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_tcpout(Opening opening) {
     auto local = endpoint::local_address(endpoint);
     if (!local) return tl::unexpected(std::move(local).error());
     auto opened = std::make_unique<TcpOut>(opening, *local);
-    if (!endpoint.options.required || opening.core.running()) {
+    if (!endpoint.options.required || opening.core.has_begun()) {
         opened->begin();
     } else if (auto done = opened->begin_and_wait(); !done) {
         return tl::unexpected(std::move(done.error()).within(endpoint.label()));

@@ -96,7 +96,7 @@ void UdpPeers::note_confirmed(const UdpPeer& peer) {
 
 // All peers talk. Verified ones keep their places.
 bool UdpPeers::displace_for(const net::Address& newcomer) {
-    if (!admission_.has_repeated(newcomer, core_.now()) || verifies()) return false;
+    if (!admission_.note_and_check_repeat(newcomer, core_.now()) || verifies()) return false;
     UdpPeer* const peer = displacement_.choose(peers_.all(), core_.now());
     if (peer == nullptr) return false;
     endpoint_.counters.peers_displaced.add();

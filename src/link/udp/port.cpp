@@ -181,9 +181,9 @@ void UdpPort::flush() {
     }
     if (!blocked_) submit();
     std::erase_if(waiting_, [](UdpPeer* peer) {
-        peer->queued = !peer->queue.empty();
-        peer->held = peer->held && peer->queued;
-        return !peer->queued;
+        peer->is_scheduled = !peer->queue.empty();
+        peer->held = peer->held && peer->is_scheduled;
+        return !peer->is_scheduled;
     });
 }
 

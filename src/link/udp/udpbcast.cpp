@@ -50,9 +50,9 @@ public:
     UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) override;
     void on_send_error(net::IoError error) override;
     void on_first_confirmed(const net::Address& from) override {
-        core_.events.set_down(everybody_, fmt::format("{} answers", from.text()));
+        core_.events.mark_down(everybody_, fmt::format("{} answers", from.text()));
     }
-    void on_last_confirmed_gone() override { core_.events.set_up(everybody_); }
+    void on_last_confirmed_gone() override { core_.events.mark_up(everybody_); }
     void on_confirmed(UdpPeer& peer) override { peers_.note_confirmed(peer); }
     void on_timer(MonoTime) override { look_up(info.endpoint.address); }
 
@@ -77,7 +77,7 @@ SetupResult<void> UdpBroadcast::start(const net::Resolver::Answer& answer) {
     info.local_port = port_.socket().local().port();
     info.rcvbuf_bytes = port_.socket().receive_buffer_bytes();
     everybody_.address = *to;
-    core_.events.set_up(everybody_);
+    core_.events.mark_up(everybody_);
     return {};
 }
 
@@ -107,7 +107,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpbcast(Opening opening) {
         return tl::unexpected(std::move(checked).error());
     auto local = endpoint::local_address(endpoint);
     if (!local) return tl::unexpected(std::move(local).error());
-    const bool required = endpoint.options.required && !core.running();
+    const bool required = endpoint.options.required && !core.has_begun();
     auto opened = std::make_unique<UdpBroadcast>(opening, *local);
     auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
     if (!answer && !required) return opened;

@@ -84,7 +84,7 @@ SetupResult<void> UdpMulticast::join() {
     info.rcvbuf_bytes = hearing_.socket().receive_buffer_bytes();
     failing_ = false;
     retry_.after(idle_);
-    core_.events.set_up(group_);
+    core_.events.mark_up(group_);
     return {};
 }
 
@@ -121,7 +121,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpmcast(Opening opening) {
     auto done = opened->join();
     if (done) return opened;
     const bool may_come = done.error().code == SetupCode::not_found || done.error().code == SetupCode::unreachable;
-    const bool required = endpoint.options.required && !opening.core.running();
+    const bool required = endpoint.options.required && !opening.core.has_begun();
     if (required || !may_come) return tl::unexpected(std::move(done.error()).within(endpoint.label()));
     opened->fail(done.error());
     return opened;

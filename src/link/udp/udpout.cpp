@@ -102,7 +102,7 @@ SetupResult<void> UdpOut::aim_at(const net::Address& address) {
         core_.add_link(*peer_);
     }
     peer_->move_to(address);
-    core_.events.set_up(*peer_);
+    core_.events.mark_up(*peer_);
     return {};
 }
 
@@ -164,7 +164,7 @@ SetupResult<std::unique_ptr<OpenEndpoint>> open_udpout(Opening opening) {
     auto opened = std::make_unique<UdpOut>(opening, *local);
     auto answer = opened->look_up_now(endpoint.address, look_up_limit(required));
     if (!answer) {
-        if (!required || core.running()) return opened;
+        if (!required || core.has_begun()) return opened;
         return tl::unexpected(no_answer(endpoint.address).within(endpoint.label()));
     }
     if (!*answer && !required) {

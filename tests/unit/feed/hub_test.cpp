@@ -385,15 +385,15 @@ int status_of(pid_t child) {
 }
 
 TEST(Fork, AnObjectKnowsWhetherThisProcessMadeIt) {
-    const BeforeFork made;
+    const ForkGuard made;
     const auto before = forks();
     const pid_t child = ::fork();
     if (child == 0) {
-        const BeforeFork own;
-        ::_exit(!made.is_here() && own.is_here() && forks() == before + 1 ? 0 : 1);
+        const ForkGuard own;
+        ::_exit(!made.is_own_process() && own.is_own_process() && forks() == before + 1 ? 0 : 1);
     }
     EXPECT_EQ(status_of(child), 0);
-    EXPECT_TRUE(made.is_here());
+    EXPECT_TRUE(made.is_own_process());
     EXPECT_EQ(forks(), before);
 }
 

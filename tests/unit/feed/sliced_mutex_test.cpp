@@ -48,7 +48,7 @@ TEST(SlicedMutex, OneThreadAtATimeHasIt) {
                 if (const auto lock = mutex.try_take(); lock.owns_lock()) --guarded, ++guarded;
                 if (const auto lock = mutex.take_until(mono_now() + long_enough); lock.owns_lock()) ++guarded;
                 else --round;  // after a slice: again
-                mutex.let_others();
+                mutex.yield_to_waiters();
             }
         });
     for (auto& thread : threads) thread.join();
@@ -78,7 +78,7 @@ TEST(SlicedMutex, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
     });
     EXPECT_TRUE(eventually([&] {
         for (int slice = 0; slice < 100 && !had_turn; ++slice) {
-            mutex.let_others();
+            mutex.yield_to_waiters();
             const auto lock = mutex.take_until(MonoTime::max());
         }
         return had_turn.load();

@@ -63,7 +63,7 @@ struct RingSourceTest : ::testing::Test {
 TEST_F(RingSourceTest, AtItsEndItIsNeverDueHoweverMuchIsWritten) {
     ASSERT_TRUE(sut.open());
     write(3);
-    sut.end_here();
+    sut.stop_at_current_end();
     write(2);
     EXPECT_FALSE(sut.at_end());
     EXPECT_EQ(sut.play(handler, 2), 2u);
@@ -82,7 +82,7 @@ TEST_F(RingSourceTest, AtItsEndItIsNeverDueHoweverMuchIsWritten) {
 TEST_F(RingSourceTest, WhatIsReadToItsLastRecordIsAtItsEnd) {
     ASSERT_TRUE(sut.open());
     write(2);
-    sut.end_here();
+    sut.stop_at_current_end();
     EXPECT_EQ(sut.play(handler, 10), 2u);
     EXPECT_TRUE(sut.at_end());
     EXPECT_EQ(sut.due(true, mono_now()), MonoTime::max());
@@ -114,7 +114,7 @@ TEST_F(RingSourceTest, WhatWasMissedInTheRingIsNoLossOfTheLink) {
 }
 
 TEST_F(RingSourceTest, ARingThatIsNotThereIsAtItsEnd) {
-    sut.end_here();
+    sut.stop_at_current_end();
     EXPECT_TRUE(sut.at_end());
     EXPECT_EQ(sut.play(handler, 10), 0u);
     EXPECT_EQ(sut.due(true, mono_now()), MonoTime::max());
