@@ -11,6 +11,7 @@
 #include "mavloom/msg/file_transfer_protocol.hpp"
 #include "mavloom/wire/crc32.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 #include "sim/store/log_service.hpp"
 #include "sim/store/parameter_pack.hpp"
 
@@ -326,7 +327,7 @@ FileService::Peer* FileService::find_peer(const Client& client, Moment now) {
     // A client without a session that has been silent has nothing to lose but the answer to a repetition.
     if (peers_.size() >= most)
         std::erase_if(peers_, [&](const Peer& p) { return p.sessions.empty() && now.real - p.used >= session_idle; });
-    if (peers_.size() >= most) return nullptr;
+    if (!make_room(peers_, client.link, most)) return nullptr;
     return &peers_.emplace_back(Peer{.client = client});
 }
 

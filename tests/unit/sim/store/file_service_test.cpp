@@ -283,6 +283,19 @@ TEST_F(FileService, LimitsTheClients) {
     EXPECT_EQ(third.list("/").size(), 2u) << "the others have been silent";
 }
 
+TEST_F(FileService, AClientWithManyIdsKeepsNoOtherLinkOut) {
+    VehicleOptions options = options_of(Autopilot::px4);
+    options.limits.clients = 2;
+    Rig small(options);
+    small.vehicle.open(LinkId{2}, {}, small.now());
+    for (const auto system : {std::uint8_t{201}, std::uint8_t{202}})
+        FtpClient(small, {LinkId{1}, {SystemId{system}, ComponentId{1}}}).list("/");
+
+    FtpClient other(small, {LinkId{2}, {SystemId{201}, ComponentId{1}}});
+
+    EXPECT_EQ(other.list("/").size(), 2u);
+}
+
 TEST_F(FileService, GivesTheSameReplyToTheSameRequest) {
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/once").is_ack());
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_REMOVEFILE, "/once").is_ack());
