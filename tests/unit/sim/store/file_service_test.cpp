@@ -472,6 +472,25 @@ TEST_F(FileService, ChecksumIsTheOneOfTheFtpSpecification) {
     EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/nowhere").error(), MAV_FTP_ERR_FILENOTFOUND);
 }
 
+// A burst of 1 MB and 500 kB a second. A client that repeats its request gets the answer.
+TEST_F(FileService, LimitsHowManyBytesItSumsUp) {
+    constexpr std::size_t length = 250'000;
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/big").is_ack());
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_WRITEFILE, bytes_of("x"), 0, length - 1).is_ack());
+    const auto answers_to = [&](int requests) {
+        const std::size_t before = ftp.replies().size();
+        for (int i = 0; i < requests; ++i) ftp.send(MAV_FTP_OPCODE_CALCFILECRC, bytes_of("/big"));
+        return ftp.replies().size() - before;
+    };
+    EXPECT_EQ(answers_to(100), 5u);
+    rig.run(1.0);
+    EXPECT_EQ(answers_to(100), 2u);
+    rig.run(1.0);
+
+    --ftp.seq;
+    EXPECT_TRUE(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/big").is_ack());
+}
+
 TEST_F(FileService, WritesIntoAnExistingFileAndFillsGapsWithZeros) {
     ftp.upload("/f", {1, 2, 3});
     ASSERT_EQ(ftp.ask(MAV_FTP_OPCODE_OPENFILEWO, "/f", 5).value(), 3u);
