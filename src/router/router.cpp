@@ -152,17 +152,21 @@ MonoTime Router::next_due() const noexcept {
 }
 
 void Router::finish(Nanoseconds limit) {
-    // Reads what has already arrived. The limit matters only in a flood: 64 turns of 64 datagrams; `flush` adds its own
-    // turns. A turn may read only junk, so a single turn without a frame does not end the loop.
-    constexpr int most_turns = 64, most_empty = 4;
-    for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty; ++turns)
-        empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;
+    const MonoTime end = mono_now() + limit;
+    handle_arrived(end);
     recordings_->publish();
-    link::flush(*links_, *this, limit);
+    link::flush(*links_, *this, end - mono_now());
     recordings_->stop();
     while (!posted_->empty()) posted_->run_one();
     endpoints_->remove_inlet();
     ring_.reset();
+}
+
+// The limits matter only in a flood. A turn may read only junk, so a single turn without a frame does not end the loop.
+void Router::handle_arrived(MonoTime end) {
+    constexpr int most_turns = 64, most_empty = 4;
+    for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty && mono_now() < end; ++turns)
+        empty = links_->turn(*this, MonoTime{}) == 0 ? empty + 1 : 0;
 }
 
 void Router::post(std::function<void()> work) {

@@ -39,7 +39,7 @@ void add_to(SequenceTracker::Update& sum, const SequenceTracker::Update& one) no
 
 }  // namespace
 
-SequenceTracker::SequenceTracker() : index_of_(256) { page_of_.fill(0); }
+SequenceTracker::SequenceTracker() : index_of_(page_size) {}
 
 SequenceTracker::~SequenceTracker() {
     if (budget_ != nullptr && stats_.size() > own_sources) budget_->left_ += stats_.size() - own_sources;
@@ -52,21 +52,28 @@ bool SequenceTracker::has_room() noexcept {
     return true;
 }
 
+std::size_t SequenceTracker::page_number(Source source) noexcept {
+    return (std::size_t{source.system.value} << 8 | source.component.value) / page_size;
+}
+
+std::size_t SequenceTracker::place_of(Source source) const noexcept {
+    return page_of_[page_number(source)] * page_size + source.component.value % page_size;
+}
+
 std::size_t SequenceTracker::find_or_add(Source source) {
-    const std::size_t page = page_of_[source.system.value];
-    const std::size_t index = page == 0 ? 0 : index_of_[page * 256 + source.component.value];
+    const std::size_t index = index_of_[place_of(source)];
     return index != 0 || !has_room() ? index : add(source);
 }
 
 std::size_t SequenceTracker::add(Source source) {
-    auto& page = page_of_[source.system.value];
+    auto& page = page_of_[page_number(source)];
     if (page == 0) {
-        page = static_cast<std::uint16_t>(index_of_.size() / 256);
-        index_of_.resize(index_of_.size() + 256);
+        page = static_cast<std::uint16_t>(index_of_.size() / page_size);
+        index_of_.resize(index_of_.size() + page_size);
     }
     stats_.push_back({source});
     states_.emplace_back();
-    index_of_[std::size_t{page} * 256 + source.component.value] = static_cast<std::uint16_t>(stats_.size());
+    index_of_[place_of(source)] = static_cast<std::uint16_t>(stats_.size());
     return stats_.size();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts operator new of this thread. Replaces the global operators, so exactly one file of a test program includes it.
+// Counts the calls of operator new of this thread, and their bytes. Replaces the global operators, so exactly one file
+// of a test program includes it.
 // With Clang's thread sanitizer, whose own operator new cannot be replaced, nothing is counted: that build checks
 // threads, the others check allocations.
 #pragma once
@@ -15,7 +16,7 @@
 #endif
 
 namespace mavloom::test {
-inline thread_local std::size_t allocations = 0;
+inline thread_local std::size_t allocations = 0, allocated_bytes = 0;
 }
 
 #ifndef MAVLOOM_ALLOCATIONS_UNCOUNTED
@@ -23,6 +24,7 @@ inline thread_local std::size_t allocations = 0;
 // it and gives it back by the plain delete, and the address sanitizer's own nothrow form would not match ours.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     ++mavloom::test::allocations;
+    mavloom::test::allocated_bytes += size;
     return std::malloc(size == 0 ? 1 : size);
 }
 [[gnu::noinline]] void* operator new(std::size_t size) {

@@ -91,8 +91,8 @@ public:
     // Runs one turn of the links, which waits until `deadline` at most. Then runs one piece of posted work and the
     // periodic tasks that are due.
     void turn(MonoTime deadline);
-    // Handles frames that have already arrived, sends queued frames for at most `limit`, closes the recordings and
-    // removes the ring.
+    // Handles frames that have already arrived and sends queued frames, both together for at most `limit` and one turn.
+    // Then closes the recordings and removes the ring.
     void finish(Nanoseconds limit);
 
     // Async-signal-safe.
@@ -133,6 +133,7 @@ private:
     void put_back(std::span<const endpoint::Endpoint> gone, const std::string& label);
 
     [[nodiscard]] MonoTime next_due() const noexcept;
+    void handle_arrived(MonoTime end);
     void look_after(MonoTime now);
     void look_after_ring();
     void refresh_page();

@@ -124,9 +124,14 @@ private:
     [[nodiscard]] static Update restarted(SequenceStats& stats, State& state, const FrameView& frame,
                                           const Update& update) noexcept;
 
-    // Index into stats_ plus one, or 0 for an unheard source. One page of 256 components per system that was heard.
+    // Pages of 64 components of a system that was heard. Each place holds an index into stats_ plus one, or 0 if the
+    // source is unheard. All that have no page share page 0, which stays empty.
+    static constexpr std::size_t page_size = 64, page_count = 65536 / page_size;
+    [[nodiscard]] static std::size_t page_number(Source source) noexcept;
+    [[nodiscard]] std::size_t place_of(Source source) const noexcept;
+
     std::vector<std::uint16_t> index_of_;
-    std::array<std::uint16_t, 256> page_of_{};
+    std::array<std::uint16_t, page_count> page_of_{};
     std::vector<SequenceStats> stats_;
     std::vector<State> states_;
     std::uint64_t untracked_ = 0;

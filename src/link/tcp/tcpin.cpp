@@ -6,6 +6,7 @@
 #include "link/listening.hpp"
 #include "link/peer_list.hpp"
 #include "link/retry.hpp"
+#include "link/tcp/crowds.hpp"
 #include "link/tcp/tcp.hpp"
 #include "mavloom/endpoint/checks.hpp"
 
@@ -119,7 +120,8 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 }
 
 void TcpIn::admit(net::TcpStream stream) {
-    if (peers_.is_full() && !make_room(stream.remote())) {
+    const net::Address host = stream.remote().unmapped().with_port(0);
+    if (peers_.is_full() && !make_room(host)) {
         counters.peers_refused.add();
         if (!std::exchange(reported_full_, true)) {
             core_.events.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
@@ -130,15 +132,20 @@ void TcpIn::admit(net::TcpStream stream) {
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->connected_at = core_.now();
+    peer->host = host;
     if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
 }
 
-// Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate.
+// Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate, unless the newcomer's
+// address has fewer silent clients than another.
 bool TcpIn::make_room(const net::Address& newcomer) {
-    if (admission_.ask(newcomer, core_.now()) != Admission::Answer::admitted) return false;
-    TcpPeer* const first = peers_.to_evict(core_.now());
+    const Crowds crowds(peers_.all());
+    const bool is_limited = !crowds.has_room_for(newcomer);
+    if (is_limited && admission_.ask(newcomer, core_.now()) != Admission::Answer::admitted) return false;
+    const auto crowd = crowds.largest();
+    TcpPeer* const first = crowd.size != 0 ? crowd.longest_silent : peers_.to_evict(core_.now());
     if (first == nullptr) return false;
-    admission_.note_entry();
+    if (is_limited) admission_.note_entry();
     counters.peers_evicted.add();
     first->close("max_peers is reached, and this client was silent longest");
     return true;

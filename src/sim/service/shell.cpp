@@ -11,6 +11,7 @@
 #include "mavloom/msg/enums/serial_control_flag.hpp"
 #include "mavloom/msg/serial_control.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
 
@@ -41,7 +42,7 @@ void Shell::receive(const Client& from, MessageId /*id*/, ByteView payload, Mome
 Shell::Session* Shell::session_of(const Client& client) {
     const auto at = std::ranges::find(sessions_, client, &Session::client);
     if (at != sessions_.end()) return &*at;
-    if (sessions_.size() >= parts_.options.limits.clients) return nullptr;
+    if (!make_room(sessions_, client.link, parts_.options.limits.clients)) return nullptr;
     return &sessions_.emplace_back(Session{.client = client});
 }
 

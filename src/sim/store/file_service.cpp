@@ -11,6 +11,7 @@
 #include "mavloom/msg/file_transfer_protocol.hpp"
 #include "mavloom/wire/crc32.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 #include "sim/store/log_service.hpp"
 #include "sim/store/parameter_pack.hpp"
 
@@ -26,6 +27,9 @@ constexpr Nanoseconds session_idle = std::chrono::seconds{10};
 constexpr Nanoseconds repeat_window = std::chrono::seconds{2};
 // PX4's numbers: what it sends at once, and how many replies make a burst.
 constexpr unsigned pieces_at_once = 56, pieces_of_burst = 168;
+// One small request may make every vehicle of a fleet sum up a file. So each does 500 kB a second, and 1 MB at once.
+constexpr Nanoseconds checksum_time_per_byte = std::chrono::microseconds{2};
+constexpr Nanoseconds most_checksum_time = std::chrono::seconds{2};
 
 }  // namespace
 
@@ -114,7 +118,10 @@ bool FileService::carry_out(Peer& peer, const Request& request, Reply& reply) {
                    [&](FileTree& tree, const std::string& path) { return tree.truncate(path, request.header.offset); });
             break;
         case MAV_FTP_OPCODE_RENAME: rename(request, reply); break;
-        case MAV_FTP_OPCODE_CALCFILECRC: checksum(request, reply); break;
+        case MAV_FTP_OPCODE_CALCFILECRC:
+            if (checksum(request, reply)) break;
+            peer.answered.reset();  // a repetition is carried out
+            return false;
         default: reply.error = {MAV_FTP_ERR_UNKNOWNCOMMAND};
     }
     return true;
@@ -238,14 +245,18 @@ void FileService::rename(const Request& request, Reply& reply) {
     reply.error = tree_.rename(*old_path, *new_path);
 }
 
-void FileService::checksum(const Request& request, Reply& reply) {
+bool FileService::checksum(const Request& request, Reply& reply) {
+    checksums_until_ = std::max(checksums_until_, request.now.real);
+    if (checksums_until_ - request.now.real > most_checksum_time) return false;
     const auto path = path_of(request.text());
     const auto file = path ? tree_.find(*path) : tl::unexpected(path.error());
     if (!file) {
         reply.error = file.error();
-        return;
+        return true;
     }
+    checksums_until_ += checksum_time_per_byte * tree_.size(*file).value_or(0);
     reply.put(tree_.checksum(*file));
+    return true;
 }
 
 // --- Burst
@@ -326,7 +337,7 @@ FileService::Peer* FileService::find_peer(const Client& client, Moment now) {
     // A client without a session that has been silent has nothing to lose but the answer to a repetition.
     if (peers_.size() >= most)
         std::erase_if(peers_, [&](const Peer& p) { return p.sessions.empty() && now.real - p.used >= session_idle; });
-    if (peers_.size() >= most) return nullptr;
+    if (!make_room(peers_, client.link, most)) return nullptr;
     return &peers_.emplace_back(Peer{.client = client});
 }
 

@@ -4,6 +4,7 @@
 // Sessions belong to a client and have the number that the client gave when it opened the file. QGroundControl takes
 // the number from the reply, MAVSDK always uses 0, MAVProxy and pymavlink count their own. A request that is repeated
 // byte by byte gets the same reply again, without being carried out twice. A session ends after 10 s without a request.
+// Requests for too many checksums get no reply; clients repeat them.
 #pragma once
 
 #include <array>
@@ -78,7 +79,7 @@ private:
     };
 
     void answer(Peer& peer, const Request& request);
-    // Returns false if a burst has begun, so that there is no single reply.
+    // Returns false if there is no single reply: a burst has begun, or the vehicle sums up too much.
     [[nodiscard]] bool carry_out(Peer& peer, const Request& request, Reply& reply);
     void end_session(Peer& peer, const Request& request, Reply& reply);
     void list(const Request& request, Reply& reply, bool with_time);
@@ -88,7 +89,8 @@ private:
     void write(Peer& peer, const Request& request, Reply& reply);
     void begin_burst(Peer& peer, const Request& request, Reply& reply);
     void rename(const Request& request, Reply& reply);
-    void checksum(const Request& request, Reply& reply);
+    // Returns false if the vehicle has summed up too much.
+    [[nodiscard]] bool checksum(const Request& request, Reply& reply);
     // For operations on a path that answer without data.
     template <class Operation>
     void change(const Request& request, Reply& reply, const Operation& operation);
@@ -108,7 +110,8 @@ private:
 
     Parts& parts_;
     FileTree tree_;
-    std::vector<Peer> peers_;  // at most Limits::clients
+    std::vector<Peer> peers_;     // at most Limits::clients
+    MonoTime checksums_until_{};  // when the checksums so far would be done at the usual rate
 };
 
 }  // namespace mavloom::sim

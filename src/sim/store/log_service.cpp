@@ -13,6 +13,7 @@
 #include "mavloom/msg/logging_ack.hpp"
 #include "mavloom/msg/remote_log_block_status.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
 
@@ -78,7 +79,7 @@ void LogService::on_data(const Client& from, ByteView payload) {
 
 bool LogService::begin(const Download& download) {
     stop(download.client);
-    if (downloads_.size() >= parts_.options.limits.clients) return false;
+    if (!make_room(downloads_, download.client.link, parts_.options.limits.clients)) return false;
     downloads_.push_back(download);
     if (!advance(downloads_.back())) downloads_.pop_back();
     return true;

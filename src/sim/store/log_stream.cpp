@@ -10,6 +10,7 @@
 #include "mavloom/msg/logging_data_acked.hpp"
 #include "mavloom/msg/remote_log_block_status.hpp"
 #include "mavloom/msg/remote_log_data_block.hpp"
+#include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
 
@@ -28,7 +29,7 @@ constexpr Nanoseconds give_up_after = std::chrono::seconds{10};
 
 Result LogStreams::start(const Client& to, Moment now) {
     stop(to);
-    if (streams_.size() >= most_) return Result::temporarily_rejected;
+    if (!make_room(streams_, to.link, most_)) return Result::temporarily_rejected;
     streams_.push_back({.client = to, .began = now.flight, .heard = now.real});
     return Result::accepted;
 }

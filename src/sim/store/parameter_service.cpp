@@ -14,6 +14,7 @@
 #include "mavloom/msg/param_set.hpp"
 #include "mavloom/msg/param_value.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 
 namespace mavloom::sim {
 
@@ -58,7 +59,8 @@ void ParameterService::on_list(const Client& from, Moment now) {
         running->next = 0;
         return;
     }
-    if (lists_.size() >= parts_.options.limits.clients) return refuse(from, {.error = msg::MAV_PARAM_ERROR_READ_FAIL});
+    if (!make_room(lists_, from.link, parts_.options.limits.clients))
+        return refuse(from, {.error = msg::MAV_PARAM_ERROR_READ_FAIL});
     lists_.push_back({.client = from, .has_hash_ahead = parts_.firmware.is_px4()});
     if (const auto banner = parts_.firmware.texts().banner; !banner.empty())
         parts_.announcer.say(Severity::info, banner, now.flight);

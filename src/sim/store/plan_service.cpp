@@ -22,6 +22,7 @@
 #include "mavloom/msg/mission_set_current.hpp"
 #include "mavloom/msg/mission_write_partial_list.hpp"
 #include "sim/parts.hpp"
+#include "sim/service/shares.hpp"
 #include "sim/store/plan_items.hpp"
 
 namespace mavloom::sim {
@@ -106,7 +107,7 @@ void PlanService::on_count(const Client& from, const MissionCount& message, Mome
 PlanService::Transfer* PlanService::begin_upload(const Client& from, PlanType type, Moment now) {
     if (is_uploaded_by_another(from, type)) return nullptr;
     drop(from, type);
-    if (transfers_.size() >= parts_.options.limits.clients) return nullptr;
+    if (!make_room(transfers_, from.link, parts_.options.limits.clients)) return nullptr;
     transfers_.push_back({.client = from, .type = type, .stage = Stage::upload, .heard = now.real});
     return &transfers_.back();
 }
@@ -208,7 +209,7 @@ void PlanService::on_list(const Client& from, std::uint8_t mission_type, Moment 
                       .end = plan.size(),
                       .edition = plan.edition(),
                       .heard = now.real};
-    if (!plan.empty() && transfers_.size() >= parts_.options.limits.clients)
+    if (!plan.empty() && !make_room(transfers_, from.link, parts_.options.limits.clients))
         return acknowledge(from, mission_type, MAV_MISSION_ERROR);
     send_count(transfer, now);
     if (!plan.empty()) transfers_.push_back(std::move(transfer));

@@ -134,10 +134,13 @@ template <class Condition, class... Nodes>
 // A socket that knows nothing of ours.
 class PlainSocket {
 public:
-    explicit PlainSocket(int type, std::uint16_t port = 0) : fd_(::socket(AF_INET, type, 0)) { bind_to(port); }
+    explicit PlainSocket(int type, std::uint16_t port = 0, std::uint32_t host = INADDR_LOOPBACK)
+        : fd_(::socket(AF_INET, type, 0)) {
+        bind_to(host, port);
+    }
     static PlainSocket udp(std::uint16_t port = 0) { return PlainSocket(SOCK_DGRAM, port); }
-    static PlainSocket connected_tcp(std::uint16_t port, int receive_buffer = 0) {
-        PlainSocket s(SOCK_STREAM);
+    static PlainSocket connected_tcp(std::uint16_t port, int receive_buffer = 0, std::uint32_t from = INADDR_LOOPBACK) {
+        PlainSocket s(SOCK_STREAM, 0, from);
         if (receive_buffer != 0) setsockopt(s.fd(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
         sockaddr_in to = loopback(port);
         EXPECT_EQ(::connect(s.fd(), reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
@@ -179,8 +182,9 @@ public:
     }
 
 private:
-    void bind_to(std::uint16_t port) const {
+    void bind_to(std::uint32_t host, std::uint16_t port) const {
         sockaddr_in a = loopback(port);
+        a.sin_addr.s_addr = htonl(host);
         EXPECT_EQ(::bind(fd_, reinterpret_cast<sockaddr*>(&a), sizeof a), 0);
     }
     int fd_;

@@ -18,6 +18,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using Bytes = std::vector<std::uint8_t>;
 using Stream = wire::Verifier::Stream;
 
 constexpr std::string_view two_senders =

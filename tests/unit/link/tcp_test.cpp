@@ -207,6 +207,33 @@ TEST_F(LinksTcp, SilentClientsMakeRoomForNewcomersOldestFirst) {
     EXPECT_EQ(other.info(in).counters->peers_refused.value(), 0u);
 }
 
+// More connections than may enter a full endpoint at once, then one from another address in the same turn.
+TEST_F(LinksTcp, AStormOfConnectionsKeepsNoOtherAddressOut) {
+    Node other;
+    in = other.add("tcpin://127.0.0.1:0?max_peers=4");
+    std::vector<PlainSocket> clients;
+    const auto connect_from = [&](std::uint32_t host, int count) {
+        for (int i = 0; i < count; ++i) clients.push_back(PlainSocket::connected_tcp(other.port(in), 0, host));
+    };
+    const auto refused = [&] { return other.info(in).counters->peers_refused.value(); };
+    const auto all_came = [&] { return refused() + other.recorder.ups.size() == clients.size(); };
+    for (int batch = 0; batch < 2; ++batch) {
+        connect_from(INADDR_LOOPBACK, 60);
+        ASSERT_TRUE(until(all_came, other));
+    }
+    ASSERT_GT(refused(), 0u);
+
+    connect_from(INADDR_LOOPBACK, 50);
+    connect_from(INADDR_LOOPBACK + 1, 1);
+    ASSERT_TRUE(until(all_came, other));
+    connect_from(INADDR_LOOPBACK, 10);
+    ASSERT_TRUE(until(all_came, other));
+
+    const auto links = other.links->links();
+    EXPECT_THAT(links, SizeIs(4));
+    EXPECT_THAT(links, Contains(::testing::Field(&LinkInfo::name, HasSubstr("#127.0.0.2:"))));
+}
+
 TEST(LinksTcpOut, WaitsForAListenerThatComesLater) {
     std::uint16_t port;
     {

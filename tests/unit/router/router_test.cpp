@@ -62,6 +62,8 @@ struct RouterTest : testing::Test {
         return ids;
     }
 
+    [[nodiscard]] std::uint64_t frames_in() const { return sut->links().links().at(0).counters->frames_in.value(); }
+
     std::vector<std::string> notices;
     std::unique_ptr<Router> sut = std::move(
         *Router::create(dialect::default_dialect(), {.route_timeout = 60s},
@@ -169,6 +171,32 @@ TEST_F(RouterTest, RecordsWhatArrivesAndEndsARecordingThatIsRemoved) {
 
     constexpr std::uintmax_t time_bytes = 8;
     EXPECT_EQ(std::filesystem::file_size(folder / "a.tlog"), time_bytes + link::testing::heartbeat(0).size());
+}
+
+// More than a turn reads.
+TEST_F(RouterTest, TheEndHandlesWhatHasArrived) {
+    const auto port = free_port();
+    add(udpin(port));
+    const auto vehicle = PlainSocket::udp();
+    ASSERT_TRUE(heard(vehicle, port, 1));
+    for (int i = 1; i < 400; ++i) vehicle.send_to(port, link::testing::heartbeat(static_cast<std::uint8_t>(i)));
+
+    sut->finish(60s);
+
+    EXPECT_EQ(frames_in(), 400u);
+}
+
+// Without the limit, it reads for up to 64 turns.
+TEST_F(RouterTest, TheEndReadsNoLongerThanItsLimit) {
+    const auto port = free_port();
+    add(udpin(port));
+    const auto vehicle = PlainSocket::udp();
+    ASSERT_TRUE(heard(vehicle, port, 1));
+    for (int i = 1; i < 400; ++i) vehicle.send_to(port, link::testing::heartbeat(static_cast<std::uint8_t>(i)));
+
+    sut->finish(0s);
+
+    EXPECT_LT(frames_in(), 400u);
 }
 
 TEST_F(RouterTest, AReloadEndsRecordingsThatAreNotWantedAndKeepsTheOthers) {

@@ -301,6 +301,23 @@ TEST(ParameterService, LimitsTheNumberOfClients) {
     EXPECT_EQ(rig.all<msg::ParamError>().size(), 100u - VehicleOptions{}.limits.clients);
 }
 
+// The far side of link 1 takes nothing, so none of its lists ends.
+TEST(ParameterService, AClientWithManyIdsKeepsNoOtherLinkOut) {
+    Rig rig;
+    rig.vehicle.open(LinkId{2}, {}, rig.now());
+    rig.sink.queued[1] = 10'000;
+    for (int i = 0; i < 100; ++i)
+        rig.send(list_request, {.id = {SystemId{static_cast<std::uint8_t>(100 + i)}, ComponentId{1}}});
+
+    rig.send(list_request, {.link = LinkId{2}});
+    rig.run(10.0);
+
+    EXPECT_TRUE(rig.all<msg::ParamError>(LinkId{2}).empty());
+    const auto values = rig.all<msg::ParamValue>(LinkId{2});
+    ASSERT_FALSE(values.empty());
+    EXPECT_EQ(values.size(), values.back().param_count + 1u) << "and the checksum";
+}
+
 TEST(ParameterService, CastsValuesOfArduPilot) {
     Rig rig(ardupilot);
     rig.send(read_of("RTL_ALT"));

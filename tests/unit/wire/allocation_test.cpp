@@ -41,24 +41,37 @@ TEST(Wire, AllocatesNothingForAFrameOrForJunk) {
     EXPECT_EQ(frames, 2001u * 4);
 }
 
+void hear_systems(SequenceTracker& sut, unsigned from, unsigned to) {
+    static auto frame = test::heartbeat_v2;
+    for (unsigned system = from; system < to; ++system) {
+        frame[5] = static_cast<std::uint8_t>(system);
+        sut.update(FrameView::unchecked(frame));
+    }
+}
+
 TEST(Wire, AllocatesNothingForSourcesBeyondTheBudget) {
     SourceBudget budget(0);
     SequenceTracker sut;
     sut.limit_by(budget);
-    auto frame = test::heartbeat_v2;
-    const auto hear = [&](unsigned from, unsigned to) {
-        for (unsigned system = from; system < to; ++system) {
-            frame[5] = static_cast<std::uint8_t>(system);
-            sut.update(FrameView::unchecked(frame));
-        }
-    };
-    hear(0, SequenceTracker::own_sources);
+    hear_systems(sut, 0, SequenceTracker::own_sources);
     const auto before = test::allocations;
 
-    hear(SequenceTracker::own_sources, 256);
+    hear_systems(sut, SequenceTracker::own_sources, 256);
 
     EXPECT_EQ(test::allocations, before);
     EXPECT_EQ(sut.untracked(), 256 - SequenceTracker::own_sources);
+}
+
+// The budget counts sources, so each must be small, also if each invents a system: about 400 bytes. Tables that grow
+// allocate more, and give it back.
+TEST(Wire, ASourceOfAnInventedSystemIsSmall) {
+    SequenceTracker sut;
+    hear_systems(sut, 0, 1);
+    const auto before = test::allocated_bytes;
+
+    hear_systems(sut, 1, 256);
+
+    EXPECT_LT(test::allocated_bytes - before, 255u * 1100);
 }
 
 }  // namespace mavloom::wire

@@ -283,6 +283,19 @@ TEST_F(FileService, LimitsTheClients) {
     EXPECT_EQ(third.list("/").size(), 2u) << "the others have been silent";
 }
 
+TEST_F(FileService, AClientWithManyIdsKeepsNoOtherLinkOut) {
+    VehicleOptions options = options_of(Autopilot::px4);
+    options.limits.clients = 2;
+    Rig small(options);
+    small.vehicle.open(LinkId{2}, {}, small.now());
+    for (const auto system : {std::uint8_t{201}, std::uint8_t{202}})
+        FtpClient(small, {LinkId{1}, {SystemId{system}, ComponentId{1}}}).list("/");
+
+    FtpClient other(small, {LinkId{2}, {SystemId{201}, ComponentId{1}}});
+
+    EXPECT_EQ(other.list("/").size(), 2u);
+}
+
 TEST_F(FileService, GivesTheSameReplyToTheSameRequest) {
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/once").is_ack());
     ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_REMOVEFILE, "/once").is_ack());
@@ -457,6 +470,25 @@ TEST_F(FileService, ChecksumIsTheOneOfTheFtpSpecification) {
 
     EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/digits").value(), 0x2dfd2d88u);
     EXPECT_EQ(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/nowhere").error(), MAV_FTP_ERR_FILENOTFOUND);
+}
+
+// A burst of 1 MB and 500 kB a second. A client that repeats its request gets the answer.
+TEST_F(FileService, LimitsHowManyBytesItSumsUp) {
+    constexpr std::size_t length = 250'000;
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_CREATEFILE, "/big").is_ack());
+    ASSERT_TRUE(ftp.ask(MAV_FTP_OPCODE_WRITEFILE, bytes_of("x"), 0, length - 1).is_ack());
+    const auto answers_to = [&](int requests) {
+        const std::size_t before = ftp.replies().size();
+        for (int i = 0; i < requests; ++i) ftp.send(MAV_FTP_OPCODE_CALCFILECRC, bytes_of("/big"));
+        return ftp.replies().size() - before;
+    };
+    EXPECT_EQ(answers_to(100), 5u);
+    rig.run(1.0);
+    EXPECT_EQ(answers_to(100), 2u);
+    rig.run(1.0);
+
+    --ftp.seq;
+    EXPECT_TRUE(ftp.ask(MAV_FTP_OPCODE_CALCFILECRC, "/big").is_ack());
 }
 
 TEST_F(FileService, WritesIntoAnExistingFileAndFillsGapsWithZeros) {

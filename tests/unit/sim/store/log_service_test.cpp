@@ -218,6 +218,21 @@ TEST(LogService, LimitsTheClients) {
     EXPECT_EQ(rig.last<LogData>()->count, 0);
 }
 
+TEST(LogService, AClientWithManyIdsKeepsNoOtherLinkOut) {
+    VehicleOptions options = options_with(1);
+    options.limits.clients = 2;
+    Rig rig(options);
+    rig.vehicle.open(LinkId{2}, {}, rig.now());
+    rig.sink.queued[1] = 100'000;
+    for (const auto system : {std::uint8_t{201}, std::uint8_t{202}, std::uint8_t{203}})
+        request_data(rig, 0, 0, 900, {LinkId{1}, {SystemId{system}, ComponentId{1}}});
+
+    request_data(rig, 0, 0, 90, {LinkId{2}, {SystemId{201}, ComponentId{1}}});
+
+    ASSERT_EQ(rig.all<LogData>(LinkId{2}).size(), 1u);
+    EXPECT_EQ(rig.last<LogData>(LinkId{2})->count, 90);
+}
+
 // --- Formats
 
 TEST(RecordedLogs, Px4WritesULog) {

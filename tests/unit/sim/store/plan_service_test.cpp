@@ -488,6 +488,20 @@ TEST_F(PlanService, LimitsHowManyClientsTransfer) {
     EXPECT_EQ(small.last<MissionAck>()->target_system, 203);
 }
 
+TEST_F(PlanService, AClientWithManyIdsKeepsNoOtherLinkOut) {
+    upload(recorded_plan());
+    rig.vehicle.open(LinkId{2}, {}, rig.now());
+    const MissionRequestList request{.target_system = 1, .target_component = 1};
+    for (int i = 0; i < 100; ++i)
+        rig.send(request, Peer{LinkId{1}, {SystemId{static_cast<std::uint8_t>(100 + i)}, ComponentId{1}}});
+    ASSERT_EQ(last_result(), MAV_MISSION_ERROR);
+
+    rig.send(request, Peer{LinkId{2}, {SystemId{255}, ComponentId{190}}});
+
+    ASSERT_TRUE(rig.last<MissionCount>(LinkId{2}));
+    EXPECT_EQ(rig.last<MissionCount>(LinkId{2})->count, recorded_plan().size());
+}
+
 TEST_F(PlanService, ACountOfZeroClears) {
     upload(recorded_plan());
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Counts the clients of a tcpin that have not talked yet, by their addresses. When the endpoint is full, one from the
+// address with most of them makes room. So a client that connects again and again keeps out only those that share its
+// address. An address cannot be forged, because a TCP connection needs answers. Private to module link; single owner
+// thread.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "mavloom/base/clock.hpp"
+#include "mavloom/net/address.hpp"
+
+namespace mavloom::link::detail {
+
+// `Peer` has a `host` (an address with port 0), `has_talked` and `silent_since`.
+template <class Peer>
+class Crowds {
+public:
+    struct Crowd {
+        std::size_t size = 0;
+        Peer* longest_silent = nullptr;
+    };
+
+    // The peers must outlive the object. Allocates.
+    explicit Crowds(const std::vector<Peer*>& peers) {
+        for (Peer* const peer : peers)
+            if (!peer->has_talked()) add(*peer);
+    }
+
+    // If several are equal, that with the longest silent peer. Its size is 0 if all peers have talked.
+    [[nodiscard]] Crowd largest() const {
+        Crowd found;
+        for (const auto& [host, crowd] : crowds_)
+            if (crowd.size > found.size || (crowd.size == found.size && is_longer_silent(crowd, found))) found = crowd;
+        return found;
+    }
+    // Whether one more peer from `host` would still be in a smaller crowd than the largest.
+    [[nodiscard]] bool has_room_for(const net::Address& host) const {
+        const auto own = crowds_.find(host);
+        return (own == crowds_.end() ? 0 : own->second.size) + 1 < largest().size;
+    }
+
+private:
+    struct Hash {
+        std::size_t operator()(const net::Address& address) const noexcept { return address.hash(); }
+    };
+
+    void add(Peer& peer) {
+        Crowd& crowd = crowds_[peer.host];
+        const Crowd alone{1, &peer};
+        if (crowd.size++ == 0 || is_longer_silent(alone, crowd)) crowd.longest_silent = &peer;
+    }
+    [[nodiscard]] static bool is_longer_silent(const Crowd& one, const Crowd& other) {
+        return one.longest_silent->silent_since() < other.longest_silent->silent_since();
+    }
+
+    std::unordered_map<net::Address, Crowd, Hash> crowds_;
+};
+
+}  // namespace mavloom::link::detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Shares the places that a service has for its clients among the links. A client may use any number of ids, so one that
+// takes all places keeps out only the clients of its own link. Private to module sim.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "mavloom/base/ids.hpp"
+
+namespace mavloom::sim {
+
+// Returns true if there is a place for one more client of `link`. `taken` holds at most `most`, the oldest first. If it
+// is full, the link that has most of them loses its oldest one, unless `link` would then have as many.
+template <class Taken>
+[[nodiscard]] bool make_room(std::vector<Taken>& taken, LinkId link, std::size_t most) {
+    if (taken.size() < most) return true;
+    const auto link_of = [](const Taken& one) { return one.client.link; };
+    const auto count = [&](LinkId of) { return std::ranges::count(taken, of, link_of); };
+    const auto first = std::ranges::max_element(taken, {}, [&](const Taken& one) { return count(link_of(one)); });
+    if (first == taken.end() || count(link) + 1 >= count(link_of(*first))) return false;
+    taken.erase(first);
+    return true;
+}
+
+}  // namespace mavloom::sim
