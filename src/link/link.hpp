@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include "mavloom/link/links.hpp"
@@ -24,16 +23,21 @@ struct Link {
     // Notifies the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
-    // A link may have an allowance: the bytes that may be sent to it. A forged sender address must not direct all
-    // traffic to its owner. Links other than UDP peers have none.
-    void give_allowance() noexcept { allowance_bytes_ = 0; }
+    // What happens to frames that are sent to the link.
+    enum class Sending : std::uint8_t {
+        queued,
+        // The link has an allowance: the bytes that may be sent to it. A forged sender address must not direct all
+        // traffic to its owner. Only UDP peers have one.
+        limited,
+        // The far side reads outgoing frames from the ring. They are counted, never queued.
+        found_in_ring,
+    };
+    void give_allowance() noexcept { sending = Sending::limited; }
     void extend_allowance(std::int64_t bytes) noexcept { allowance_bytes_ += bytes; }
-    void lift_allowance() noexcept { allowance_bytes_ = unlimited; }
-    [[nodiscard]] bool has_allowance() const noexcept { return allowance_bytes_ != unlimited; }
+    void lift_allowance() noexcept { sending = Sending::queued; }
+    [[nodiscard]] bool has_allowance() const noexcept { return sending == Sending::limited; }
     // Spends `bytes` of the allowance. Returns false if too little is left.
     [[nodiscard]] bool spend(std::size_t bytes) noexcept {
-        if (!has_allowance()) [[likely]]
-            return true;
         if (allowance_bytes_ < static_cast<std::int64_t>(bytes)) return false;
         allowance_bytes_ -= static_cast<std::int64_t>(bytes);
         return true;
@@ -47,8 +51,7 @@ struct Link {
     bool reported_up = false;
     // True if the outlet was notified that the queue is not empty.
     bool is_scheduled = false;
-    // True if the far side reads outgoing frames from the ring. They are then counted, never queued.
-    bool finds_in_ring = false;
+    Sending sending = Sending::queued;
     Signature* signature = nullptr;
     LinkCounters counters;
     // Frames from verified senders, and the program's own, use the first lane.
@@ -56,8 +59,7 @@ struct Link {
     wire::SequenceTracker tracker;
 
 private:
-    static constexpr std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
-    std::int64_t allowance_bytes_ = unlimited;
+    std::int64_t allowance_bytes_ = 0;
 };
 
 }  // namespace mavloom::link::detail

@@ -95,15 +95,21 @@ wire::FrameView Core::signed_for(Link& link, const wire::FrameView& frame) {
     return link.signature == nullptr ? frame : link.signature->sign(frame, link.dialect->table, wall_now());
 }
 
+static bool count_found(Link& link, const wire::FrameView& frame) noexcept {
+    link.counters.frames_out.add();
+    link.counters.bytes_out.add(frame.size());
+    return true;
+}
+
+static bool count_unconfirmed(Link& link) noexcept {
+    link.counters.unconfirmed.add();
+    return false;
+}
+
 bool Core::queue(Link& link, net::BlockQueue& lane, OutgoingFrame& outgoing, const wire::FrameView& frame, MonoTime now) {
-    if (link.finds_in_ring) {
-        link.counters.frames_out.add();
-        link.counters.bytes_out.add(frame.size());
-        return true;
-    }
-    if (!link.spend(frame.size())) [[unlikely]] {
-        link.counters.unconfirmed.add();
-        return false;
+    if (link.sending != Link::Sending::queued) [[unlikely]] {
+        if (link.sending == Link::Sending::found_in_ring) return count_found(link, frame);
+        if (!link.spend(frame.size())) return count_unconfirmed(link);
     }
     const LinkDialect& dialect = *link.dialect;
     const auto pushed = lane.push(frame.bytes(), outgoing.block_class(dialect), outgoing.key(dialect), now);

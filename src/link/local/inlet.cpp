@@ -24,7 +24,7 @@ namespace {
 struct Sender final : Link {
     Sender(EndpointId owner, const wire::MessageTable& table, std::string_view from)
         : Link(owner, {}), address(from), parser(table) {
-        finds_in_ring = true;
+        sending = Link::Sending::found_in_ring;
     }
     void schedule() override {}
 
