@@ -23,7 +23,7 @@ struct Link {
     // Notifies the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
-    // What happens to frames that are sent to the link.
+    // Where the frames go that are sent to the link.
     enum class Sending : std::uint8_t {
         queued,
         // The link has an allowance: the bytes that may be sent to it. A forged sender address must not direct all
