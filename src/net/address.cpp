@@ -84,6 +84,13 @@ Address Address::unmapped() const noexcept {
     return v4;
 }
 
+Address Address::host_part() const noexcept {
+    Address part = unmapped().with_port(0);
+    if (part.is_v6() && !IN6_IS_ADDR_LINKLOCAL(&part.storage_.v6.sin6_addr))
+        std::memset(&part.storage_.v6.sin6_addr.s6_addr[8], 0, 8);
+    return part;
+}
+
 bool Address::is_multicast() const noexcept {
     if (is_v4()) return (ntohl(storage_.v4.sin_addr.s_addr) >> 28) == 0xe;
     return is_v6() && IN6_IS_ADDR_MULTICAST(&storage_.v6.sin6_addr);

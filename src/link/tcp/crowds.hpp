@@ -16,7 +16,7 @@
 
 namespace mavloom::link::detail {
 
-// `Peer` has a `host` (an address with port 0), `has_talked` and `silent_since`.
+// `Peer` has a `host` (Address::host_part), `has_talked` and `silent_since`.
 template <class Peer>
 class Crowds {
 public:

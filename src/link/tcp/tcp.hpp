@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool has_talked() const noexcept { return counters.frames_in.value() != 0; }
     [[nodiscard]] MonoTime silent_since() const noexcept { return has_talked() ? last_heard : connected_at; }
     MonoTime connected_at{};
-    net::Address host;  // of a client of a tcpin; without its port
+    net::Address host;  // of a client of a tcpin: Address::host_part()
 
     [[nodiscard]] static bool wants(const wire::ParseEvent&) noexcept { return true; }
 

@@ -120,7 +120,7 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 }
 
 void TcpIn::admit(net::TcpStream stream) {
-    const net::Address host = stream.remote().unmapped().with_port(0);
+    const net::Address host = stream.remote().host_part();
     if (peers_.is_full() && !make_room(host)) {
         counters.peers_refused.add();
         if (!std::exchange(reported_full_, true)) {

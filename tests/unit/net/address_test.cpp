@@ -68,6 +68,16 @@ TEST(Address, RefusesOtherFamiliesAndShortLengths) {
     EXPECT_FALSE(Address::from_sockaddr(nullptr, 0));
 }
 
+// RFC 4291, section 2.5.1: the interface identifier, which a host chooses, is 64 bits.
+TEST(Address, TheHostPartLeavesOutWhatAHostMayChoose) {
+    const auto part = [](std::string_view host) { return Address::parse(host, 7)->host_part().text(); };
+
+    EXPECT_EQ(part("192.0.2.1"), "192.0.2.1:0");
+    EXPECT_EQ(part("::ffff:192.0.2.1"), "192.0.2.1:0");
+    EXPECT_EQ(part("2001:db8:1:2:3:4:5:6"), "[2001:db8:1:2::]:0");
+    EXPECT_EQ(part("fe80::3:4:5:6"), "[fe80::3:4:5:6]:0");
+}
+
 TEST(Address, AnIpv4PeerOfADualStackSocketIsUnmapped) {
     EXPECT_EQ(Address::parse("::ffff:192.0.2.1", 7)->unmapped(), *Address::parse("192.0.2.1", 7));
     EXPECT_EQ(Address::parse("2001:db8::1", 7)->unmapped(), *Address::parse("2001:db8::1", 7));
