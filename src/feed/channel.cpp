@@ -40,11 +40,11 @@ void Channel::on_frame(const link::RxFrame& rx, MonoTime now) {
     const auto key = NewestFrames::key_of(rx.frame, rx.info == nullptr ? nullptr : dialect_->find(rx.frame.id()));
     const std::lock_guard lock(mutex_);
     ring_.push(head, rx.frame);
-    news_ = true;
+    has_new_frames_ = true;
     newest_.put(key, head, rx.frame, now);
     if (target_.system.value == 0 && is_vehicle_heartbeat(rx.frame)) target_ = rx.frame.source();
-    for (auto* consumer : consumers_)
-        if (consumer->armed_ && consumer->filter_.takes(rx.frame)) consumer->due_ = true;
+    for (auto* reader : readers_)
+        if (reader->armed_ && reader->filter_.takes(rx.frame)) reader->due_ = true;
     for (const auto& recorder : recorders_) recorder->record(rx.time, rx.link, rx.frame);
 }
 
@@ -72,9 +72,9 @@ void Channel::on_bad_checksum(MessageId id) {
 
 void Channel::publish() {
     const std::lock_guard lock(mutex_);
-    if (!std::exchange(news_, false)) return;
-    for (auto* consumer : consumers_)
-        if (std::exchange(consumer->due_, false)) consumer->signal();
+    if (!std::exchange(has_new_frames_, false)) return;
+    for (auto* reader : readers_)
+        if (std::exchange(reader->due_, false)) reader->signal();
     for (const auto& recorder : recorders_) recorder->publish();
     changed_.notify_all();
 }
@@ -90,7 +90,7 @@ void Channel::close() {
     holder_ = nullptr;
     room_made_ = {};
     peers_.store(0, std::memory_order_relaxed);
-    for (auto* consumer : consumers_) consumer->signal();
+    for (auto* reader : readers_) reader->signal();
     for (const auto& recorder : recorders_) recorder->end();
     recorders_.clear();
     changed_.notify_all();
@@ -169,13 +169,13 @@ ChannelReader::ChannelReader(std::shared_ptr<Channel> channel, Filter filter)
     const std::lock_guard lock(channel_->mutex_);
     at_ = channel_->ring_.newest();
     seen_ = at_.frame;
-    channel_->consumers_.push_back(this);
+    channel_->readers_.push_back(this);
 }
 
 ChannelReader::~ChannelReader() {
     {
         const std::lock_guard lock(channel_->mutex_);
-        std::erase(channel_->consumers_, this);
+        std::erase(channel_->readers_, this);
         channel_->end_hold(this);
     }
     if (event_fd_ >= 0) ::close(event_fd_);

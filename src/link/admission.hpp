@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Limits how many unknown senders a UDP endpoint accepts as peers, so that a flood of invented addresses costs little.
-// Private to module link; single owner thread.
+// Limits how many unknown senders a UDP or TCP endpoint accepts as peers, so that a flood of invented addresses costs
+// little. Private to module link; single owner thread.
 //
 // The first senders enter at once, later ones at a steady rate. A sender that is turned away during a flood enters when
 // it sends again 0.5 to 10 s later. Every MAVLink program does that; invented addresses mostly do not. If many of them
-// repeat, they enter at a steady rate too. `ask` allocates once: a table of senders, when the first is turned away.
-// See docs/design/security.md.
+// repeat, they enter at a steady rate too. Above 44,000 new addresses a second, the table is full, and a sender may
+// need some tries. `ask` allocates once: a table of senders, when the first is turned away. See
+// docs/design/security.md.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +32,8 @@ public:
     static constexpr double repeaters_per_second = 100, most_repeaters_at_once = 100;
     static constexpr std::chrono::milliseconds repeats_after{500};
     static constexpr std::chrono::seconds remembered_for{10};
-    // No newer address replaces an address that sent less than this ago. So a flood does not make the endpoint forget a
-    // program before its next heartbeat.
+    // No newer address replaces an address that was first seen less than this ago. So a flood does not make the
+    // endpoint forget a program before its next heartbeat.
     static constexpr std::chrono::milliseconds kept_for{1500};
     static constexpr std::size_t remembered = 1u << 16;
 

@@ -23,7 +23,7 @@ struct Link {
     // Notifies the outlet that `queue` has new frames.
     virtual void schedule() = 0;
 
-    // Where the frames go that are sent to the link.
+    // How the link sends.
     enum class Sending : std::uint8_t {
         queued,
         // The link has an allowance: the bytes that may be sent to it. A forged sender address must not direct all
@@ -32,11 +32,14 @@ struct Link {
         // The far side reads outgoing frames from the ring. They are counted, never queued.
         found_in_ring,
     };
-    void give_allowance() noexcept { sending = Sending::limited; }
+    void give_allowance() noexcept {
+        allowance_bytes_ = 0;
+        sending = Sending::limited;
+    }
     void extend_allowance(std::int64_t bytes) noexcept { allowance_bytes_ += bytes; }
     void lift_allowance() noexcept { sending = Sending::queued; }
     [[nodiscard]] bool has_allowance() const noexcept { return sending == Sending::limited; }
-    // Spends `bytes` of the allowance. Returns false if too little is left.
+    // Spends `bytes` of the allowance. Returns false if too little is left. Call it only if there is one.
     [[nodiscard]] bool spend(std::size_t bytes) noexcept {
         if (allowance_bytes_ < static_cast<std::int64_t>(bytes)) return false;
         allowance_bytes_ -= static_cast<std::int64_t>(bytes);

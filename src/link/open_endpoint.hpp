@@ -83,10 +83,13 @@ private:
 // stations mostly sign with 0 and small ids.
 class SigningIds {
 public:
-    // Returns the link id for an endpoint that is about to be opened with id `fresh`. It is the first of these that
-    // exists and that no open endpoint uses: the link id that this label had; 255 - `fresh`, if it was never used; any
-    // that was never used; the one that was opened longest ago. Empty if open endpoints use all 256. An empty label
-    // matches no earlier one.
+    // Returns the link id for an endpoint that is about to be opened with id `fresh`: the first of these that exists
+    // and that no open endpoint uses.
+    // - the link id that this label had (an empty label had none)
+    // - 255 - `fresh`, if it was never used
+    // - any that was never used
+    // - the one that was opened longest ago
+    // Empty if open endpoints use all 256.
     [[nodiscard]] std::optional<std::uint8_t> choose(const std::string& label, EndpointId fresh,
                                                      const OpenEndpoints& endpoints) const;
     // Notes that the endpoint was opened: `holder` now signs with `link_id`.

@@ -162,7 +162,8 @@ void Router::finish(Nanoseconds limit) {
     ring_.reset();
 }
 
-// The limits matter only in a flood. A turn may read only junk, so a single turn without a frame does not end the loop.
+// The limits matter in a flood, or after costly frames (ReadBudget). A turn may read only junk, so a single turn
+// without a frame does not end the loop.
 void Router::handle_arrived(MonoTime end) {
     constexpr int most_turns = 64, most_empty = 4;
     for (int turns = 0, empty = 0; turns < most_turns && empty < most_empty && mono_now() < end; ++turns)

@@ -119,12 +119,12 @@ private:
     Source target_;
     std::map<MessageId, std::uint64_t> bad_ids_;
     Losses losses_;
-    std::vector<ChannelReader*> consumers_;
+    std::vector<ChannelReader*> readers_;
     std::vector<std::shared_ptr<record::Recorder>> recorders_;
     const ChannelReader* holder_ = nullptr;
     std::function<void()> room_made_;
     bool full_ = false;
-    bool news_ = false;
+    bool has_new_frames_ = false;
 };
 
 // One reader of a channel, with its own position. Any thread may call it. If several threads share a reader, each frame

@@ -149,8 +149,8 @@ public:
     // queue frames. It must outlive the endpoint.
     [[nodiscard]] SetupResult<EndpointId> add(const endpoint::Endpoint& endpoint,
                                               const dialect::Dialect* dialect = nullptr);
-    // From now on, treats each endpoint as if it belonged to a program of its own. So several endpoints may have the
-    // same address, and an endpoint accepts frames that another endpoint signed.
+    // From now on, treats each endpoint as if it belonged to a program of its own. So several endpoints
+    // without name= may have the same address, and an endpoint accepts frames that another endpoint signed.
     void make_independent() noexcept;
     // Returns whether another endpoint with the same address may be added.
     [[nodiscard]] bool allows_same_address(const endpoint::Endpoint& endpoint) const noexcept;

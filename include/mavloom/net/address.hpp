@@ -38,8 +38,8 @@ public:
     [[nodiscard]] Address with_scope(std::uint32_t interface) const noexcept;
     // Returns 1.2.3.4 for ::ffff:1.2.3.4, the IPv4 peer of a dual-stack socket. Returns other addresses unchanged.
     [[nodiscard]] Address unmapped() const noexcept;
-    // Returns the part of the address, with port 0, that one host may have all to itself: an IPv4 address, the first 64
-    // bits of an IPv6 address, or a whole link-local one.
+    // Returns the part that identifies a host, with port 0: an IPv4 address, the first 64 bits of an IPv6 address, or a
+    // whole link-local address.
     [[nodiscard]] Address host_part() const noexcept;
 
     [[nodiscard]] bool is_any() const noexcept;        // 0.0.0.0 or ::

@@ -98,9 +98,9 @@ private:
     MonoTime page_due_{};
     LinkId last_link_{};
     bool ran_ = false, links_changed_ = false;
-    bool noted_aside_ = false;  // whether the renaming of an earlier file was reported
-    bool reported_ring_ = false,
-         reported_page_ = false;  // whether the failure to recreate the ring or page was reported
+    bool noted_aside_ = false;    // whether the renaming of an earlier file was reported
+    bool reported_ring_ = false;  // whether the failure to recreate the ring was reported
+    bool reported_page_ = false;  // the same for the page
 };
 
 }  // namespace mavloom::ring

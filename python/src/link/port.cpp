@@ -56,7 +56,7 @@ public:
             auto hub = feed::Hub::get();
             if (!hub) return tl::unexpected(std::move(hub.error()));
             hub_ = std::move(*hub);
-            return hub_->open(endpoint, feed_.channel, nb::inst_ptr<Subscription>(reader_)->consumer());
+            return hub_->open(endpoint, feed_.channel, nb::inst_ptr<Subscription>(reader_)->reader());
         }();
         if (!opened) hub_gone();
         opened_ = value_or_raise(std::move(opened));

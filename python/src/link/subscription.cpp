@@ -21,10 +21,10 @@ static constexpr std::size_t batch_frames = 256;
 Subscription::Subscription(const LinkFeed& feed, feed::Filter filter)
     : origin_(feed.origin),
       ring_name_(feed.ring_name),
-      consumer_(std::make_unique<feed::ChannelReader>(feed.channel, std::move(filter))) {}
+      reader_(std::make_unique<feed::ChannelReader>(feed.channel, std::move(filter))) {}
 
 Subscription::~Subscription() {
-    if (!fork_.is_own_process()) static_cast<void>(consumer_.release());
+    if (!fork_.is_own_process()) static_cast<void>(reader_.release());
 }
 
 // ---- messages
@@ -43,18 +43,18 @@ nb::object Subscription::next(const feed::Filter& filter, const Limit& limit, bo
         }
         {
             const WithoutGil outside;
-            consumer_->wait(limit.deadline);
+            reader_->wait(limit.deadline);
         }
         check_signals();
     }
 }
 
 const feed::FrameBatch::Item* Subscription::next_item() {
-    ended_ = consumer_->closed();
+    ended_ = reader_->closed();
     if (ended_) return nullptr;
     if (const auto* item = batch_.next()) return item;
     batch_.clear();
-    ended_ = !consumer_->take(batch_, batch_frames);
+    ended_ = !reader_->take(batch_, batch_frames);
     return batch_.next();
 }
 
@@ -63,7 +63,7 @@ nb::object Subscription::message_of(const feed::FrameBatch::Item& item) const {
 }
 
 bool Subscription::is_over(const Limit& limit) const {
-    if (limit.end) return batch_.left() == 0 && consumer_->seen() >= *limit.end;
+    if (limit.end) return batch_.left() == 0 && reader_->seen() >= *limit.end;
     return mono_now() >= limit.deadline;
 }
 
@@ -85,7 +85,7 @@ nb::object Subscription::recv_match(const nb::object& condition, const nb::objec
 nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object& condition, MonoTime deadline) {
     fork_.check();
     Limit limit{deadline, {}};
-    if (deadline <= mono_now()) limit.end = consumer_->newest();
+    if (deadline <= mono_now()) limit.end = reader_->newest();
     for (bool ended = false;;) {
         nb::object message = next(filter, limit, ended);
         if (ended) raise_closed("the link is closed");
@@ -98,21 +98,21 @@ nb::object Subscription::or_closed(const feed::Filter& filter, const nb::object&
 
 int Subscription::event_fd() {
     fork_.check();
-    return value_or_raise(consumer_->event_fd());
+    return value_or_raise(reader_->event_fd());
 }
 
 std::string Subscription::shown() const {
-    return fork_.is_own_process() ? fmt::format("<Subscription: {} missed>", consumer_->missed())
+    return fork_.is_own_process() ? fmt::format("<Subscription: {} missed>", reader_->missed())
                                   : "<Subscription, opened before a fork>";
 }
 
 std::uint64_t Subscription::missed() const {
     fork_.check();
-    return consumer_->missed();
+    return reader_->missed();
 }
 
 void Subscription::close() {
-    if (fork_.is_own_process()) consumer_->close();
+    if (fork_.is_own_process()) reader_->close();
 }
 
 // ---- into a ring
@@ -126,7 +126,7 @@ std::uint64_t Subscription::pump(PyRingWriter& writer, const nb::object& timeout
     fork_.check();
     check_target(writer.name());
     const auto deadline = deadline_after(timeout);
-    const auto end = consumer_->newest();
+    const auto end = reader_->newest();
     for (Pumped pumped;;) {
         writer.check();
         {
@@ -156,7 +156,7 @@ void Subscription::pump_slice(PyRingWriter& writer, MonoTime deadline, Pumped& p
                 if (!put(writer, *item, waits_until, pumped) || mono_now() >= end) return;
             pumped.ended = ended_;
         }
-        if (!pumped.ended) consumer_->wait(waits_until);
+        if (!pumped.ended) reader_->wait(waits_until);
     } while (!pumped.ended && mono_now() < waits_until);
 }
 

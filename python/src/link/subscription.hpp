@@ -50,7 +50,7 @@ public:
     [[nodiscard]] std::uint64_t missed() const;
     [[nodiscard]] std::string shown() const;  // for a repr
     void close();
-    [[nodiscard]] const feed::ChannelReader& consumer() const noexcept { return *consumer_; }
+    [[nodiscard]] const feed::ChannelReader& reader() const noexcept { return *reader_; }
 
 private:
     // When a call gives up: at its deadline. A poll gives up once it has examined every frame that was there when it
@@ -82,7 +82,7 @@ private:
     const ForkGuard fork_;
     const std::shared_ptr<const Origin> origin_;
     const std::string ring_name_;
-    std::unique_ptr<feed::ChannelReader> consumer_;
+    std::unique_ptr<feed::ChannelReader> reader_;
     std::mutex mutex_;
     feed::FrameBatch batch_;  // batch_ and ended_ are guarded by mutex_
     bool ended_ = false;

@@ -55,7 +55,7 @@ Lease::Look Lease::look() noexcept {
 }
 
 void Lease::look_away() noexcept {
-    if (looks_.end() && source_) source_->on_last_look_ended();
+    if (looks_.end() && ring_reader_) ring_reader_->on_last_look_ended();
 }
 
 bool Lease::is_another_threads() const noexcept {
@@ -70,7 +70,7 @@ bool Lease::keep() {
         for (const auto& record : records_) append(copies_, record.data);
         point_to(kept_records_, copies_);
     }
-    kept_.store(finished && source_->holds() ? Kept::copies : Kept::nothing);
+    kept_.store(finished && ring_reader_->holds() ? Kept::copies : Kept::nothing);
     return finished;
 }
 
@@ -185,7 +185,7 @@ void SharedRingReader::on_last_look_ended() {
 SetupResult<int> SharedRingReader::event_fd() {
     const std::lock_guard lock(making_alarm_);
     if (!alarm_) {
-        auto made = feed::RingAlarm::make(reader_.wake_word(), [this] { return nap(); });
+        auto made = feed::RingAlarm::make(reader_.wake_word(), [this] { return sleep_time(); });
         if (!made) return tl::unexpected(std::move(made.error()));
         alarm_ = std::move(*made);
     }
@@ -201,7 +201,7 @@ void SharedRingReader::arm() {
     if (auto* const alarm = this->alarm()) alarm->arm();
 }
 
-Nanoseconds SharedRingReader::nap() {
+Nanoseconds SharedRingReader::sleep_time() {
     return mutex_.peek([this](bool nobody_reads) -> Nanoseconds {
         constexpr auto until_next_look = std::chrono::milliseconds{1};
         if (!nobody_reads) return until_next_look;

@@ -27,15 +27,15 @@ class SharedRingReader;
 class Lease {
 public:
     Lease(std::shared_ptr<SharedRingReader> source, std::vector<shm::RingRecord> records)
-        : source_(std::move(source)), records_(std::move(records)) {}
+        : ring_reader_(std::move(source)), records_(std::move(records)) {}
     Lease(std::vector<shm::RingRecord> records, std::vector<std::uint64_t> copies)
         : records_(std::move(records)), copies_(std::move(copies)) {}
 
     // The records and where their bytes are. Call `look` first: without it, the bytes may move.
     [[nodiscard]] const std::vector<shm::RingRecord>& records() const noexcept;
-    [[nodiscard]] bool is_copy() const noexcept { return source_ == nullptr || kept_.load() == Kept::copies; }
-    // The ring's source, which keeps the ring mapped; null for records that were copied when they were read.
-    [[nodiscard]] const std::shared_ptr<SharedRingReader>& source() const noexcept { return source_; }
+    [[nodiscard]] bool is_copy() const noexcept { return ring_reader_ == nullptr || kept_.load() == Kept::copies; }
+    // The ring's reader, which keeps the ring mapped; null for records that were copied when they were read.
+    [[nodiscard]] const std::shared_ptr<SharedRingReader>& ring_reader() const noexcept { return ring_reader_; }
 
     // Call `look` before using the bytes.
     // - `counted`: call `look_away` afterwards.
@@ -54,7 +54,7 @@ public:
 private:
     enum class Kept : std::uint8_t { nothing, soon, copies };
 
-    const std::shared_ptr<SharedRingReader> source_;
+    const std::shared_ptr<SharedRingReader> ring_reader_;
     const std::vector<shm::RingRecord> records_;
     std::vector<std::uint64_t> copies_;
     std::vector<shm::RingRecord> kept_records_;  // records_, with the data in copies_
@@ -91,7 +91,7 @@ public:
     // without the GIL. `nothing`: call again; another thread may have had the reader. `used_elsewhere`: another thread
     // is using the records that were read last.
     [[nodiscard]] State fetch(std::size_t most, MonoTime deadline);
-    // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has its turn.
+    // Takes one pending record (`most` is 1), or all of them. `nothing`: another thread took them or has the mutex.
     [[nodiscard]] State take(std::size_t most, Portion& out);
     void yield_to_waiters() const { mutex_.yield_to_waiters(); }
 
@@ -128,8 +128,8 @@ private:
     [[nodiscard]] bool release_current();
     [[nodiscard]] bool close_locked();
 
-    // For the alarm: these never wait for a turn.
-    [[nodiscard]] Nanoseconds nap();
+    // For the alarm: these never wait for the mutex.
+    [[nodiscard]] Nanoseconds sleep_time();
     [[nodiscard]] feed::RingAlarm* alarm();
 
     const ForkGuard fork_;

@@ -32,7 +32,7 @@ public:
     // `bytes_of(lease)` returns the bytes to view. It is called once they can no longer move.
     template <class BytesOf>
     View(std::shared_ptr<Lease> lease, BytesOf bytes_of) {
-        if (!lease->is_copy()) lease->source()->fork().check();
+        if (!lease->is_copy()) lease->ring_reader()->fork().check();
         const auto look = lease->look();
         if (look == Lease::Look::refused)
             raise_usage("the record was released by a later read, release() or close(): copy what you keep");
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->source()->holds(); }
+    [[nodiscard]] bool holds() const noexcept { return lease_->is_copy() || lease_->ring_reader()->holds(); }
     void end() noexcept {
         if (const auto lease = std::exchange(lease_, nullptr); lease && is_counted_) lease->look_away();
     }
@@ -138,7 +138,7 @@ PyType_Slot record_slots[] = {
 class Batch {
 public:
     Batch(Portion taken, std::shared_ptr<SharedRingReader> source)
-        : lease_(std::move(taken.lease)), first_(taken.first), source_(std::move(source)) {}
+        : lease_(std::move(taken.lease)), first_(taken.first), ring_reader_(std::move(source)) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return records().size(); }
     [[nodiscard]] Record at(Py_ssize_t index) const {
@@ -151,7 +151,7 @@ public:
         fork_.check();
         const bool released = [&] {
             const WithoutGil outside;
-            return source_->release(*lease_);
+            return ring_reader_->release(*lease_);
         }();
         if (!released) raise_buffer("a view of one of these records is still alive: release or delete it first");
     }
@@ -193,7 +193,7 @@ private:
     const ForkGuard fork_;
     std::shared_ptr<Lease> lease_;
     std::size_t first_;
-    std::shared_ptr<SharedRingReader> source_;
+    std::shared_ptr<SharedRingReader> ring_reader_;
 };
 
 // ---- class RingReader
@@ -216,10 +216,10 @@ public:
             const WithoutGil outside;
             return shm::RingReader::open(name, options);
         }();
-        source_ = std::make_shared<SharedRingReader>(value_or_raise(std::move(opened)), lossless);
+        ring_reader_ = std::make_shared<SharedRingReader>(value_or_raise(std::move(opened)), lossless);
     }
     ~PyRingReader() {
-        if (source_) source_->abandon();
+        if (ring_reader_) ring_reader_->abandon();
     }
     PyRingReader(const PyRingReader&) = delete;
     PyRingReader& operator=(const PyRingReader&) = delete;
@@ -236,14 +236,14 @@ public:
         Portion taken;
         const State state = take(most, MonoTime{}, taken);
         check(state);
-        if (state == State::removed || (state == State::no_writer && source_->is_removed()))
-            raise_closed(fmt::format("ring {} was removed or replaced: open it again", source_->name()));
-        if (!taken.lease) source_->arm();
+        if (state == State::removed || (state == State::no_writer && ring_reader_->is_removed()))
+            raise_closed(fmt::format("ring {} was removed or replaced: open it again", ring_reader_->name()));
+        if (!taken.lease) ring_reader_->arm();
         return taken;
     }
     [[nodiscard]] int event_fd() {
         static_cast<void>(open());
-        return value_or_raise(source_->event_fd());
+        return value_or_raise(ring_reader_->event_fd());
     }
 
     // Returns None if there is no record.
@@ -265,7 +265,7 @@ public:
         if (!fork_.is_own_process()) return;
         const bool closed = [&] {
             const WithoutGil outside;
-            return source_->close();
+            return ring_reader_->close();
         }();
         if (!closed) check(State::looked_at);
     }
@@ -282,28 +282,28 @@ public:
 
     [[nodiscard]] const SharedRingReader& open() const {
         fork_.check();
-        if (source_->is_closed()) check(State::closed);
-        return *source_;
+        if (ring_reader_->is_closed()) check(State::closed);
+        return *ring_reader_;
     }
-    [[nodiscard]] const SharedRingReader& source() const noexcept { return *source_; }
+    [[nodiscard]] const SharedRingReader& ring_reader() const noexcept { return *ring_reader_; }
 
 private:
     [[nodiscard]] State take(std::size_t most, MonoTime deadline, Portion& taken) {
         fork_.check();
         // Reading one record costs less than releasing the GIL, so try that first.
-        State state = most == 1 ? source_->fetch(most, MonoTime{}) : State::nothing;
+        State state = most == 1 ? ring_reader_->fetch(most, MonoTime{}) : State::nothing;
         MonoTime patient_until{};
         for (bool first = most != 1;; first = false) {
             check_signals();  // if a handler raises or reads here, the records are still pending
-            if (state == State::found) state = source_->take(most, taken);
+            if (state == State::found) state = ring_reader_->take(most, taken);
             const bool is_used = state == State::used_elsewhere;
             if ((state != State::nothing && !is_used) || !(first || mono_now() < deadline)) return state;
             if (!is_used || patient_until == MonoTime{}) patient_until = mono_now() + longest_patience;
             if (is_used && mono_now() >= patient_until) return state;
             const WithoutGil outside;
-            source_->yield_to_waiters();
+            ring_reader_->yield_to_waiters();
             if (is_used) std::this_thread::sleep_for(look_again);
-            state = source_->fetch(most, deadline);
+            state = ring_reader_->fetch(most, deadline);
         }
     }
 
@@ -311,7 +311,7 @@ private:
         return taken.lease ? nb::cast(Record(std::move(taken))) : nb::none();
     }
     [[nodiscard]] nb::object batch_or_none(Portion taken) const {
-        return taken.lease ? nb::cast(Batch(std::move(taken), source_)) : nb::none();
+        return taken.lease ? nb::cast(Batch(std::move(taken), ring_reader_)) : nb::none();
     }
 
     void check(State state) const {
@@ -319,8 +319,8 @@ private:
             case State::damaged:
                 raise_input(fmt::format(
                     "ring {} is damaged: it contains an invalid record; remove it with `mavloom shm remove`",
-                    source_->name()));
-            case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", source_->name()));
+                    ring_reader_->name()));
+            case State::closed: raise_closed(fmt::format("the reader of ring {} is closed", ring_reader_->name()));
             case State::forked: raise_closed("opened before fork: open it again in this process");
             case State::looked_at:
             case State::used_elsewhere:
@@ -335,7 +335,7 @@ private:
     }
 
     const ForkGuard fork_;
-    std::shared_ptr<SharedRingReader> source_;
+    std::shared_ptr<SharedRingReader> ring_reader_;
 };
 
 class Batches {
@@ -510,13 +510,13 @@ void bind_ring_reader(nb::module_& module) {
         .def("__exit__", &PyRingReader::leave, nb::sig("def __exit__(self, *args: object) -> None"))
         .def("__repr__",
              [](const PyRingReader& reader) {
-                 return fmt::format("<RingReader {}{}>", reader.source().name(),
-                                    reader.source().is_lossless() ? ", lossless" : "");
+                 return fmt::format("<RingReader {}{}>", reader.ring_reader().name(),
+                                    reader.ring_reader().is_lossless() ? ", lossless" : "");
              })
-        .def_prop_ro("name", [](const PyRingReader& reader) { return reader.source().name(); })
-        .def_prop_ro("lossless", [](const PyRingReader& reader) { return reader.source().is_lossless(); })
+        .def_prop_ro("name", [](const PyRingReader& reader) { return reader.ring_reader().name(); })
+        .def_prop_ro("lossless", [](const PyRingReader& reader) { return reader.ring_reader().is_lossless(); })
         .def_prop_ro(
-            "missed", [](const PyRingReader& reader) { return reader.source().missed(); },
+            "missed", [](const PyRingReader& reader) { return reader.ring_reader().missed(); },
             "The total number of records that the writer overwrote before this reader read them.")
         .def_prop_ro("writer_alive", [](const PyRingReader& reader) { return reader.open().writer_alive(); })
         .def_prop_ro(

@@ -105,14 +105,14 @@ shm::WriteResult<void> PyRingWriter::put_or_wait(ByteView data, const shm::Recor
 }
 
 shm::WriteResult<void> PyRingWriter::put(ByteView data, const shm::RecordInfo& info, MonoTime deadline) {
-    auto lock = turn(deadline);
+    auto lock = lock_until(deadline);
     // `full` would mean that the record was dropped.
-    while (!lock.owns_lock() && !waits()) lock = turn(MonoTime::max());
+    while (!lock.owns_lock() && !waits()) lock = lock_until(MonoTime::max());
     if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
     return put_locked(data, info, deadline);
 }
 
-feed::SlicedMutex::Lock PyRingWriter::turn(MonoTime deadline) {
+feed::SlicedMutex::Lock PyRingWriter::lock_until(MonoTime deadline) {
     auto lock = mutex_.take_until(deadline);
     if (lock.owns_lock() && !claim_ended_.wait_until(lock, feed::end_of_slice(deadline), [&] { return !claim_; }))
         lock.unlock();
@@ -139,7 +139,7 @@ void PyRingWriter::let_claim_end() {
     while (claimer_.load() != 0) {
         {
             const WithoutGil outside;
-            static_cast<void>(turn(MonoTime::max()));
+            static_cast<void>(lock_until(MonoTime::max()));
         }
         check_signals();
         check();
@@ -165,7 +165,7 @@ shm::WriteResult<std::shared_ptr<Claimed>> PyRingWriter::claim_or_wait(std::size
     }
     const WithoutGil outside;
     const auto deadline = mono_now() + feed::longest_slice;
-    const auto lock = turn(deadline);
+    const auto lock = lock_until(deadline);
     if (!lock.owns_lock()) return tl::unexpected(shm::WriteError::full);
     return claim_locked(length, deadline);
 }

@@ -87,7 +87,7 @@ private:
     void check_open() const;
     // Waits until no claim is open and returns the lock. The lock is not owned if `deadline` or one slice has passed
     // first.
-    [[nodiscard]] feed::SlicedMutex::Lock turn(MonoTime deadline);
+    [[nodiscard]] feed::SlicedMutex::Lock lock_until(MonoTime deadline);
     // Waits until no other thread has a claim open.
     void let_claim_end();
     [[nodiscard]] shm::WriteResult<std::shared_ptr<Claimed>> claim_or_wait(std::size_t length);

@@ -130,7 +130,7 @@ private:
 
 public:
     // The parts, for the endpoints to use.
-    wire::SourceBudget source_budget{16'384};  // of all links together: at most 7 MiB
+    wire::SourceBudget source_budget{16'384};  // of all links together: about 12 MiB at most
     LinkDialects dialects;
     LookUps look_ups;
     LinkTable links;

@@ -11,9 +11,9 @@ void LookUps::deliver() {
     while (auto done = resolver_.take()) {
         const auto question = std::ranges::find_if(questions_, [&](const auto& q) { return q.first == done->ticket; });
         if (question == questions_.end()) continue;
-        NameUser* const asker = question->second;
+        NameUser* const user = question->second;
         questions_.erase(question);
-        asker->on_resolved(std::move(done->answer));
+        user->on_resolved(std::move(done->answer));
     }
 }
 

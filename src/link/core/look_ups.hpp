@@ -24,7 +24,7 @@ public:
     // Call it when frames begin to flow: from then on, no call may wait for a look-up.
     void stop_waiting() noexcept { may_wait_ = false; }
     [[nodiscard]] bool may_wait() const noexcept { return may_wait_; }
-    // Passes the answers that have arrived to their askers.
+    // Passes the answers that have arrived to their users.
     void deliver();
 
 private:

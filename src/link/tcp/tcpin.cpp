@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tcpin: listens on a TCP port. Each client is its own link.
 #include <fmt/format.h>
+#include <optional>
 
 #include "link/admission.hpp"
 #include "link/listening.hpp"
@@ -62,7 +63,10 @@ public:
     [[nodiscard]] std::size_t queued_bytes() const override { return peers_.queued_bytes(); }
     bool close_link(LinkId link) override;
     void on_resolved(net::Resolver::Answer&& answer) override;
-    void on_closed(TcpPeer& peer, std::string_view why) override { peers_.remove(peer, why); }
+    void on_closed(TcpPeer& peer, std::string_view why) override {
+        crowds_.reset();
+        peers_.remove(peer, why);
+    }
     void on_timer(MonoTime now) override;
 
 private:
@@ -75,6 +79,11 @@ private:
     std::vector<std::unique_ptr<Listening>> listeners_;
     PeerList<TcpPeer> peers_;
     Admission admission_{Admission::burst_for(0)};
+    // Of the clients as they are now, if somebody asked since the last change. To count them again takes long if there
+    // are many, so a turn does that for this many clients at most.
+    std::optional<Crowds<TcpPeer>> crowds_;
+    static constexpr std::size_t most_looks_at_peers = 1u << 15;
+    std::size_t looks_at_peers_ = 0;  // in this turn
     net::TimerId pause_, expiry_;
     Retry retry_;  // to look the name up again
     bool reported_full_ = false;
@@ -107,6 +116,8 @@ void TcpIn::on_resolved(net::Resolver::Answer&& answer) {
 }
 
 void TcpIn::accept_from(net::TcpListener& listener) {
+    crowds_.reset();
+    looks_at_peers_ = 0;
     for (int i = 0; i < accepts_per_turn; ++i) {
         auto stream = listener.accept();
         if (stream) {
@@ -120,8 +131,7 @@ void TcpIn::accept_from(net::TcpListener& listener) {
 }
 
 void TcpIn::admit(net::TcpStream stream) {
-    const net::Address host = stream.remote().host_part();
-    if (peers_.is_full() && !make_room(host)) {
+    if (peers_.is_full() && !make_room(stream.remote())) {
         counters.peers_refused.add();
         if (!std::exchange(reported_full_, true)) {
             core_.events.notice(info.id, fmt::format("{}: max_peers={} reached; other clients are turned away",
@@ -132,17 +142,21 @@ void TcpIn::admit(net::TcpStream stream) {
     auto peer = std::make_unique<TcpPeer>(core_, *this, info.id, queue_limits(info.endpoint.options));
     peer->name = fmt::format("{}#{}", info.label(), stream.remote().text());
     peer->connected_at = core_.now();
-    peer->host = host;
+    peer->host = stream.remote().host_part();
     if (peer->attach(std::move(stream))) peers_.add(std::move(peer));
 }
 
 // Closes a silent client for a newcomer. Only a full table does so, and only at a limited rate, unless the newcomer's
-// address has fewer silent clients than another.
+// host has at least two silent clients fewer than another.
 bool TcpIn::make_room(const net::Address& newcomer) {
-    const Crowds crowds(peers_.all());
-    const bool is_limited = !crowds.has_room_for(newcomer);
+    if (!crowds_) {
+        looks_at_peers_ += peers_.size();
+        if (looks_at_peers_ > most_looks_at_peers) return false;
+        crowds_.emplace(peers_.all());
+    }
+    const bool is_limited = !crowds_->has_room_for(newcomer.host_part());
     if (is_limited && admission_.ask(newcomer, core_.now()) != Admission::Answer::admitted) return false;
-    const auto crowd = crowds.largest();
+    const auto crowd = crowds_->largest();
     TcpPeer* const first = crowd.size != 0 ? crowd.longest_silent : peers_.to_evict(core_.now());
     if (first == nullptr) return false;
     if (is_limited) admission_.note_entry();

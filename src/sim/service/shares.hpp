@@ -12,7 +12,7 @@
 namespace mavloom::sim {
 
 // Returns true if there is a place for one more client of `link`. `taken` holds at most `most`, the oldest first. If it
-// is full, the link that has most of them loses its oldest one, unless `link` would then have as many.
+// is full, the link that has most of them loses its oldest one, unless `link` would get as many as that link has now.
 template <class Taken>
 [[nodiscard]] bool make_room(std::vector<Taken>& taken, LinkId link, std::size_t most) {
     if (taken.size() < most) return true;

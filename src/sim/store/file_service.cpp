@@ -246,14 +246,14 @@ void FileService::rename(const Request& request, Reply& reply) {
 }
 
 bool FileService::checksum(const Request& request, Reply& reply) {
-    checksums_until_ = std::max(checksums_until_, request.now.real);
-    if (checksums_until_ - request.now.real > most_checksum_time) return false;
     const auto path = path_of(request.text());
     const auto file = path ? tree_.find(*path) : tl::unexpected(path.error());
     if (!file) {
         reply.error = file.error();
         return true;
     }
+    checksums_until_ = std::max(checksums_until_, request.now.real);
+    if (checksums_until_ - request.now.real >= most_checksum_time) return false;
     checksums_until_ += checksum_time_per_byte * tree_.size(*file).value_or(0);
     reply.put(tree_.checksum(*file));
     return true;

@@ -300,8 +300,7 @@ void PlanService::on_clear(const Client& from, std::uint8_t mission_type) {
     acknowledge(from, mission_type, MAV_MISSION_ACCEPTED);
 }
 
-// There is no MISSION_ACK for this message; clients would take it for that of a transfer. A refusal is a text.
-// A refusal is a text only: clients would take a MISSION_ACK for that of a transfer.
+// There is no MISSION_ACK, because clients would take it for that of a transfer. A refusal is a text.
 void PlanService::on_set_current(std::uint16_t seq) {
     if (!parts_.flight.set_current_item(seq, false).is_accepted())
         parts_.on_text(Severity::warning, fmt::format("The mission has no item {}", seq));

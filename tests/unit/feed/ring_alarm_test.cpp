@@ -21,7 +21,7 @@ public:
     explicit AlarmedRing(const test::RingName& name)
         : writer_(*shm::RingWriter::open(name.text(), {.capacity = shm::min_capacity})),
           reader_(*shm::RingReader::open(name.text())),
-          alarm_(*RingAlarm::make(reader_.wake_word(), [this] { return nap(); })) {}
+          alarm_(*RingAlarm::make(reader_.wake_word(), [this] { return sleep_time(); })) {}
 
     void write(std::uint8_t byte = 1) {
         ASSERT_TRUE(writer_.write({&byte, 1}, {}, mono_now() + long_enough));
@@ -33,19 +33,19 @@ public:
     }
     [[nodiscard]] RingAlarm& alarm() { return *alarm_; }
     [[nodiscard]] int fd() const { return alarm_->fd(); }
-    [[nodiscard]] int naps() const { return naps_; }
+    [[nodiscard]] int asked() const { return asked_; }
     void destroy_alarm() { alarm_.reset(); }
 
 private:
-    Nanoseconds nap() {
-        ++naps_;
+    Nanoseconds sleep_time() {
+        ++asked_;
         const std::unique_lock lock(mutex_, std::try_to_lock);
         return lock.owns_lock() ? reader_.arm() : Nanoseconds{1ms};
     }
     shm::RingWriter writer_;
     std::mutex mutex_;
     shm::RingReader reader_;
-    std::atomic<int> naps_{0};
+    std::atomic<int> asked_{0};
     std::unique_ptr<RingAlarm> alarm_;
 };
 
@@ -91,7 +91,7 @@ TEST_F(RingAlarmTest, NotifiesOnceForEachArmingAndNeverUnlessArmed) {
     EXPECT_EQ(read_count(ring.fd()), 2u);
 }
 
-TEST_F(RingAlarmTest, ArmingTwiceTellsOnce) {
+TEST_F(RingAlarmTest, ArmingTwiceSignalsOnce) {
     AlarmedRing ring(name);
     read_count(ring.fd());
     ring.alarm().arm();
@@ -131,18 +131,18 @@ TEST_F(RingAlarmTest, OneThreadServesManyRingsThatComeAndGo) {
     for (auto& user : users) user.join();
 }
 
-// Its `nap` refers to a reader that may end next.
+// Its `sleep_time` refers to a reader that may end next.
 TEST_F(RingAlarmTest, ADestroyedAlarmIsAskedNoMore) {
     AlarmedRing ring(name);
     test::RingName other_name;
     AlarmedRing other(other_name);
     ring.alarm().arm();
     ring.destroy_alarm();
-    const int naps = ring.naps();
+    const int asked = ring.asked();
     ring.write();
     other.write();
     EXPECT_TRUE(gets_record(other));
-    EXPECT_EQ(ring.naps(), naps);
+    EXPECT_EQ(ring.asked(), asked);
 }
 
 // In the child the parent's alarm has no thread, and its descriptor is the parent's too.
@@ -153,9 +153,9 @@ TEST_F(RingAlarmTest, AForkedChildLeavesTheParentsAlarmAlone) {
     if (child == 0) {
         ring.alarm().arm();
         ring.alarm().signal();
-        const bool told = is_readable(ring.fd());
+        const bool is_signalled = is_readable(ring.fd());
         ring.destroy_alarm();
-        ::_exit(told ? 1 : 0);
+        ::_exit(is_signalled ? 1 : 0);
     }
     int status = -1;
     ASSERT_EQ(::waitpid(child, &status, 0), child);

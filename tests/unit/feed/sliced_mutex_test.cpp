@@ -69,19 +69,19 @@ TEST(SlicedMutex, TryTakeFailsWhileAnotherThreadHoldsIt) {
 }
 
 // A thread that waits slice by slice and lets others in between must not starve the others.
-TEST(SlicedMutex, AThreadThatAsksGetsItsTurnBetweenTwoSlices) {
+TEST(SlicedMutex, AThreadThatAsksGetsItBetweenTwoSlices) {
     SlicedMutex mutex;
-    std::atomic<bool> had_turn{false};
+    std::atomic<bool> had_it{false};
     std::thread asking([&] {
         const auto lock = mutex.take();
-        had_turn = true;
+        had_it = true;
     });
     EXPECT_TRUE(eventually([&] {
-        for (int slice = 0; slice < 100 && !had_turn; ++slice) {
+        for (int slice = 0; slice < 100 && !had_it; ++slice) {
             mutex.yield_to_waiters();
             const auto lock = mutex.take_until(MonoTime::max());
         }
-        return had_turn.load();
+        return had_it.load();
     }));
     asking.join();
 }
@@ -101,7 +101,7 @@ TEST(SlicedMutex, TryTakeSucceedsDuringAPeek) {
     constexpr int enough = 20'000;
     std::atomic<int> peeks{0};
     int guarded = 0;
-    std::thread glancing([&] {
+    std::thread peeking([&] {
         while (peeks < enough)
             peeks += mutex.peek([&](bool is_free) {
                 if (is_free) ++guarded;
@@ -115,9 +115,9 @@ TEST(SlicedMutex, TryTakeSucceedsDuringAPeek) {
             if (lock.owns_lock()) --guarded;
             else ++refused;
         }
-        std::this_thread::yield();  // to the glancing thread, so that it gets the lock too
+        std::this_thread::yield();  // to the peeking thread, so that it gets the lock too
     }
-    glancing.join();
+    peeking.join();
     EXPECT_EQ(refused, 0);
 }
 

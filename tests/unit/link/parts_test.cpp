@@ -211,7 +211,7 @@ TEST(PeerList, ExpiresASilentPeerAtItsTimeThoughAnotherWasHeardLater) {
 }
 
 // The class and the key depend on the dialect: a message that supersedes itself in one is unknown in the other.
-TEST(OutgoingFrame, AsksTheLanguageOfEachLink) {
+TEST(OutgoingFrame, UsesTheDialectOfEachLink) {
     dialect::test::XmlFolder folder;
     folder.write("a.xml",
                  "<mavlink><messages><message id=\"40000\" name=\"X\"><description/>"
