@@ -1,5 +1,5 @@
 # Release builds are hardened: an error in memory should end the program, not let a sender take it over.
-# tests/system/test_hardening.py reads the result from the ELF files.
+# tests/system/tree/test_hardening.py reads the result from the ELF files.
 #
 # Other build types keep their flags: the sanitizers find more, and _FORTIFY_SOURCE needs optimization.
 include(CheckCXXCompilerFlag)

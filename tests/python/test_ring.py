@@ -3,9 +3,9 @@
 
 test_row_N_... covers row N of the table in docs/guide/python.md. Some rows are tested elsewhere, or not only here:
 
-    3.4, 3.6  a writer killed at each step of a commit   tests/system/test_shm.py, test_a_writer_killed_at_*
-    3.8       across PID namespaces                      tests/system/test_shm.py, test_locks_are_seen_from_*
-    3.11      `shm remove` names the owner               tests/system/test_shm.py, test_another_user
+    3.4, 3.6  a writer killed at each step of a commit   tests/system/program/test_shm.py, test_a_writer_killed_at_*
+    3.8       across PID namespaces                      tests/system/program/test_shm.py, test_locks_are_seen_from_*
+    3.11      `shm remove` names the owner               tests/system/program/test_shm.py, test_another_user
     3.15      counts only; what it costs the others in time is for measurements, not for tests
     3.18      all schedules of a few operations          tests/unit/shm/ring_schedules_test.cpp
               threads under ThreadSanitizer              tests/unit/shm/ring_threads_test.cpp

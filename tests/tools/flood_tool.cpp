@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An attacker for tests/system/test_hostile.py: sends heartbeats from invented addresses.
+// An attacker for tests/system/route/test_hostile.py: sends heartbeats from invented addresses.
 //   flood_tool HOST PORT RATE SECONDS [IDS] [ADDRESSES]
 // Every datagram is a HEARTBEAT from another address of HOST's /8 network, RATE a second. IDS is how many system and
 // component ids it uses (default 1). ADDRESSES is how many addresses it uses in turn. Prints how many datagrams it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writers and readers of a ring for tests/system/test_shm.py and test_shm_sources.py, which kill them.
+// Writers and readers of a ring for tests/system/program/test_shm.py and test_shm_sources.py, which kill them.
 //  ring_tool write NAME COUNT POLICY       COUNT records (0: until killed); "ready" on stdout once the ring is open
 //  ring_tool die NAME RECORDS STEP         RECORDS whole ones; from then on kills itself with SIGKILL before the STEPth
 //                                          access to shared memory

@@ -421,7 +421,7 @@ std::map<std::string, std::string> ring_options_of_the_guide() {
     return options;
 }
 
-// `check` shows the options of all other schemes: tests/system/test_check.py.
+// `check` shows the options of all other schemes: tests/system/program/test_check.py.
 TEST(EndpointOptionNames, OfARingAreThoseOfTheGuideWithTheirDefaults) {
     std::map<std::string, std::string> options;
     for (const auto name : option_names_for(Scheme::shm)) options.emplace(name, default_option_text(Scheme::shm, name));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenarios as values: places, ids, seeds, precedence. tests/system/test_sim.py has the errors.
+// Scenarios as values: places, ids, seeds, precedence. tests/system/program/test_sim.py has the errors.
 #include "mavloom/simserve/scenario.hpp"
 
 #include <gmock/gmock.h>
