@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <ranges>
 
+#include "mavloom/endpoint/grammar.hpp"
+
 namespace mavloom::link::detail {
 
 net::BlockQueue::Limits queue_limits(const endpoint::EndpointOptions& options) {
@@ -28,6 +30,13 @@ bool OpenEndpoints::has(const std::string& label) const {
 
 bool OpenEndpoints::any_low_latency() const {
     return std::ranges::any_of(endpoints_, [](const auto& e) { return e && e->info.endpoint.options.low_latency; });
+}
+
+bool OpenEndpoints::has_udp_port(std::uint16_t port) const {
+    return std::ranges::any_of(endpoints_, [&](const auto& e) {
+        return e && e->info.local_port == port &&
+               (endpoint::set_of(e->info.endpoint.scheme) & endpoint::udp_schemes) != 0;
+    });
 }
 
 std::optional<std::uint8_t> SigningIds::choose(const std::string& label, EndpointId fresh,

@@ -72,6 +72,8 @@ public:
     }
     [[nodiscard]] bool has(const std::string& label) const;
     [[nodiscard]] bool any_low_latency() const;
+    // Returns whether a UDP endpoint is bound to the port.
+    [[nodiscard]] bool has_udp_port(std::uint16_t port) const;
 
 private:
     std::vector<std::unique_ptr<OpenEndpoint>> endpoints_;  // index: id; null: removed

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "link/core/core.hpp"
+#include "link/eviction.hpp"
 
 namespace mavloom::link::detail {
 
@@ -68,15 +69,8 @@ public:
         }
         return oldest + idle;
     }
-    // Returns the peer to evict for a newcomer: the longest silent of those that have not talked yet, else the longest
-    // silent of all. Returns null if that peer is protected. Requires a `Peer` with `has_talked` and `silent_since`.
-    [[nodiscard]] Peer* to_evict(MonoTime now) const {
-        const auto rank = [](const auto& peer) { return std::pair(peer->has_talked(), peer->silent_since()); };
-        const auto first = std::ranges::min_element(peers_, {}, rank);
-        if (first == peers_.end()) return nullptr;
-        const bool is_protected = (*first)->has_talked() && now - (*first)->silent_since() < protected_for;
-        return is_protected ? nullptr : first->get();
-    }
+    // See eviction.hpp.
+    [[nodiscard]] Peer* to_evict(MonoTime now) const { return detail::to_evict(all(), now); }
 
     // Queues the frame for all peers that are up. Returns how many took it.
     std::size_t send(const wire::FrameView& frame) {
@@ -92,10 +86,6 @@ public:
     }
 
 private:
-    // A peer that talks, and did so within this period, is not evicted. A flood of unknown senders thus cannot displace
-    // peers that send heartbeats (1 Hz).
-    static constexpr std::chrono::seconds protected_for{2};
-
     Core& core_;
     OpenEndpoint& endpoint_;
     std::vector<std::unique_ptr<Peer>> peers_;

@@ -3,18 +3,20 @@
 // on a link. The router sends a request when it first hears a source on a link, and again at the first heartbeat after
 // 30 s have passed.
 //
-// Memory is bounded: a new source evicts the one that has been silent longest. A flood of sources that are heard only
-// once therefore does not displace those that keep sending heartbeats. Private to module router. One owner thread; time
-// is a parameter. Allocates for a new source.
+// New sources are asked at a limited rate; the others at a later heartbeat. Memory is bounded: a new source evicts the
+// one that has been silent longest. So a flood of invented sources neither costs much nor displaces those that keep
+// sending heartbeats. Private to module router. One owner thread; time is a parameter. Allocates for a new source.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <vector>
+#include <cstdint>
+#include <unordered_map>
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/secret_hash.hpp"
 
 namespace mavloom::router {
 
@@ -22,34 +24,48 @@ class StreamRequests {
 public:
     static constexpr std::chrono::seconds interval{30};
     static constexpr std::size_t most_sources = 1024;
+    static constexpr int new_at_once = 256, new_per_second = 20;
 
     // Notes a heartbeat of an ArduPilot. Returns true if the router should ask it now.
     [[nodiscard]] bool heard(LinkId link, Source source, MonoTime now) {
-        const auto asked = std::ranges::find_if(asked_,
-                                                [&](const Asked& a) { return a.link == link && a.source == source; });
-        if (asked == asked_.end()) {
-            const Asked added{link, source, now, now};
-            if (asked_.size() < most_sources) asked_.push_back(added);
-            else *std::ranges::min_element(asked_, {}, &Asked::heard) = added;
-            return true;
-        }
-        asked->heard = now;
-        if (now - asked->at < interval) return false;
-        asked->at = now;
+        const auto found = asked_.find(key_of(link, source));
+        if (found == asked_.end()) return add(key_of(link, source), now);
+        Asked& asked = found->second;
+        asked.heard = now;
+        if (now - asked.at < interval) return false;
+        asked.at = now;
         return true;
     }
     void forget(LinkId link) {
-        std::erase_if(asked_, [&](const Asked& a) { return a.link == link; });
+        std::erase_if(asked_, [&](const auto& entry) { return entry.first >> 16 == link.value; });
     }
     void clear() noexcept { asked_.clear(); }
 
 private:
+    using Key = std::uint64_t;
+    struct Hash {
+        std::size_t operator()(Key key) const noexcept { return secret_hash(key); }
+    };
     struct Asked {
-        LinkId link;
-        Source source;
         MonoTime at, heard;
     };
-    std::vector<Asked> asked_;
+
+    [[nodiscard]] static Key key_of(LinkId link, Source source) noexcept {
+        return Key{link.value} << 16 | Key{source.system.value} << 8 | source.component.value;
+    }
+    [[nodiscard]] bool add(Key key, MonoTime now) {
+        constexpr Nanoseconds one_each = Nanoseconds{std::chrono::seconds{1}} / new_per_second;
+        next_new_ = std::max(next_new_, now - (new_at_once - 1) * one_each);
+        if (now < next_new_) return false;
+        next_new_ += one_each;
+        if (asked_.size() >= most_sources)
+            asked_.erase(std::ranges::min_element(asked_, {}, [](const auto& entry) { return entry.second.heard; }));
+        asked_.emplace(key, Asked{now, now});
+        return true;
+    }
+
+    std::unordered_map<Key, Asked, Hash> asked_;
+    MonoTime next_new_{};
 };
 
 }  // namespace mavloom::router

@@ -68,7 +68,7 @@ static_assert(sizeof(LinkCounters) == link_counters.size() * sizeof(Counter), "e
 struct EndpointCounters {
     Counter kernel_drop;  // from SO_MEMINFO; updated by `refresh_kernel_drops()`
     Counter wrong_peer;   // udpout: datagrams from another address
-    // Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or the socket's own address.
+    // Datagrams whose source can be no peer: port 0, a broadcast or multicast address, or one of the process's own.
     Counter bad_source;
     // Bytes of datagrams that came from unknown senders and held no valid frame (with verify=: no correctly signed
     // frame).

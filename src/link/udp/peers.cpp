@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace mavloom::link::detail {
 
 UdpPeers::~UdpPeers() { core_.loop().cancel_timer(expiry_); }
@@ -16,13 +18,15 @@ bool UdpPeers::close(LinkId link) {
 
 // Returns true if the datagram proves that its sender is a MAVLink peer. With verify=, the proof is a good signature.
 // Without it, the proof is a good checksum of a defined message. Wrongly signed frames count in the endpoint's `gone`
-// sums.
+// sums. Looks only at the beginning, because anybody may send large datagrams of junk.
 bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     Signature* const signature = endpoint_.signature.get();
     const bool verifies = signature != nullptr && signature->verifies();
     bool found = false;
     std::uint64_t refused = 0;
-    stranger_.parse(datagram.bytes, [&](const wire::ParseEvent& event) {
+    constexpr std::size_t most_bytes = 300;  // the longest frame has 280
+    const auto beginning = datagram.bytes.first(std::min(datagram.bytes.size(), most_bytes));
+    stranger_.parse(beginning, [&](const wire::ParseEvent& event) {
         if (found || event.kind != wire::ParseEvent::Kind::frame) return;
         found = verifies ? signature->accepts_early(event.frame, receive_time(datagram)) : event.info != nullptr;
         if (verifies && !found) ++refused;
@@ -31,11 +35,16 @@ bool UdpPeers::is_from_a_peer(const net::Datagram& datagram) {
     return found;
 }
 
-// Such a source is forged: nobody could receive an answer there, or the socket itself or a whole network would.
+bool UdpPeers::is_own_port(const UdpPort& port, std::uint16_t number) const {
+    if (number == port.socket().local().port()) return true;
+    return !core_.key_states.endpoints_are_independent && core_.endpoints.has_udp_port(number);
+}
+
+// Such a source is forged: nobody could receive an answer there, or a socket of this process or a whole network would.
 bool UdpPeers::may_be_peer(const UdpPort& port, const net::Address& sender) {
     const net::Address from = sender.unmapped();
     if (from.port() == 0 || from.is_any() || from.is_multicast()) return false;
-    if (from.port() == port.socket().local().port() && own_.contains(from, core_.now())) return false;
+    if (is_own_port(port, from.port()) && own_.contains(from, core_.now())) return false;
     return !own_.has_broadcast(from, core_.now());
 }
 

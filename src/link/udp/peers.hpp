@@ -54,6 +54,7 @@ public:
 
 private:
     UdpPeer* newcomer(UdpPort& port, const net::Datagram& datagram);
+    [[nodiscard]] bool is_own_port(const UdpPort& port, std::uint16_t number) const;
     [[nodiscard]] bool may_be_peer(const UdpPort& port, const net::Address& sender);
     [[nodiscard]] bool may_enter(const net::Address& sender);
     [[nodiscard]] bool is_from_a_peer(const net::Datagram& datagram);

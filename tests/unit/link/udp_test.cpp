@@ -258,6 +258,31 @@ TEST(LinksUdp, ASourceThatCanBeNoPeerIsRefused) {
     EXPECT_EQ(node.recorder.bytes(), heartbeat(3));
 }
 
+// Such a peer would send each frame round the process for ever.
+TEST(LinksUdp, ADatagramFromAnotherEndpointsPortIsRefused) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0"), other = node.add("udpin://127.0.0.1:0");
+    if (!send_forged(node.port(other), node.port(in), heartbeat(1))) GTEST_SKIP() << "no right to forge";
+
+    ASSERT_TRUE(until([&] { return node.info(in).counters->bad_source.value() == 1; }, node));
+    EXPECT_TRUE(node.recorder.ups.empty());
+}
+
+// 300 bytes without a frame are enough to refuse a stranger.
+TEST(LinksUdp, AStrangersFrameBehindMuchJunkMakesNoPeer) {
+    Node node;
+    const auto in = node.add("udpin://127.0.0.1:0");
+    const auto stranger = PlainSocket::udp();
+    Bytes datagram(300, 0xfd);
+    const Bytes frame = heartbeat(1);
+    datagram.insert(datagram.end(), frame.begin(), frame.end());
+
+    stranger.send_to(node.port(in), datagram);
+
+    ASSERT_TRUE(until([&] { return node.info(in).counters->stray_bytes.value() == datagram.size(); }, node));
+    EXPECT_TRUE(node.recorder.ups.empty());
+}
+
 TEST(LinksUdp, TheLongestIdleOfThreeHundredPeersGoFirst) {
     Node node;
     const auto in = node.add("udpin://127.0.0.1:0");
