@@ -55,7 +55,8 @@ auto losses_of(const feed::Totals& t) {
         Named{"bad_source", "datagram", "from an address that can be no peer's", t.bad_source},
         Named{"stray_bytes", "byte",
               "from unknown senders, in datagrams without a valid (verify=: correctly signed) frame", t.stray_bytes},
-        Named{"peers_refused", "peer", "refused because max_peers was reached", t.peers_refused},
+        Named{"peers_refused", "peer", "refused because max_peers was reached, or because too many addresses sent",
+              t.peers_refused},
     };
 }
 

@@ -37,7 +37,7 @@ public:
     static constexpr std::chrono::milliseconds kept_for{1500};
     static constexpr std::size_t remembered = 1u << 16;
 
-    // Twice as many as may stay enter at once, but at least 64.
+    // How many senders may enter at once: twice max_peers, but at least 64.
     [[nodiscard]] static std::size_t burst_for(std::size_t max_peers) noexcept {
         return std::max<std::size_t>(64, 2 * max_peers);
     }

@@ -80,7 +80,7 @@ private:
 };
 
 // Decides which link id an endpoint signs with. A signature has 8 bits for it, and two endpoints that are open must not
-// share one: the far side would take the frames of the slower for replays. A reopened endpoint keeps the link id of its
+// share one: the far side would take frames of one endpoint for replays. A reopened endpoint keeps the link id of its
 // label, so that the far side sees the same link. Ids are given out from 255 downwards, because vehicles and ground
 // stations mostly sign with 0 and small ids.
 class SigningIds {

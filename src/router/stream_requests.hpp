@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Decides when to request the data streams of an ArduPilot. Until it gets a request, an ArduPilot sends only heartbeats
-// on a link. The router sends a request when it first hears a source on a link, and again at the first heartbeat after
-// 30 s have passed.
+// Decides when to request the data streams of an ArduPilot. Until it gets a request, an ArduPilot sends little more
+// than heartbeats on a link. The router sends a request when it first hears a source on a link, and again at the first
+// heartbeat after 30 s have passed.
 //
-// New sources are asked at a limited rate; the others at a later heartbeat. Memory is bounded: a new source evicts the
-// one that has been silent longest. So a flood of invented sources neither costs much nor displaces those that keep
-// sending heartbeats. Private to module router. One owner thread; time is a parameter. Allocates for a new source.
+// New sources are asked at a limited rate; a source above that rate is asked at a later heartbeat. Memory is bounded: a
+// new source evicts the one that has been silent longest. So a flood of invented sources neither costs much nor
+// displaces those that keep sending heartbeats. Private to module router. One owner thread; time is a parameter.
+// Allocates for a new source.
 #pragma once
 
 #include <algorithm>

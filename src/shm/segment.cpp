@@ -93,10 +93,11 @@ SetupResult<void> check_trusted(const Segment& segment, std::string_view what, c
             SetupCode::permission,
             fmt::format("{} belongs to {}, so anything may be in it; foreign=true reads it", what, user_name(owner)));
     if ((mode & others_write) == 0 || has_lost_mapping_handler()) return {};
-    return setup_error(SetupCode::permission,
-                       fmt::format("others than its owner may write {} (mode {:04o}), and could end this program by "
-                                   "shortening it; foreign=true reads it",
-                                   what, mode));
+    return setup_error(
+        SetupCode::permission,
+        fmt::format("users other than its owner may write {} (mode {:04o}), and could end this program by "
+                    "shortening it; foreign=true reads it",
+                    what, mode));
 }
 
 SetupCode held_code(const Segment& segment) noexcept {

@@ -827,7 +827,8 @@ for call in (mavloom.remove_ring, lambda name: mavloom.RingWriter(name, capacity
         sys.exit("allowed")
 """, ring)
     assert ended(process) == (0, "", "") and path_of(ring).exists()
-    with pytest.raises(mavloom.PermissionDeniedError, match="others than its owner may write .*mode 0666.*foreign"):
+    refusal = "users other than its owner may write .*mode 0666.*foreign"
+    with pytest.raises(mavloom.PermissionDeniedError, match=refusal):
         mavloom.RingReader(ring, start="oldest")
     with mavloom.connect(f"shm://{ring}?from=oldest") as link:
         assert link.recv(timeout=0.1) is None and link.stats.bad_records == 0  # it did not read that record

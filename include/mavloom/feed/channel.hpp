@@ -142,7 +142,7 @@ public:
     // limited number of frames. If more remain, `wait` returns at once and the descriptor is readable at once.
     bool take(FrameBatch& batch, std::size_t most);
     // Waits until a frame arrives, the channel or the reader is closed, or the deadline passes. Returns after one slice
-    // (turns.hpp) at the latest, so that the caller can handle signals.
+    // (sliced_mutex.hpp) at the latest, so that the caller can handle signals.
     void wait(MonoTime deadline);
     // Returns a descriptor. After a `take` that added no frame, it becomes readable when another `take` may add some.
     // The first call creates the descriptor; the reader closes it.

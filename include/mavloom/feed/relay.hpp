@@ -3,7 +3,8 @@
 // the destinations go back to the sources. docs/guide/relay.md describes what a user sees.
 //
 // Recordings wait until every destination has a peer; live sources do not wait. If a queue is full, the relay stops
-// reading recordings and lossless rings, so that nothing is dropped. The writer of a lossless ring then waits.
+// reading recordings and lossless rings, so that its queues drop nothing. If the writer of a lossless ring then has no
+// room, it acts by its own policy: it waits, drops new records or overwrites unread ones.
 //
 // One owner thread, which also drives the links. All objects that are passed to the constructor must outlive the relay.
 #pragma once

@@ -77,7 +77,7 @@ struct EndpointCounters {
     // (docs/guide/queues.md).
     Counter peers_refused;
     Counter peers_limited;    // new peers turned away although they repeat, because too many do
-    Counter peers_evicted;    // the longest idle peers, evicted for new ones
+    Counter peers_evicted;    // peers that were heard once or were idle, evicted for new ones
     Counter peers_displaced;  // peers that talked and were still evicted for new ones (docs/guide/queues.md)
     // Datagrams that the kernel rejected, or for which ICMP reported a closed port.
     Counter send_errors;

@@ -137,8 +137,8 @@ public:
     void count_from(LinkId last) noexcept;
 
     // In a group, a fast link may deliver a sender's newer signed frames before a slow link delivers older ones. The
-    // older ones are still accepted for this time. A caller that detects duplicates by their bytes must remember frames
-    // for longer than this.
+    // older ones are still accepted for at most this time, and for at least a third of it. A caller that detects
+    // duplicates by their bytes must remember frames for longer than this.
     static constexpr Nanoseconds longest_late = std::chrono::milliseconds{1800};
 
     // Opens the endpoint. Local steps (bind, listen) happen at once, and a port in use is an error. Steps that need the

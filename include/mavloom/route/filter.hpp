@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A filter decides which frames a link accepts or sends. It is compiled once from the terms that a user typed and a
-// dialect. For each kind of term (message, system, component) in the allow list, the frame must match one of the terms.
+// A filter decides which frames a link accepts or sends. It is compiled once, from a dialect and the terms that a user
+// typed. For each kind of term (message, system, component) in the allow list, the frame must match one of the terms.
 // It must match no term of the block list. See docs/guide/routing.md, "Filters and limits".
 //
 // Filters are immutable values, safe to use from any thread. Compiling allocates; `admits` does not.

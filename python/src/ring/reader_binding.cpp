@@ -474,7 +474,7 @@ void bind_ring_reader(nb::module_& module) {
                  "'newest', foreign: bool = False) -> None"),
              "NotFoundError lists the existing rings. Raises InputError if the file is not a ring of this\n"
              "version, and SystemFailure for a 65th lossless reader. Without `foreign`, PermissionDeniedError for\n"
-             "a ring that others than its owner may write, because they could end this process by shortening\n"
+             "a ring that users other than its owner may write, because they could end this process by shortening\n"
              "it, and for a ring whose owner is neither this user, nor root, nor the owner of the folder of\n"
              "the sockets (MAVLOOM_RUN, /run/mavloom).")
         .def(

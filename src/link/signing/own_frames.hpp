@@ -50,7 +50,7 @@ public:
 private:
     static constexpr std::size_t bucket_count = 1024;
     struct Bucket {
-        std::array<std::uint64_t, 64> frames{};  // a ring; of each the time, and 16 bits of the hash below it
+        std::array<std::uint64_t, 64> frames{};  // a ring of marks: time in the upper bits, 16 bits of hash below
         std::uint64_t forgotten = 0;             // the newest time that left the ring
         std::uint32_t next = 0;
     };

@@ -31,7 +31,8 @@ public:
             if (!peer->has_talked()) add(*peer);
     }
 
-    // If several are equal, that with the longest silent peer. Its size is 0 if all peers have talked.
+    // Returns the largest crowd; of several such, the one with the longest silent peer. Its size is 0 if all peers have
+    // talked.
     [[nodiscard]] Crowd largest() const {
         Crowd found;
         for (const auto& [host, crowd] : crowds_)

@@ -46,7 +46,7 @@ public:
     }
     std::size_t send(const wire::FrameView& frame) { return peers_.send(frame); }
     bool close(LinkId link);
-    // Call it when a peer is confirmed that was not when it entered.
+    // Call it when a peer that entered unconfirmed is confirmed.
     void note_confirmed(const UdpPeer& peer);
     [[nodiscard]] std::size_t queued_bytes() const { return peers_.queued_bytes(); }
     [[nodiscard]] bool empty() const noexcept { return peers_.empty(); }

@@ -32,8 +32,8 @@ struct UdpPeer final : Link {
     // True if the network device's queue was full. The peer then waits for its port's retry.
     bool held = false;
 
-    // A peer that is heard for the second time at least 0.5 s after the first confirms that its address is its own.
-    // Returns true if this datagram did that.
+    // Notes a datagram with a good frame. If it arrives at least 0.5 s after the peer's first one, it confirms that the
+    // address is the peer's own. Returns true if this datagram did that.
     [[nodiscard]] bool note_heard(MonoTime now, std::size_t bytes) noexcept;
     [[nodiscard]] bool is_confirmed() const noexcept { return !has_allowance(); }
     // One datagram may be forged; a peer talks from the second on.
@@ -73,7 +73,7 @@ public:
     [[nodiscard]] virtual UdpPeer* peer_of(UdpPort& port, const net::Datagram& datagram) = 0;
     // The peer at this address; null if there is none.
     [[nodiscard]] virtual UdpPeer* find_peer(UdpPort& port, const net::Address& address) const;
-    // Called when a peer that was heard once only is heard again.
+    // Called when a datagram has confirmed the peer's address: see UdpPeer::note_heard.
     virtual void on_confirmed(UdpPeer&) {}
     // Called when the kernel or the network has rejected a datagram.
     virtual void on_send_error(net::IoError error) = 0;

@@ -636,7 +636,7 @@ TEST(Ring, AReaderRefusesRingsThatItMustNotTrust) {
     ASSERT_EQ(::chmod(name.path().c_str(), 0660), 0);
     const auto shared = RingReader::open(name.text(), {.trust = {.user = 65534}});
     ASSERT_FALSE(shared);
-    EXPECT_THAT(shared.error().text, HasSubstr("others than its owner may write"));
+    EXPECT_THAT(shared.error().text, HasSubstr("users other than its owner may write"));
     EXPECT_TRUE(RingReader::open(name.text(), {.trust = {.foreign = true}}));
 }
 
