@@ -11,14 +11,16 @@ from mavloom import mavutil
 
 
 @pytest.fixture(autouse=True)
-def as_imported(monkeypatch):
+def as_imported():
     """mavutil.mavlink as it is when the module is imported, whatever earlier tests received."""
-    monkeypatch.delenv("MAVLINK20", raising=False)
+    version = os.environ.pop("MAVLINK20", None)
     before = mavutil.mavlink
     mavutil._current.use(mavutil._current.module_of(mavloom.Dialect(), 1))
     yield
-    os.environ.pop("MAVLINK20", None)  # monkeypatch restores what was there before
     mavutil._current.use(before)
+    os.environ.pop("MAVLINK20", None)
+    if version is not None:  # tests of other folders need it
+        os.environ["MAVLINK20"] = version
 
 
 @pytest.fixture
