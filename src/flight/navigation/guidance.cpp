@@ -24,6 +24,11 @@ Vector3 along(double bearing, double distance) {
 }  // namespace
 
 void Guidance::begin(Manoeuvre manoeuvre, const Vector3& goal, double yaw) {
+    prepare(manoeuvre, goal, yaw);
+    update();
+}
+
+void Guidance::prepare(Manoeuvre manoeuvre, const Vector3& goal, double yaw) {
     from_ = manoeuvre_ == Manoeuvre::leg && manoeuvre == Manoeuvre::leg ? goal_ : context_.craft.estimate().position;
     manoeuvre_ = manoeuvre;
     goal_ = goal;
@@ -32,7 +37,6 @@ void Guidance::begin(Manoeuvre manoeuvre, const Vector3& goal, double yaw) {
     turned_ = 0;
     circle_.reset();
     heading_.keep();
-    update();
 }
 
 void Guidance::rest() { begin(Manoeuvre::rest, context_.craft.estimate().position); }
@@ -45,7 +49,7 @@ void Guidance::stop(double z) {
 }
 
 void Guidance::stay(const Vector3& place, double yaw, double radius) {
-    begin(Manoeuvre::stay, place, yaw);
+    prepare(Manoeuvre::stay, place, yaw);
     radius_ = radius;
     update();
 }
@@ -53,7 +57,7 @@ void Guidance::stay(const Vector3& place, double yaw, double radius) {
 void Guidance::go(const Vector3& to, double yaw) { begin(Manoeuvre::leg, to, yaw); }
 
 void Guidance::circle(const Circle& circle) {
-    begin(Manoeuvre::circle, circle.center);
+    prepare(Manoeuvre::circle, circle.center);
     circle_ = circle;
     update();
 }

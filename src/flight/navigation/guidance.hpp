@@ -67,6 +67,8 @@ private:
     };
 
     void begin(Manoeuvre manoeuvre, const Vector3& goal, double yaw = nan);
+    // Like `begin`, for a caller that sets more before it calls `update`.
+    void prepare(Manoeuvre manoeuvre, const Vector3& goal, double yaw = nan);
     [[nodiscard]] SpeedLimits limits() const noexcept;
     [[nodiscard]] bool stays_on_ground() const noexcept;
     [[nodiscard]] double landing_speed() const noexcept;

@@ -752,7 +752,8 @@ def test_a_reader_survives_a_ring_that_is_shortened(tapped, spawn, reader):
     harness.wait_for(lambda: shared(net.ring).exists() and shared(net.ring).stat().st_size > 0, what="a new ring")
     harness.wait_for(lambda: not sut.alive or reads(), what="the reader's end, or the new ring")
 
-    assert sut.alive or (reader == "shm read" and sut.wait().status == 3)  # it opened the file before it was replaced
+    # `shm read` may open the file before it is replaced.
+    assert sut.alive or (reader == "shm read" and sut.wait().status == 3), sut.wait()
 
 
 def test_a_group_that_may_send_need_not_write_the_ring(tapped, tmp_path):
