@@ -10,13 +10,15 @@
 
 namespace mavloom {
 
-// Blocks all signals in the calling thread for as long as this object lives. A thread started during that time inherits
-// the signal mask.
+// Blocks all signals except those of faults in the calling thread for as long as this object lives. A thread started
+// during that time inherits the signal mask.
 class BlockedSignals {
 public:
     BlockedSignals() noexcept {
         sigset_t all;
         ::sigfillset(&all);
+        // If a thread blocks these, a fault of its own ends the process, whatever handler is installed (sigaction(2)).
+        for (const int fault : {SIGBUS, SIGSEGV, SIGFPE, SIGILL, SIGTRAP}) ::sigdelset(&all, fault);
         ::pthread_sigmask(SIG_SETMASK, &all, &before_);
     }
     BlockedSignals(const BlockedSignals&) = delete;

@@ -1365,7 +1365,8 @@ def test_bad_arguments(run, tmp_path, arguments, status, said):
     with udp, tcp:
         values = {"free": routers.udp_port(), "udp": udp.getsockname()[1], "tcp": tcp.getsockname()[1],
                   "folder": tmp_path}
-        done = run("route", *(argument.format(**values) for argument in arguments))
+        own_name = [] if "--name" in arguments else ["--name", f"bad-{os.getpid()}"]
+        done = run("route", *(argument.format(**values) for argument in arguments), *own_name)
 
     assert done.status == status and said in done.stderr, done
     complaints = [line for line in done.stderr.splitlines() if "receive buffer" not in line
