@@ -54,9 +54,9 @@ public:
     }
     // Returns whether the sender was first seen 0.5 to 10 s ago. If it was not seen in the last 10 s, remembers it.
     [[nodiscard]] bool note_and_check_repeat(const net::Address& sender, MonoTime now) {
-        if (seen_ == nullptr) seen_ = std::make_unique<Bucket[]>(remembered / std::tuple_size_v<Bucket>);
+        if (seen_ == nullptr) seen_ = std::make_unique<Bucket[]>(bucket_count);
         const std::uint64_t hash = secret_hash(sender.hash());  // twice: spreads successive ports evenly
-        Bucket& bucket = seen_[hash % (remembered / bucket.size())];
+        Bucket& bucket = seen_[hash % bucket_count];
         const auto tag = static_cast<std::uint32_t>(hash >> 32) | 1u;
         const auto now_ms = static_cast<std::uint32_t>(now.time_since_epoch() / std::chrono::milliseconds{1});
         const auto age_of = [&](const Seen& seen) { return seen.tag == 0 ? longest_age : seen.age(now_ms); };
@@ -78,6 +78,7 @@ private:
         }
     };
     using Bucket = std::array<Seen, 8>;  // a cache line
+    static constexpr std::size_t bucket_count = remembered / std::tuple_size_v<Bucket>;
     static constexpr auto longest_age = std::chrono::milliseconds::max();
 
     void refill(MonoTime now) noexcept {
