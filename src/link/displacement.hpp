@@ -9,17 +9,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <random>
 #include <vector>
 
+#include "link/eviction.hpp"
 #include "mavloom/base/clock.hpp"
+#include "mavloom/base/pace.hpp"
 
 namespace mavloom::link::detail {
 
 class Displacement {
 public:
-    static constexpr std::size_t fewest_peers = 16;
     static constexpr std::chrono::seconds one_each{2};
     static constexpr int at_once = 4;
 
@@ -29,24 +29,15 @@ public:
     // because all peers that come in one turn have the same time. Allocates.
     template <class Peer>
     [[nodiscard]] Peer* choose(std::vector<Peer*> peers, MonoTime now) {
-        if (peers.size() < fewest_peers || !take_turn(now)) return nullptr;
-        const auto middle = peers.begin() + static_cast<std::ptrdiff_t>(peers.size() / 2);
-        std::ranges::nth_element(peers, middle, {}, &Peer::id);
-        const auto younger = static_cast<std::size_t>(peers.end() - middle);
-        return middle[static_cast<std::ptrdiff_t>(random_() % younger)];
+        if (peers.size() < many_peers || !pace_.take(now)) return nullptr;
+        const LinkId middle = middle_id(peers);
+        std::erase_if(peers, [&](const Peer* peer) { return peer->id < middle; });
+        return peers[random_() % peers.size()];
     }
 
 private:
-    // One each 2 s, and up to four at once after a rest.
-    [[nodiscard]] bool take_turn(MonoTime now) noexcept {
-        next_ = std::max(next_, now - (at_once - 1) * one_each);
-        if (now < next_) return false;
-        next_ += one_each;
-        return true;
-    }
-
     std::minstd_rand random_;
-    MonoTime next_{};
+    Pace pace_{one_each, at_once};
 };
 
 }  // namespace mavloom::link::detail

@@ -17,6 +17,7 @@
 
 #include "mavloom/base/clock.hpp"
 #include "mavloom/base/ids.hpp"
+#include "mavloom/base/pace.hpp"
 #include "mavloom/base/secret_hash.hpp"
 
 namespace mavloom::router {
@@ -55,10 +56,7 @@ private:
         return Key{link.value} << 16 | Key{source.system.value} << 8 | source.component.value;
     }
     [[nodiscard]] bool add(Key key, MonoTime now) {
-        constexpr Nanoseconds one_each = Nanoseconds{std::chrono::seconds{1}} / new_per_second;
-        next_new_ = std::max(next_new_, now - (new_at_once - 1) * one_each);
-        if (now < next_new_) return false;
-        next_new_ += one_each;
+        if (!pace_.take(now)) return false;
         if (asked_.size() >= most_sources)
             asked_.erase(std::ranges::min_element(asked_, {}, [](const auto& entry) { return entry.second.heard; }));
         asked_.emplace(key, Asked{now, now});
@@ -66,7 +64,8 @@ private:
     }
 
     std::unordered_map<Key, Asked, Hash> asked_;
-    MonoTime next_new_{};
+    static constexpr Nanoseconds one_each = Nanoseconds{std::chrono::seconds{1}} / new_per_second;
+    Pace pace_{one_each, new_at_once};
 };
 
 }  // namespace mavloom::router

@@ -15,8 +15,8 @@
 
 namespace mavloom::feed {
 
-// The longest wait while holding the mutex. Between two slices, callers handle signals and other threads get
-// the mutex.
+// The longest wait while holding the mutex. Between two slices, callers handle signals and other threads get the
+// mutex.
 inline constexpr Nanoseconds longest_slice = std::chrono::milliseconds{50};
 [[nodiscard]] inline MonoTime end_of_slice(MonoTime deadline) { return std::min(deadline, mono_now() + longest_slice); }
 
@@ -36,8 +36,8 @@ public:
         const Asking asking(asking_);
         return Lock(mutex_);
     }
-    // Never waits for another thread, only for a `peek` to end. If the returned lock is not owned, another
-    // thread has the mutex.
+    // Never waits for another thread, only for a `peek` to end. If the returned lock is not owned, another thread has
+    // the mutex.
     [[nodiscard]] Lock try_take() {
         for (;;) {
             const unsigned peeks = peeks_.load();
@@ -47,8 +47,7 @@ public:
             std::this_thread::yield();
         }
     }
-    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has
-    // it.
+    // Waits until `deadline`, but at most for a slice. If the returned lock is not owned, another thread still has it.
     [[nodiscard]] Lock take_until(MonoTime deadline) {
         Lock lock = try_take();
         if (lock.owns_lock()) return lock;

@@ -172,12 +172,12 @@ TEST_F(RingAlarmTest, AfterTheEndEveryArmedAlarmIsReadableAtOnce) {
         read_count(ring.fd());
         ring.alarm().arm();
         RingAlarm::stop_all();
-        const bool is_readable = read_count(ring.fd()) == 1;
+        const bool is_signalled = read_count(ring.fd()) == 1;
         ring.alarm().arm();
-        const bool is_readable_again = read_count(ring.fd()) == 1;
+        const bool is_signalled_again = read_count(ring.fd()) == 1;
         RingAlarm::stop_all();
         ::unlink(name.path().c_str());  // _exit runs no destructor
-        ::_exit(is_readable && is_readable_again ? 0 : 1);
+        ::_exit(is_signalled && is_signalled_again ? 0 : 1);
     };
     ::testing::GTEST_FLAG(death_test_style) = "threadsafe";
     EXPECT_EXIT(end(), ::testing::ExitedWithCode(0), "");

@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 
 struct Talker {
-    int id = 0;
+    LinkId id{};
 };
 
 constexpr MonoTime long_ago{std::chrono::hours{1000}};
@@ -20,7 +20,7 @@ constexpr MonoTime long_ago{std::chrono::hours{1000}};
 class Crowd {
 public:
     explicit Crowd(std::size_t size) : peers_(size) {
-        for (std::size_t i = 0; i < size; ++i) peers_[i].id = static_cast<int>(i);
+        for (std::size_t i = 0; i < size; ++i) peers_[i].id = LinkId{static_cast<std::uint32_t>(i + 1)};
     }
     [[nodiscard]] std::vector<Talker*> all() {
         std::vector<Talker*> list;
@@ -79,7 +79,8 @@ TEST(Displacement, FourLeaveAtOnceThenOneEachTwoSeconds) {
 // 256 talkers came before the vehicle. A peer that had to leave tries again.
 TEST(Displacement, ALateVehicleHasAPlaceMostOfTheTime) {
     std::vector<std::unique_ptr<Talker>> inside;
-    for (int i = 0; i < 256; ++i) inside.push_back(std::make_unique<Talker>(Talker{i}));
+    for (int i = 0; i < 256; ++i)
+        inside.push_back(std::make_unique<Talker>(Talker{LinkId{static_cast<std::uint32_t>(i + 1)}}));
     auto outside = std::make_unique<Talker>();
     const Talker* const vehicle = outside.get();
     Displacement sut(1);
@@ -91,7 +92,7 @@ TEST(Displacement, ALateVehicleHasAPlaceMostOfTheTime) {
         if (Talker* const leaves = sut.choose(all, now); leaves != nullptr) {
             auto& place = *std::ranges::find(inside, leaves, &std::unique_ptr<Talker>::get);
             std::swap(place, outside);
-            place->id = 257 + second;
+            place->id = LinkId{static_cast<std::uint32_t>(258 + second)};
         }
         seconds_inside += outside.get() != vehicle ? 1 : 0;
     }
