@@ -11,8 +11,7 @@ namespace mavloom {
 
 class Pace {
 public:
-    constexpr Pace(Nanoseconds one_each, int at_once) noexcept
-        : one_each_(one_each), lead_((at_once - 1) * one_each) {}
+    constexpr Pace(Nanoseconds one_each, int at_once) noexcept : one_each_(one_each), lead_((at_once - 1) * one_each) {}
 
     // Returns whether it may happen now. If so, counts it.
     [[nodiscard]] constexpr bool take(MonoTime now) noexcept {
