@@ -152,7 +152,7 @@ bool Engine::Impl::is_heard_before(Passage& p, Verdict& verdict) noexcept {
         const bool copy_in_group = age < echo_window && p.link.group != no_group && !again_here && came_by_group(p);
         if (copy_in_group || (age < options.dedup && any(heard, words_))) {
             insert(heard, p.slot);
-            if (!again_here) learn(p);
+            if (!again_here && may_teach_by_copy(p)) learn(p);
             verdict = Verdict::duplicate;
             return true;
         }
@@ -177,6 +177,12 @@ bool Engine::Impl::counts_as_heard(const Passage& p) noexcept {
     if (!p.link.policy.is_verified) return true;
     const Words heard = recent_.heard(p.recent);
     return !any(heard, words_) || intersect(heard, verified_.data(), words_);
+}
+
+// Somebody who reads verified frames can send copies of them to another link of the group. So a verified link gets a
+// route by a frame that it brings first. Copies only refresh the route.
+bool Engine::Impl::may_teach_by_copy(const Passage& p) const noexcept {
+    return !p.link.policy.is_verified || routes_.find(p.slot, p.source) != nullptr;
 }
 
 void Engine::Impl::remember(Passage& p, bool found) noexcept {

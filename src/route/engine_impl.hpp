@@ -155,6 +155,7 @@ private:
     [[nodiscard]] const Route* present_route(Slot slot, const Passage& p) const noexcept;
     // Whether an earlier copy of the frame may be held against this one.
     [[nodiscard]] bool counts_as_heard(const Passage& p) noexcept;
+    [[nodiscard]] bool may_teach_by_copy(const Passage& p) const noexcept;
     void count_beats(const Passage& p) noexcept;
     // Whether the link already delivered this HEARTBEAT within doubled_within.
     [[nodiscard]] bool is_doubled(const Passage& p) noexcept;

@@ -192,7 +192,7 @@ private:
             });
             if ((by_member && !again && age < std::chrono::seconds{2}) || (age < options_.dedup && !r->heard.empty())) {
                 r->heard.insert(ingress);
-                if (!again) learn(ingress, frame);
+                if (!again && (!link.policy.is_verified || has_route(ingress, frame))) learn(ingress, frame);
                 return Verdict::duplicate;
             }
             if (age < std::chrono::seconds{2} && !again) {
@@ -202,6 +202,9 @@ private:
             recent_.erase(r);
         }
         return remember(ingress, bytes, frame, why, remembered);
+    }
+    [[nodiscard]] bool has_route(std::uint32_t link, const wire::FrameView& frame) const {
+        return is_fresh(link, frame.system().value, frame.component().value);
     }
     Verdict remember(std::uint32_t ingress, const Bytes& bytes, const wire::FrameView& frame, Why& why,
                      Recent*& remembered) {

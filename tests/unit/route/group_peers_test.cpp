@@ -136,5 +136,47 @@ TEST_P(VerifiedMember, GivesItsPlaceWhileItIsSilent) {
     EXPECT_THAT(sut.send(3, "ATTITUDE", vehicle), ElementsAre(1));
 }
 
+// Links 1 and 2 are two verified endpoints of a group, link 3 is a station. The frames of the vehicle come on link 2
+// first, and on link 1 somebody sends the same bytes again.
+class VerifiedCopies : public testing::TestWithParam<GroupMode> {
+protected:
+    VerifiedCopies() {
+        for (const std::uint32_t endpoint : {7u, 8u}) {
+            auto policy = peer(GetParam(), endpoint);
+            policy.is_verified = true;
+            sut.link(policy);
+        }
+        sut.link();
+    }
+    void both_bring_a_frame() {
+        const Bytes bytes = make_frame("HEARTBEAT", vehicle, {{"custom_mode", ++sut.count}});
+        sut.wait(100ms);
+        sut.pass(2, bytes);
+        sut.pass(1, bytes);
+    }
+
+    Network sut;
+};
+INSTANTIATE_TEST_SUITE_P(Modes, VerifiedCopies, testing::Values(GroupMode::all, GroupMode::best, GroupMode::primary));
+
+TEST_P(VerifiedCopies, TeachNoRoute) {
+    for (int i = 0; i < 100; ++i) both_bring_a_frame();
+
+    EXPECT_THAT(sut.command(3, gcs, vehicle), ElementsAre(2));
+}
+
+TEST_P(VerifiedCopies, DoNotMakeALinkTheOneForBroadcasts) {
+    for (int i = 0; i < 100; ++i) both_bring_a_frame();
+
+    EXPECT_THAT(sut.send(3, "GPS_RTCM_DATA", gcs), Contains(2));
+}
+
+TEST_P(VerifiedCopies, KeepARouteThatAFirstFrameTaught) {
+    sut.hears(1, vehicle);
+    for (int i = 0; i < 700; ++i) both_bring_a_frame();
+
+    EXPECT_THAT(sut.engine.routes(sut.now), testing::SizeIs(2));
+}
+
 }  // namespace
 }  // namespace mavloom::route
